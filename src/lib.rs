@@ -1,0 +1,14 @@
+//! Lensrunner: a chase game in the spacetime of a black hole, and the instrument that proves its picture right.
+//!
+//! The floors of the house, from the ground up; each knows only those before it (`docs/architecture.md` has the map).
+
+pub mod spacetime;
+pub mod lensing;
+pub mod scene;
+pub mod sim;
+pub mod reference;
+pub mod measure;
+#[cfg(feature = "game")]
+pub mod render;
+#[cfg(feature = "game")]
+pub mod play;

@@ -1,0 +1,6 @@
+//! The spacetime of the hole in pure f64: metric, light, matter, frames.
+
+pub mod frames;
+pub mod light;
+pub mod matter;
+pub mod metric;
