@@ -207,8 +207,7 @@ pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Shot {
     if scattered {
         // Rises to its apsis, falls, leaves; what comes up again after more than ω is not light any more.
         let carried = carry(u, w, &pole);
-        let slope = carried.chord * carried.rise - w;
-        let left = if w >= 0.0 { past_half && slope > 0.0 } else { past_half || slope >= 0.0 };
+        let left = if w >= 0.0 { past_half && carried.chord * carried.rise > w } else { past_half || returning(u, w, &carried) };
         return if left { Shot::Escaped } else { Shot::At(carried) };
     }
     if w >= 0.0 {
@@ -220,5 +219,13 @@ pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Shot {
         return if past_half && gap >= 0.0 { Shot::Plunged } else { Shot::At(carry(u, w, &pole)) };
     }
     let carried = carry(u, w, &pole);
-    if past_half || carried.chord * carried.rise - w >= 0.0 { Shot::Escaped } else { Shot::At(carried) }
+    if past_half || returning(u, w, &carried) { Shot::Escaped } else { Shot::At(carried) }
+}
+
+/// Whether a ray that set out outward comes back up, which it does only beyond the sky. Rounding can turn the slope of the ray
+/// that winds down to the photon sphere; a true return to there takes more than 20 radians to be as flat.
+fn returning(u: f64, w: f64, carried: &Carried) -> bool {
+    const FLAT: f64 = 1e-9;
+    let slope = carried.chord * carried.rise - w;
+    slope >= FLAT || (slope >= 0.0 && u + carried.rise < 0.5)
 }
