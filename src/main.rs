@@ -1,14 +1,18 @@
 //! The command line.
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use lensrunner::measure::project;
-use lensrunner::spacetime::light::{Branch, Order};
-use std::io::{Read, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lensrunner::measure::project::{self, ProjectError};
+use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, about)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -16,19 +20,45 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Read points as CSV (r,phi,L) on stdin, write how they are seen as CSV (r,phi,L,psi,delay,redshift) on stdout.
+    Simulate(SimulateArgs),
     Project(ProjectArgs),
 }
 
+/// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
+///
+/// Columns: ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz, per unit mass in r_s = c = 1. p is the rain-frame momentum, q turns body axes
+/// into rain axes through the pure boost of p. Rows by T, then in scene order.
+#[derive(Args)]
+struct SimulateArgs {
+    /// The scene file, TOML.
+    scene: PathBuf,
+    /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
+    #[arg(long, value_name = "T")]
+    until: Option<f64>,
+    /// T between rows, in r_s/c.
+    #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY)]
+    every: f64,
+    /// Seed for everything left to chance.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Where the rows go [default: standard output].
+    #[arg(short, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+}
+
+/// Says where points are seen: CSV r,phi,L on standard input, CSV r,phi,L,psi,delay,redshift on standard output.
+///
+/// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
+/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
 #[derive(Args)]
 struct ProjectArgs {
-    /// How the ray is found: exact (closed form, f64).
-    #[arg(long, default_value = "exact", value_name = "NAME")]
+    /// How the ray is found; exact is the closed form in f64.
+    #[arg(long, value_name = "NAME", default_value = "exact")]
     method: String,
-    /// Which image: 1 is the primary, 2 the secondary, 3 the one after a full turn.
+    /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=3))]
     order: u8,
-    /// The frame at the camera in which psi is measured: hovering, or falling from rest at infinity.
+    /// The frame at the camera in which psi is measured.
     #[arg(long, value_enum, default_value_t = FrameArg::Static)]
     frame: FrameArg,
     /// The sign of the photon's energy; matters only where camera and point are both inside the horizon.
@@ -38,7 +68,9 @@ struct ProjectArgs {
 
 #[derive(Clone, Copy, ValueEnum)]
 enum FrameArg {
+    /// Hovering; exists only outside the horizon.
     Static,
+    /// Falling from rest at infinity.
     Rain,
 }
 
@@ -48,53 +80,74 @@ enum BranchArg {
     Minus,
 }
 
-/// Why a command ended early.
-enum Failure {
-    /// The user's input is wrong: exit code 2.
-    Input(String),
-    /// Something else failed: exit code 1.
-    Other(String),
+fn main() -> ExitCode {
+    match Cli::parse().command {
+        Command::Simulate(args) => run_simulate(&args),
+        Command::Project(args) => run_project(&args),
+    }
 }
 
-fn main() -> ExitCode {
-    let result = match Cli::parse().command {
-        Command::Project(args) => run_project(&args),
+fn run_simulate(args: &SimulateArgs) -> ExitCode {
+    let request = simulate::Request {
+        until: args.until,
+        every: args.every,
+        seed: args.seed,
     };
+    let result = output(args.output.as_ref())
+        .map_err(SimulateError::from)
+        .and_then(|mut out| simulate::run(&args.scene, &request, &mut out, &mut io::stderr()));
+    match result {
+        Ok(_) => ExitCode::SUCCESS,
+        Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(error @ SimulateError::Input(_)) => fail(&error, 2),
+        Err(error @ SimulateError::Io(_)) => fail(&error, 1),
+    }
+}
+
+fn run_project(args: &ProjectArgs) -> ExitCode {
+    let order = Order::new(args.order).expect("clap has checked the range");
+    let request = project::Request {
+        order,
+        frame: match args.frame {
+            FrameArg::Static => project::Frame::Static,
+            FrameArg::Rain => project::Frame::Rain,
+        },
+        branch: match args.branch {
+            BranchArg::Plus => Branch::Plus,
+            BranchArg::Minus => Branch::Minus,
+        },
+    };
+    let result = project::method(&args.method).and_then(|method| {
+        project::run(
+            &mut io::stdin().lock(),
+            &mut io::stdout().lock(),
+            method.as_ref(),
+            request,
+        )
+    });
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(Failure::Input(message)) => {
-            eprintln!("error: {message}");
-            ExitCode::from(2)
+        Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
         }
-        Err(Failure::Other(message)) => {
-            eprintln!("error: {message}");
-            ExitCode::FAILURE
-        }
+        Err(error @ ProjectError::Io(_)) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
 }
 
-fn run_project(args: &ProjectArgs) -> Result<(), Failure> {
-    let wrong = |error: project::ProjectError| Failure::Input(error.to_string());
-    let method = project::method(&args.method).map_err(wrong)?;
-    let order = Order::new(args.order).ok_or_else(|| Failure::Input("order: 1, 2 or 3".to_owned()))?;
-    let frame = match args.frame {
-        FrameArg::Static => project::Frame::Static,
-        FrameArg::Rain => project::Frame::Rain,
-    };
-    let branch = match args.branch {
-        BranchArg::Plus => Branch::Plus,
-        BranchArg::Minus => Branch::Minus,
-    };
-    let mut bytes = Vec::new();
-    std::io::stdin().read_to_end(&mut bytes).map_err(|error| Failure::Other(format!("stdin: {error}")))?;
-    let input = String::from_utf8(bytes).map_err(|error| {
-        let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
-        Failure::Input(format!("line {line}: not UTF-8 text"))
-    })?;
-    let output = project::project(&input, method.as_ref(), order, frame, branch).map_err(wrong)?;
-    match std::io::stdout().write_all(output.as_bytes()) {
-        // Whoever reads may stop reading.
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Other(format!("stdout: {error}"))),
-        _ => Ok(()),
-    }
+/// A buffered writer to `path`, or to standard output.
+fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
+    Ok(match path {
+        Some(path) => Box::new(BufWriter::new(File::create(path).map_err(|error| {
+            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+        })?)),
+        None => Box::new(BufWriter::new(io::stdout().lock())),
+    })
+}
+
+fn fail(error: &dyn std::error::Error, code: u8) -> ExitCode {
+    eprintln!("lensrunner: {error}");
+    ExitCode::from(code)
 }

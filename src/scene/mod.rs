@@ -1,1 +1,4 @@
-//! See the map of the house in docs/architecture.md.
+//! What exists: ships and the rules of the chase, as scene files describe them.
+
+pub mod rules;
+pub mod ship;

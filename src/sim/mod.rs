@@ -1,1 +1,100 @@
-//! See the map of the house in docs/architecture.md.
+//! The game without graphics: ship physics, pilots, the rules of the chase, histories. Everything here runs without a GPU, and nothing
+//! here knows of one.
+//!
+//! One fixed step is the schedule `FixedUpdate` with the sets [`SimSet`] in their order. The same scene, seed and inputs give the same
+//! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
+
+pub mod clock;
+pub mod flight;
+pub mod hash;
+pub mod history;
+pub mod physics;
+pub mod ship;
+pub mod simulate;
+
+use bevy::app::PluginGroupBuilder;
+use bevy::prelude::*;
+
+pub use clock::Clock;
+pub use flight::Command;
+pub use history::{History, Sample};
+pub use physics::ShipPhysicsPlugin;
+pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion, muster};
+
+/// The order of a fixed step.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SimSet {
+    /// A player's input becomes [`Controls`].
+    Input,
+    /// The pilots plan and set the [`Controls`] of their ships.
+    Ai,
+    /// Ships fly one step; histories grow; the clock goes on.
+    Integrate,
+    /// Catches, losses.
+    Rules,
+    /// For those who watch: logs, replays.
+    Record,
+}
+
+/// Something worth telling.
+#[derive(Message, Clone, Debug, PartialEq)]
+pub enum SimEvent {
+    /// A tank ran dry in the step that ended at `time`.
+    FuelSpent {
+        /// The ship's name.
+        ship: String,
+        /// T in r_s/c.
+        time: f64,
+    },
+    /// A ship is inside r = 1 since the step that ended at `time`.
+    CrossedHorizon {
+        /// The ship's name.
+        ship: String,
+        /// T in r_s/c.
+        time: f64,
+    },
+    /// A ship is no more.
+    Ended {
+        /// The ship's name.
+        ship: String,
+        /// T in r_s/c.
+        time: f64,
+        /// Its own time, in r_s/c.
+        proper_time: f64,
+        /// Why.
+        reason: ship::EndReason,
+    },
+}
+
+impl std::fmt::Display for SimEvent {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            SimEvent::FuelSpent { ship, time } => write!(f, "{ship}: out of fuel at T = {time}"),
+            SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon by T = {time}"),
+            SimEvent::Ended { ship, time, proper_time, reason } => {
+                write!(f, "{ship}: {reason} at T = {time}, tau = {proper_time}")
+            }
+        }
+    }
+}
+
+/// The sets of a fixed step in their order.
+pub struct SimSchedulePlugin;
+
+impl Plugin for SimSchedulePlugin {
+    fn build(&self, app: &mut App) {
+        app.configure_sets(
+            FixedUpdate,
+            (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).chain(),
+        );
+    }
+}
+
+/// Everything the game is made of, without its graphics.
+pub struct SimulationPlugins;
+
+impl PluginGroup for SimulationPlugins {
+    fn build(self) -> PluginGroupBuilder {
+        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(ShipPhysicsPlugin)
+    }
+}

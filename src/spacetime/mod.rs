@@ -4,3 +4,5 @@ pub mod frames;
 pub mod light;
 pub mod matter;
 pub mod metric;
+pub mod orbit;
+mod tableau;

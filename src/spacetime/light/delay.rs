@@ -11,7 +11,9 @@
 //! K = u²/(e + w) − 2 [ln|1 − u|]′ = 2e/u + 2 [ln u − ln(e − w)]′.
 
 use super::Ray;
-use super::orbit::{CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit};
+use super::orbit::{
+    CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit,
+};
 
 /// Gauss–Legendre of ten points on [0, 1]: abscissae and weights (Abramowitz & Stegun 25.4.30).
 const NODES: [(f64, f64); 10] = {
@@ -42,16 +44,32 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     if u_point <= 0.0 {
         return f64::INFINITY;
     }
-    let Ray { slope, emission_slope, energy: e } = *ray;
-    let d = if u_camera < 1.0 { critical_excess(u_camera, slope) } else { (e * e - CRITICAL_ENERGY_SQUARED) / 16.0 };
+    let Ray {
+        slope,
+        emission_slope,
+        energy: e,
+    } = *ray;
+    let d = if u_camera < 1.0 {
+        critical_excess(u_camera, slope)
+    } else {
+        (e * e - CRITICAL_ENERGY_SQUARED) / 16.0
+    };
     let scattered = d < 0.0 && u_camera <= PHOTON_SPHERE;
     let trapped = d < 0.0 && !scattered;
     let near = swept < 0.5 && u_point < 2.0 * u_camera && u_camera < 2.0 * u_point;
-    let path = Path { u_point, emission_slope, d, swept, u_camera, energy: e };
+    let path = Path {
+        u_point,
+        emission_slope,
+        d,
+        swept,
+        u_camera,
+        energy: e,
+    };
 
     let time = if trapped || near {
         let closed = |w: f64, u: f64| 2.0 * (u / ahead(e, w, u)).ln();
-        closed(emission_slope, u_point) - closed(slope, u_camera) + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
+        closed(emission_slope, u_point) - closed(slope, u_camera)
+            + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
     } else if scattered {
         let closed = |w: f64, u: f64| (ahead(e, w, u) / u).ln() - w / (u * e);
         closed(emission_slope, u_point) - closed(slope, u_camera)
@@ -63,7 +81,11 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
             let rest = ((e.abs() + w.abs()) / u).ln();
             (if outgoing { -rest } else { rest }) - w / (u * e)
         };
-        let horizon = if outgoing { -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln() } else { 0.0 };
+        let horizon = if outgoing {
+            -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln()
+        } else {
+            0.0
+        };
         closed(emission_slope, u_point) - closed(slope, u_camera)
             + horizon
             + path.integral(|u, w| u / (2.0 * e) + (1.5 * u * u / (e.abs() + w.abs())).copysign(e))
@@ -73,7 +95,11 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
 
 /// e − w without cancellation.
 fn ahead(e: f64, w: f64, u: f64) -> f64 {
-    if e * w > 0.0 { u * u * (1.0 - u) / (e + w) } else { e - w }
+    if e * w > 0.0 {
+        u * u * (1.0 - u) / (e + w)
+    } else {
+        e - w
+    }
 }
 
 /// T − t̂.
@@ -104,10 +130,14 @@ impl Path {
         let mut cached: Option<(f64, [Pole; 10], Pole)> = None;
         loop {
             // Inside, the singularity lies 2/√u behind the camera.
-            let panels = (left / narrow.min(0.4 * (left + beyond)) - 1e-9).ceil().max(1.0);
+            let panels = (left / narrow.min(0.4 * (left + beyond)) - 1e-9)
+                .ceil()
+                .max(1.0);
             let step = left / panels;
             let fitting = cached.filter(|(length, ..)| (step / length - 1.0).abs() < 1e-12);
-            let Some((step, nodes, whole)) = fitting.or_else(|| poles_over(step, self.d)) else { return f64::NAN };
+            let Some((step, nodes, whole)) = fitting.or_else(|| poles_over(step, self.d)) else {
+                return f64::NAN;
+            };
             cached = Some((step, nodes, whole));
             let mut panel = 0.0;
             for (pole, (_, weight)) in nodes.iter().zip(NODES) {

@@ -1,0 +1,314 @@
+//! `[[ship]]` in a scene file: where a ship starts, and who flies it.
+//!
+//! ```toml
+//! [[ship]]
+//! name = "quarry"
+//! position = [10.0, 0.0, 0.0]      # r_s
+//! momentum = [0.3162, 0.0, 0.0]    # rain-frame momentum per mass, c
+//! # or, instead of both:
+//! orbit = { radius = 5.0, inclination = 0.1, node = 0.0, phase = 0.0 }
+//! orbit = { semi_latus_rectum = 5.0, eccentricity = 0.5, anomaly = 3.14159, inclination = 0.1, node = 0.0, phase = 0.0 }
+//! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
+//! ai = "none"                      # or "flee", "pursue"
+//! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
+//! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
+//! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); without end if absent
+//! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
+//! player = true                    # flown from the keyboard when there is one
+//! model = "ships/quarry.glb"
+//! ```
+//! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos χ),
+//! 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its motion)
+//! place it. Angles in radians, 0 if absent; inclination π/2 … π goes round the other way.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
+use crate::spacetime::orbit::{Elements, OrbitError};
+
+/// The farthest a ship may start, in r_s.
+pub const MAX_START_RADIUS: f64 = 1e6;
+/// The largest starting momentum per mass, in c. Beyond it γ − βn·p loses the energy to rounding.
+pub const MAX_START_MOMENTUM: f64 = 1e6;
+/// The largest proper acceleration in a programme or of an engine, in c²/r_s.
+pub const MAX_ACCELERATION: f64 = 1e3;
+
+/// Something wrong with a value in a scene file: where, and a sentence with key, value and allowed range.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Bytes of the file's text.
+    pub span: Range<usize>,
+    /// Key, value, allowed range.
+    pub message: String,
+}
+
+/// Who flies a ship.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Ai {
+    /// Nobody: it coasts, or flies its thrust programme.
+    #[default]
+    None,
+    /// Runs from its target.
+    Flee,
+    /// Hunts its target.
+    Pursue,
+}
+
+/// A stretch of constant thrust.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burn {
+    /// Start, T in r_s/c.
+    pub from: f64,
+    /// End (not included), T in r_s/c.
+    pub until: f64,
+    /// Proper acceleration in body axes, c²/r_s.
+    pub acceleration: DVec3,
+}
+
+/// A ship as a scene describes it, checked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShipSpec {
+    /// Its name, unique in the scene; no commas, quotes or line ends.
+    pub name: String,
+    /// Its state at T = 0.
+    pub state: ShipState,
+    /// Who flies it.
+    pub ai: Ai,
+    /// Whom its AI flees or pursues; the first other ship if none.
+    pub target: Option<String>,
+    /// Its thrust programme, in order of time, without overlap.
+    pub programme: Vec<Burn>,
+    /// Δv left, in c; infinite if the scene does not say.
+    pub fuel: f64,
+    /// The most proper acceleration its engine gives, c²/r_s; None leaves it to the game's configuration.
+    pub max_thrust: Option<f64>,
+    /// Flown by the player where there is one.
+    pub player: bool,
+    /// The model file that shows it.
+    pub model: Option<String>,
+}
+
+impl ShipSpec {
+    /// A coasting ship without limits: what a scene file with only a name and a state gives.
+    pub fn coasting(name: impl Into<String>, state: ShipState) -> Self {
+        ShipSpec {
+            name: name.into(),
+            state,
+            ai: Ai::None,
+            target: None,
+            programme: Vec::new(),
+            fuel: f64::INFINITY,
+            max_thrust: None,
+            player: false,
+            model: None,
+        }
+    }
+}
+
+/// `[[ship]]` as the file has it, before any check.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShipEntry {
+    name: Spanned<String>,
+    position: Option<Spanned<[f64; 3]>>,
+    momentum: Option<Spanned<[f64; 3]>>,
+    orbit: Option<Spanned<OrbitEntry>>,
+    attitude: Option<Spanned<[f64; 4]>>,
+    #[serde(default)]
+    ai: Ai,
+    target: Option<Spanned<String>>,
+    thrust: Option<Vec<Spanned<BurnEntry>>>,
+    fuel: Option<Spanned<f64>>,
+    max_thrust: Option<Spanned<f64>>,
+    #[serde(default)]
+    player: bool,
+    model: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct OrbitEntry {
+    radius: Option<Spanned<f64>>,
+    semi_latus_rectum: Option<Spanned<f64>>,
+    eccentricity: Option<Spanned<f64>>,
+    anomaly: Option<Spanned<f64>>,
+    inclination: Option<Spanned<f64>>,
+    node: Option<Spanned<f64>>,
+    phase: Option<Spanned<f64>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BurnEntry {
+    from: Spanned<f64>,
+    until: Spanned<f64>,
+    acceleration: Spanned<[f64; 3]>,
+}
+
+/// Checks all ships of a scene: each by itself, names unique, targets known.
+pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Fault> {
+    let mut ships: Vec<ShipSpec> = Vec::with_capacity(entries.len());
+    for entry in entries {
+        let ship = check_ship(entry)?;
+        if ships.iter().any(|other| other.name == ship.name) {
+            return fault(&entry.get_ref().name, format!("name = {:?} is taken by an earlier ship; names must differ", ship.name));
+        }
+        ships.push(ship);
+    }
+    for entry in entries {
+        let entry = entry.get_ref();
+        if let Some(target) = &entry.target
+            && (target.get_ref() == entry.name.get_ref() || !ships.iter().any(|ship| &ship.name == target.get_ref()))
+        {
+            let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).filter(|name| name != entry.name.get_ref()).collect();
+            return fault(target, format!("target = {:?} must be another ship of the scene: {names:?}", target.get_ref()));
+        }
+        if entry.ai != Ai::None && ships.len() < 2 {
+            return fault(&entry.name, "ai = \"flee\" and \"pursue\" need another ship in the scene".into());
+        }
+    }
+    Ok(ships)
+}
+
+/// Checks one ship.
+pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
+    let whole = entry.span();
+    let entry = entry.get_ref();
+    let name = entry.name.get_ref();
+    if name.is_empty() || name.len() > 64 || name.chars().any(|c| c == ',' || c == '"' || c.is_control()) {
+        return fault(&entry.name, format!("name = {name:?} must have 1 to 64 characters, without commas, quotes and control characters"));
+    }
+    let mut state = start(entry, whole)?;
+    if let Some(attitude) = &entry.attitude {
+        let [w, x, y, z] = *attitude.get_ref();
+        let attitude_length = DQuat::from_xyzw(x, y, z, w).length();
+        if !(attitude_length > 1e-6 && attitude_length < 1e6) {
+            return fault(attitude, format!("attitude = {:?} must be a quaternion [w, x, y, z] of finite length, not zero", attitude.get_ref()));
+        }
+        state.attitude = DQuat::from_xyzw(x, y, z, w) * (1.0 / attitude_length);
+    }
+    let programme = programme(entry)?;
+    Ok(ShipSpec {
+        name: name.clone(),
+        state,
+        ai: entry.ai,
+        target: entry.target.as_ref().map(|target| target.get_ref().clone()),
+        programme,
+        fuel: optional(&entry.fuel, "fuel", 0.0..=f64::MAX, "c")?.unwrap_or(f64::INFINITY),
+        max_thrust: optional(&entry.max_thrust, "max_thrust", 0.0..=MAX_ACCELERATION, "c²/r_s")?,
+        player: entry.player,
+        model: entry.model.clone(),
+    })
+}
+
+fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
+    match (&entry.position, &entry.momentum, &entry.orbit) {
+        (Some(position), Some(momentum), None) => {
+            let x = DVec3::from_array(*position.get_ref());
+            let p = DVec3::from_array(*momentum.get_ref());
+            if !(x.length() > SINGULARITY_RADIUS && x.length() <= MAX_START_RADIUS) {
+                return fault(
+                    position,
+                    format!("position = {x:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.length()),
+                );
+            }
+            if !(p.length() <= MAX_START_MOMENTUM) {
+                return fault(momentum, format!("momentum = {p:?} must be finite and at most {MAX_START_MOMENTUM:e} c"));
+            }
+            Ok(ShipState::new(x, p))
+        }
+        (None, None, Some(orbit)) => start_on_orbit(orbit),
+        _ => Err(Fault {
+            span: whole,
+            message: format!("ship {:?} needs either position and momentum, or orbit (and not both)", entry.name.get_ref()),
+        }),
+    }
+}
+
+fn start_on_orbit(orbit: &Spanned<OrbitEntry>) -> Result<ShipState, Fault> {
+    let keys = orbit.get_ref();
+    let angle = |value: &Option<Spanned<f64>>, key| optional(value, key, -1e6..=1e6, "rad").map(Option::unwrap_or_default);
+    let (semi_latus_rectum, eccentricity, anomaly) = match (&keys.radius, &keys.semi_latus_rectum, &keys.eccentricity, &keys.anomaly) {
+        (Some(radius), None, None, None) => (in_range(radius, "radius", 1.5..=MAX_START_RADIUS, "r_s")?, 0.0, 0.0),
+        (None, Some(p), e, _) => (
+            in_range(p, "semi_latus_rectum", 1.5..=MAX_START_RADIUS, "r_s")?,
+            optional(e, "eccentricity", 0.0..=1.0, "")?.unwrap_or_default(),
+            angle(&keys.anomaly, "anomaly")?,
+        ),
+        _ => {
+            return fault(
+                orbit,
+                "orbit needs either radius, or semi_latus_rectum with eccentricity and anomaly (and not both)".into(),
+            );
+        }
+    };
+    let elements = Elements {
+        semi_latus_rectum,
+        eccentricity,
+        inclination: optional(&keys.inclination, "inclination", 0.0..=PI, "rad")?.unwrap_or_default(),
+        node: angle(&keys.node, "node")?,
+        phase: angle(&keys.phase, "phase")?,
+        anomaly,
+    };
+    elements.state().or_else(|error: OrbitError| fault(orbit, format!("orbit: {error}")))
+}
+
+fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
+    let Some(burns) = &entry.thrust else { return Ok(Vec::new()) };
+    if let (Some(first), true) = (burns.first(), entry.ai != Ai::None) {
+        return fault(first, "thrust is a programme for ai = \"none\"; an AI flies by itself".into());
+    }
+    let mut checked: Vec<(Range<usize>, Burn)> = Vec::with_capacity(burns.len());
+    for burn in burns {
+        let entry = burn.get_ref();
+        let from = in_range(&entry.from, "from", 0.0..=1e9, "r_s/c")?;
+        let until = in_range(&entry.until, "until", 0.0..=1e9, "r_s/c")?;
+        if until <= from {
+            return fault(&entry.until, format!("until = {until} must be later than from = {from}"));
+        }
+        let acceleration = DVec3::from_array(*entry.acceleration.get_ref());
+        if !(acceleration.length() <= MAX_ACCELERATION) {
+            return fault(
+                &entry.acceleration,
+                format!("acceleration = {acceleration:?} must be finite and at most {MAX_ACCELERATION} c²/r_s"),
+            );
+        }
+        checked.push((burn.span(), Burn { from, until, acceleration }));
+    }
+    checked.sort_by(|a, b| a.1.from.total_cmp(&b.1.from));
+    for pair in checked.windows(2) {
+        let ((_, earlier), (span, later)) = (&pair[0], &pair[1]);
+        if later.from < earlier.until {
+            return Err(Fault {
+                span: span.clone(),
+                message: format!("thrust from = {} begins before the one from {} until {} ends", later.from, earlier.from, earlier.until),
+            });
+        }
+    }
+    Ok(checked.into_iter().map(|(_, burn)| burn).collect())
+}
+
+/// A number inside `range`, or the fault that says so.
+pub(crate) fn in_range(value: &Spanned<f64>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<f64, Fault> {
+    let x = *value.get_ref();
+    if range.contains(&x) && x.is_finite() {
+        return Ok(x);
+    }
+    let (low, high) = (range.start(), range.end());
+    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
+    fault(value, format!("{key} = {x} must be from {low} to {high:e}{unit}"))
+}
+
+fn optional(value: &Option<Spanned<f64>>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<Option<f64>, Fault> {
+    value.as_ref().map(|value| in_range(value, key, range, unit)).transpose()
+}
+
+fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
+    Err(Fault { span: place.span(), message })
+}

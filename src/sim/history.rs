@@ -1,0 +1,177 @@
+//! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit.
+
+use bevy::prelude::Component;
+use glam::{DQuat, DVec3};
+
+use crate::spacetime::matter::{STEP_SHARE, ShipState, has_ended, rate, runge_kutta, step, velocity};
+use crate::spacetime::metric::river_speed;
+
+use super::flight::Command;
+
+/// Backwards in T, ingoing coordinates do not reach the white hole: a ship that came out of it hugs r = 1 with momentum growing as
+/// exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
+pub const MAX_PAST_MOMENTUM: f64 = 1e6;
+
+/// The longest span between two nodes of the past, in r_s/c.
+const MAX_PAST_STEP: f64 = 4.0;
+
+/// A ship at one instant T.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Position on the slice, in r_s.
+    pub position: DVec3,
+    /// dx/dT, in c.
+    pub velocity: DVec3,
+    /// Rain-frame momentum per mass, in c.
+    pub momentum: DVec3,
+    /// Body to rain axes through the pure boost of `momentum`.
+    pub attitude: DQuat,
+    /// Proper time, in r_s/c.
+    pub proper_time: f64,
+}
+
+impl From<&ShipState> for Sample {
+    fn from(state: &ShipState) -> Self {
+        Sample {
+            position: state.position,
+            velocity: velocity(state),
+            momentum: state.momentum,
+            attitude: state.attitude,
+            proper_time: state.proper_time,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    time: f64,
+    state: ShipState,
+    velocity: DVec3,
+    /// dp/dT just before and just after the node: they differ where the thrust changes.
+    force_before: DVec3,
+    force_after: DVec3,
+}
+
+impl Node {
+    fn coasting(time: f64, state: &ShipState) -> Self {
+        let force = rate(state, DVec3::ZERO, DVec3::ZERO).momentum;
+        Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force }
+    }
+}
+
+/// The worldline of one ship. Every node is kept (at 64 steps a second, 13 kB a second), so what crossed the horizon is seen for ever.
+#[derive(Component, Clone, Debug)]
+pub struct History {
+    /// From T = 0 on, times increasing.
+    nodes: Vec<Node>,
+    /// Before T = 0, times decreasing.
+    past: Vec<Node>,
+}
+
+impl History {
+    /// A ship that has this state at T = `time` and coasted before.
+    pub fn new(time: f64, state: &ShipState) -> Self {
+        History { nodes: vec![Node::coasting(time, state)], past: Vec::new() }
+    }
+
+    /// Adds the state at `time`, later than all before, reached under `command`.
+    pub fn push(&mut self, time: f64, state: &ShipState, command: &Command) {
+        let force = |state: &ShipState| rate(state, command.thrust, command.rates).momentum;
+        if let Some(last) = self.nodes.last_mut() {
+            last.force_after = force(&last.state);
+        }
+        let force = force(state);
+        self.nodes.push(Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force });
+    }
+
+    /// The latest T known, in r_s/c.
+    pub fn latest(&self) -> f64 {
+        self.last().time
+    }
+
+    /// Number of nodes from the start on.
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Never: a history has at least its start.
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// Integrates the past back to T = `time` (or to where it freezes), so that [`History::at`] is quick from there on.
+    pub fn reach_back(&mut self, time: f64) {
+        let mut oldest = *self.oldest();
+        while oldest.time > time && !is_frozen(&oldest.state) {
+            let h = past_step(&oldest.state);
+            let state = runge_kutta(&oldest.state, -h, DVec3::ZERO, DVec3::ZERO);
+            oldest = Node::coasting(oldest.time - h, &state);
+            self.past.push(oldest);
+        }
+    }
+
+    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there (integrated on the spot: slower than
+    /// after [`History::reach_back`], and the same to 1e-6 r_s).
+    pub fn at(&self, time: f64) -> Sample {
+        let (first, last) = (self.nodes[0], self.last());
+        if time >= last.time {
+            return Sample::from(&step(&last.state, time - last.time, DVec3::ZERO, DVec3::ZERO));
+        }
+        if time >= first.time {
+            let after = self.nodes.partition_point(|node| node.time <= time);
+            return between(&self.nodes[after - 1], &self.nodes[after], time);
+        }
+        let oldest = self.oldest();
+        if time >= oldest.time {
+            let after = self.past.partition_point(|node| node.time > time);
+            let later = if after == 0 { &first } else { &self.past[after - 1] };
+            return between(&self.past[after], later, time);
+        }
+        let (mut state, mut now) = (oldest.state, oldest.time);
+        while now > time && !is_frozen(&state) {
+            let h = past_step(&state).min(now - time);
+            state = runge_kutta(&state, -h, DVec3::ZERO, DVec3::ZERO);
+            now = if h == now - time { time } else { now - h };
+        }
+        let mut sample = Sample::from(&state);
+        if now > time {
+            sample.velocity = DVec3::ZERO;
+        }
+        sample
+    }
+
+    fn last(&self) -> &Node {
+        &self.nodes[self.nodes.len() - 1]
+    }
+
+    fn oldest(&self) -> &Node {
+        self.past.last().unwrap_or(&self.nodes[0])
+    }
+}
+
+fn is_frozen(state: &ShipState) -> bool {
+    has_ended(state) || state.momentum.length_squared() > MAX_PAST_MOMENTUM * MAX_PAST_MOMENTUM
+}
+
+fn past_step(state: &ShipState) -> f64 {
+    let r = state.position.length();
+    (STEP_SHARE * r / (1.0 + river_speed(r))).min(MAX_PAST_STEP)
+}
+
+/// Cubic Hermite in position and momentum, the shorter arc in attitude.
+fn between(earlier: &Node, later: &Node, time: f64) -> Sample {
+    let span = later.time - earlier.time;
+    let s = (time - earlier.time) / span;
+    let cubic = |a: DVec3, da: DVec3, b: DVec3, db: DVec3| {
+        let (s2, s3) = (s * s, s * s * s);
+        a * (2.0 * s3 - 3.0 * s2 + 1.0) + da * ((s3 - 2.0 * s2 + s) * span) + b * (3.0 * s2 - 2.0 * s3) + db * ((s3 - s2) * span)
+    };
+    let (a, b) = (&earlier.state, &later.state);
+    let state = ShipState {
+        position: cubic(a.position, earlier.velocity, b.position, later.velocity),
+        momentum: cubic(a.momentum, earlier.force_after, b.momentum, later.force_before),
+        attitude: a.attitude.slerp(b.attitude, s),
+        proper_time: a.proper_time + (b.proper_time - a.proper_time) * s,
+    };
+    Sample::from(&state)
+}

@@ -1,0 +1,75 @@
+//! [`ShipPhysicsPlugin`]: all ships fly one fixed step.
+
+use bevy::prelude::*;
+
+use crate::spacetime::matter::has_ended;
+
+use super::clock::Clock;
+use super::flight::{Flight, fly};
+use super::history::History;
+use super::ship::{Controls, CrossedHorizon, EndReason, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
+use super::{SimEvent, SimSet};
+
+/// Integrates the ships, in `SimSet::Integrate`; the clock goes on last.
+pub struct ShipPhysicsPlugin;
+
+impl Plugin for ShipPhysicsPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Clock>()
+            .init_resource::<Fleet>()
+            .add_message::<SimEvent>()
+            .add_systems(FixedUpdate, (integrate_ships, advance_clock).chain().in_set(SimSet::Integrate));
+    }
+}
+
+type Flying<'a> = (
+    &'a Ship,
+    &'a mut ShipMotion,
+    &'a mut Fuel,
+    &'a mut History,
+    &'a Controls,
+    &'a Engine,
+    &'a Programme,
+    Has<CrossedHorizon>,
+);
+
+/// Flies every ship that has not ended from `clock.time` to the next step, adding the substeps to its history.
+pub fn integrate_ships(
+    clock: Res<Clock>,
+    fleet: Res<Fleet>,
+    mut ships: Query<Flying, Without<Ended>>,
+    mut events: MessageWriter<SimEvent>,
+    mut commands: Commands,
+) {
+    let (from, to) = (clock.time, clock.time + clock.step);
+    for &entity in &fleet.0 {
+        let Ok((ship, mut motion, mut fuel, mut history, controls, engine, programme, crossed)) = ships.get_mut(entity) else {
+            continue;
+        };
+        let flight = Flight { state: motion.0, fuel: fuel.left };
+        let order = engine.limit(&controls.0);
+        let (end, reached) = fly(&flight, from, to, order, &programme.0, |leg| history.push(leg.time, leg.state, &leg.command));
+        if flight.fuel > 0.0 && end.fuel <= 0.0 {
+            events.write(SimEvent::FuelSpent { ship: ship.name.clone(), time: to });
+        }
+        if end.state.is_finite() {
+            motion.0 = end.state;
+        }
+        fuel.left = end.fuel;
+        if !crossed && motion.0.position.length() < 1.0 {
+            commands.entity(entity).insert(CrossedHorizon(reached));
+            if flight.state.position.length() >= 1.0 {
+                events.write(SimEvent::CrossedHorizon { ship: ship.name.clone(), time: reached });
+            }
+        }
+        if has_ended(&end.state) {
+            let reason = if end.state.is_finite() { EndReason::Singularity } else { EndReason::NotFinite };
+            commands.entity(entity).insert(Ended { time: reached, reason });
+            events.write(SimEvent::Ended { ship: ship.name.clone(), time: reached, proper_time: motion.0.proper_time, reason });
+        }
+    }
+}
+
+fn advance_clock(mut clock: ResMut<Clock>) {
+    clock.advance();
+}

@@ -1,0 +1,163 @@
+//! Ships as entities, and how a scene puts them into a world.
+
+use bevy::prelude::*;
+
+use crate::scene::ship::{Ai, Burn, ShipSpec};
+use crate::spacetime::matter::ShipState;
+
+use super::flight::Command;
+use super::history::History;
+
+/// A ship.
+#[derive(Component, Clone, Debug, PartialEq, Eq)]
+pub struct Ship {
+    /// Its name in the scene.
+    pub name: String,
+    /// Its place in the scene's order.
+    pub index: usize,
+}
+
+/// A ship's state at [`super::Clock::time`] (r_s = c = 1).
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct ShipMotion(pub ShipState);
+
+/// What the pilot asks for, constant over a step; the engine's limits are applied when it is flown.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Controls(pub Command);
+
+/// Δv left, in c: ∫ |proper acceleration| dτ. Without it one coasts.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Fuel {
+    /// Left now; infinite for a ship without limits.
+    pub left: f64,
+    /// At the start.
+    pub capacity: f64,
+}
+
+/// What the ship can do.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Engine {
+    /// The most proper acceleration, any direction, in c²/r_s.
+    pub max_thrust: f64,
+    /// The fastest turn, in rad per proper r_s/c.
+    pub max_rate: f64,
+}
+
+impl Engine {
+    /// `command` cut to what the engine can do; a command that is not finite is none.
+    pub fn limit(&self, command: &Command) -> Command {
+        let limited = |v: glam::DVec3, max: f64| if v.is_finite() { v.clamp_length_max(max) } else { glam::DVec3::ZERO };
+        Command { thrust: limited(command.thrust, self.max_thrust), rates: limited(command.rates, self.max_rate) }
+    }
+}
+
+/// The scene's thrust programme, flown instead of the controls while it burns.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Programme(pub Vec<Burn>);
+
+/// Who flies: the scene's AI and whom it minds.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pilot {
+    /// Flee or pursue.
+    pub ai: Ai,
+    /// The other ship.
+    pub target: Entity,
+}
+
+/// Marks the ship that a player flies where there is one.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Player;
+
+/// Set once the ship is inside r = 1: the T of the first step that ended there.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct CrossedHorizon(pub f64);
+
+/// Why a ship is no more.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EndReason {
+    /// It came to r ≤ 0.01 r_s (`matter::SINGULARITY_RADIUS`).
+    Singularity,
+    /// Its numbers overflowed.
+    NotFinite,
+}
+
+impl std::fmt::Display for EndReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            EndReason::Singularity => "reached the singularity",
+            EndReason::NotFinite => "left the range of numbers",
+        })
+    }
+}
+
+/// Set on a ship that is no more; its motion stays at the last state.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Ended {
+    /// T in r_s/c.
+    pub time: f64,
+    /// Why.
+    pub reason: EndReason,
+}
+
+/// All ships in scene order: systems go through them in this order, never in the order of storage.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct Fleet(pub Vec<Entity>);
+
+impl Fleet {
+    /// The entity of the ship `name`.
+    pub fn find(&self, name: &str, specs: &[ShipSpec]) -> Option<Entity> {
+        specs.iter().position(|spec| spec.name == name).and_then(|index| self.0.get(index).copied())
+    }
+}
+
+/// What a scene leaves open, from the game's configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EngineDefaults {
+    /// For the player and pursuers, c²/r_s.
+    pub hunter_thrust: f64,
+    /// For those who flee, c²/r_s.
+    pub quarry_thrust: f64,
+    /// The fastest turn, rad per proper r_s/c.
+    pub max_rate: f64,
+}
+
+impl Default for EngineDefaults {
+    fn default() -> Self {
+        EngineDefaults { hunter_thrust: 0.06, quarry_thrust: 0.02, max_rate: 1.0 }
+    }
+}
+
+/// Spawns the ships of a scene in its order and inserts the [`Fleet`]. Ships of an earlier scene are despawned.
+pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &EngineDefaults, time: f64) {
+    if let Some(old) = world.remove_resource::<Fleet>() {
+        for entity in old.0 {
+            world.despawn(entity);
+        }
+    }
+    let fleet = Fleet(specs.iter().enumerate().map(|(index, spec)| spawn(world, index, spec, defaults, time)).collect());
+    for (index, spec) in specs.iter().enumerate() {
+        let first_other = (0..specs.len()).find(|&other| other != index);
+        let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
+        if let (true, Some(target)) = (spec.ai != Ai::None, target) {
+            world.entity_mut(fleet.0[index]).insert(Pilot { ai: spec.ai, target });
+        }
+    }
+    world.insert_resource(fleet);
+}
+
+fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &EngineDefaults, time: f64) -> Entity {
+    let usual = if spec.ai == Ai::Flee { defaults.quarry_thrust } else { defaults.hunter_thrust };
+    let mut entity = world.spawn((
+        Ship { name: spec.name.clone(), index },
+        ShipMotion(spec.state),
+        Controls::default(),
+        Fuel { left: spec.fuel, capacity: spec.fuel },
+        Engine { max_thrust: spec.max_thrust.unwrap_or(usual), max_rate: defaults.max_rate },
+        Programme(spec.programme.clone()),
+        History::new(time, &spec.state),
+    ));
+    if spec.player {
+        entity.insert(Player);
+    }
+    entity.id()
+}

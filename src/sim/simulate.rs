@@ -1,0 +1,226 @@
+//! `lensrunner simulate`: the game without graphics, as fast as it goes, written as CSV.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use bevy::ecs::schedule::SingleThreadedExecutor;
+use bevy::prelude::*;
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::scene::rules::{Rules, RulesEntry};
+use crate::scene::ship::{Ai, Fault, ShipEntry, ShipSpec, check_ships};
+use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
+
+use super::flight::{Flight, fly};
+use super::hash::StateHash;
+use super::ship::{Controls, Ended, Engine, EngineDefaults, Fleet, Fuel, Programme, Ship, ShipMotion, muster};
+use super::{Clock, SimEvent, SimulationPlugins};
+
+/// The header row.
+pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
+
+/// The end of the run unless asked otherwise, in r_s/c; a chase ends with its time limit.
+pub const DEFAULT_UNTIL: f64 = 100.0;
+/// T between rows unless asked otherwise, in r_s/c.
+pub const DEFAULT_EVERY: f64 = 1.0;
+/// The most rows of T one run writes.
+pub const MAX_ROWS: f64 = 1e8;
+
+/// What is asked of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Request {
+    /// The last T, in r_s/c.
+    pub until: Option<f64>,
+    /// T between rows, in r_s/c.
+    pub every: f64,
+    /// For everything that is left to chance.
+    pub seed: u64,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Request { until: None, every: DEFAULT_EVERY, seed: 0 }
+    }
+}
+
+/// Why a run failed.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError {
+    /// The input is wrong: exit code 2.
+    #[error("{0}")]
+    Input(String),
+    /// Reading or writing failed: exit code 1.
+    #[error("{0}")]
+    Io(#[from] io::Error),
+}
+
+/// How a run went.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Summary {
+    /// Fixed steps taken.
+    pub steps: u64,
+    /// Wall seconds.
+    pub seconds: f64,
+    /// Of the final state of all ships, in scene order.
+    pub hash: StateHash,
+}
+
+/// What `simulate` needs of a scene file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimScene {
+    /// The ships in the file's order.
+    pub ships: Vec<ShipSpec>,
+    /// The rules of the chase.
+    pub rules: Rules,
+}
+
+#[derive(Deserialize)]
+struct SimSceneEntry {
+    #[serde(default)]
+    ship: Vec<Spanned<ShipEntry>>,
+    #[serde(default)]
+    rules: RulesEntry,
+}
+
+/// Reads the ships and the rules of the scene file `name` from its text.
+pub fn parse(name: &str, text: &str) -> Result<SimScene, SimulateError> {
+    let at = |span: std::ops::Range<usize>, message: String| {
+        let line = 1 + text[..span.start.min(text.len())].matches('\n').count();
+        SimulateError::Input(format!("{name}:{line}: {message}"))
+    };
+    let entry: SimSceneEntry =
+        toml::from_str(text).map_err(|error| at(error.span().unwrap_or(0..0), error.message().to_owned()))?;
+    let fault = |fault: Fault| at(fault.span, fault.message);
+    let ships = check_ships(&entry.ship).map_err(fault)?;
+    if ships.is_empty() {
+        return Err(SimulateError::Input(format!("{name}: a simulation needs at least one [[ship]]")));
+    }
+    Ok(SimScene { ships, rules: entry.rules.check(Rules::default()).map_err(fault)? })
+}
+
+/// A world with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step.
+pub fn world_of(scene: &SimScene, seed: u64) -> App {
+    let mut app = App::new();
+    app.add_plugins(SimulationPlugins);
+    app.edit_schedule(FixedUpdate, |schedule| {
+        schedule.set_executor(SingleThreadedExecutor::new());
+    });
+    let _ = seed;
+    muster(app.world_mut(), &scene.ships, &EngineDefaults::default(), 0.0);
+    app.finish();
+    app.cleanup();
+    app
+}
+
+/// Runs the scene file at `path`, rows to `out`, events and the last line to `log`.
+pub fn run(path: &Path, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
+    let name = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| SimulateError::Input(format!("{name}: {error}")))?;
+    simulate(&parse(&name, &text)?, request, out, log)
+}
+
+/// Runs `scene`; rows by T, then in scene order.
+pub fn simulate(scene: &SimScene, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
+    let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
+    let until = request.until.unwrap_or(if chase { scene.rules.time_limit } else { DEFAULT_UNTIL });
+    check(until, request.every)?;
+    let mut app = world_of(scene, request.seed);
+    let started = Instant::now();
+    writeln!(out, "{COLUMNS}")?;
+    let mut row = 0u64;
+    loop {
+        let clock = *app.world().resource::<Clock>();
+        let next = clock.time + clock.step;
+        while let due = due_time(row, request.every, until)
+            && due < next
+        {
+            write_rows(app.world(), due, out)?;
+            if due >= until {
+                return finish(app.world(), until, started, out, log);
+            }
+            row += 1;
+        }
+        app.world_mut().run_schedule(FixedUpdate);
+        tell(app.world_mut(), log)?;
+    }
+}
+
+fn check(until: f64, every: f64) -> Result<(), SimulateError> {
+    if !(until >= 0.0 && until <= 1e9) {
+        return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
+    }
+    if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
+        return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
+    }
+    Ok(())
+}
+
+/// T of row `row`: `row`·`every`, freed of the rounding that shows when `every` is a short decimal (3 · 0.1 = 0.30000000000000004); the
+/// last row is at `until`.
+fn due_time(row: u64, every: f64, until: f64) -> f64 {
+    let product = row as f64 * every;
+    let decimal: f64 = format!("{product:.14e}").parse().unwrap_or(product);
+    let due = if (decimal - product).abs() <= product * f64::EPSILON { decimal } else { product };
+    due.min(until)
+}
+
+/// The ships at T = `time`, within one step of the clock: a partial step from a copy, so that looking never changes the flight.
+fn ships_at(world: &World, time: f64) -> impl Iterator<Item = (&Ship, ShipState)> {
+    let clock = world.resource::<Clock>();
+    world.resource::<Fleet>().0.iter().filter_map(move |&entity| {
+        let ship = world.get::<Ship>(entity)?;
+        let state = world.get::<ShipMotion>(entity)?.0;
+        if world.get::<Ended>(entity).is_some() {
+            return None;
+        }
+        if time <= clock.time {
+            return Some((ship, state));
+        }
+        let flight = Flight { state, fuel: world.get::<Fuel>(entity)?.left };
+        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
+        let (end, _) = fly(&flight, clock.time, time, command, &world.get::<Programme>(entity)?.0, |_| ());
+        (!has_ended(&end.state)).then_some((ship, end.state))
+    })
+}
+
+fn write_rows(world: &World, time: f64, out: &mut dyn Write) -> io::Result<()> {
+    for (ship, state) in ships_at(world, time) {
+        let (x, p, q, l) = (state.position, state.momentum, state.attitude, angular_momentum(&state));
+        write!(out, "{}", ship.name)?;
+        for number in
+            [time, state.proper_time, x.x, x.y, x.z, p.x, p.y, p.z, q.w, q.x, q.y, q.z, energy(&state), l.x, l.y, l.z]
+        {
+            write!(out, ",{number:.16e}")?;
+        }
+        writeln!(out)?;
+    }
+    Ok(())
+}
+
+fn tell(world: &mut World, log: &mut dyn Write) -> io::Result<()> {
+    for event in world.resource_mut::<Messages<SimEvent>>().drain() {
+        writeln!(log, "{event}")?;
+    }
+    Ok(())
+}
+
+fn finish(world: &World, time: f64, started: Instant, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
+    out.flush()?;
+    let mut hash = StateHash::default();
+    for &entity in &world.resource::<Fleet>().0 {
+        if let (Some(ship), Some(motion), true) =
+            (world.get::<Ship>(entity), world.get::<ShipMotion>(entity), world.get::<Ended>(entity).is_some())
+        {
+            hash.ship(&ship.name, &motion.0);
+        }
+    }
+    for (ship, state) in ships_at(world, time) {
+        hash.ship(&ship.name, &state);
+    }
+    let summary = Summary { steps: world.resource::<Clock>().tick, seconds: started.elapsed().as_secs_f64(), hash };
+    let rate = summary.steps as f64 / summary.seconds.max(1e-9);
+    writeln!(log, "{rate:.0} steps per second, state {hash}")?;
+    Ok(summary)
+}
