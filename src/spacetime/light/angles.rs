@@ -49,7 +49,10 @@ pub struct Launch {
 pub fn launch(psi_rain: f64, u: f64) -> Launch {
     let beta = u.sqrt();
     let (sin, cos) = psi_rain.sin_cos();
-    Launch { slope: -u * (beta + cos) / sin, energy: u * (1.0 + beta * cos) / sin }
+    Launch {
+        slope: -u * (beta + cos) / sin,
+        energy: u * (1.0 + beta * cos) / sin,
+    }
 }
 
 /// ψ in the rain frame of the edge of the shadow for a camera at `u_camera` = 1/L, outside or inside; the shadow is ψ greater than that.

@@ -2,15 +2,18 @@
 //!
 //! Along the ray dt/dΦ = e/(u²(1 − u)) in Schwarzschild's t. With t̂ = t + ln|1 − 1/r|, regular on the horizon like T,
 //!
-//! dt̂/dΦ = e/u² + e/u + u²/(e − w),   T = t̂ + 2√r − 2 ln(1 + 1/√r),
+//! dt̂/dΦ = e/u² + e/u + K,  K = u²/(e − w) = (e + w)/(1 − u),   T = t̂ + 2√r − 2 ln(1 + 1/√r).
 //!
-//! and along every ray  e/u² = [u/2 − (w/u)′]/e,  e/u = [ln((e − w)/u)]′ + ½ u²/(e − w),
-//! u²/(e − w) = u²/(e + w) − 2 [ln|1 − u|]′,
-//! so that all that grows without bound (far away, or at the past horizon) is taken in closed form, and what is left to
-//! quadrature is analytic in Φ. (Each identity follows from w² = e² − u² + u³ and w′ = −u + 3/2 u².)
+//! Three identities, each following from w² = e² − u² + u³ and w′ = −u + 3/2 u², take all that grows without bound (far away, or
+//! at the past horizon) in closed form, and what is left to quadrature is analytic in Φ:
+//!
+//! e/u² = [u/2 − (w/u)′]/e,  e/u = [ln((e − w)/u)]′ + K/2,
+//! K = u²/(e + w) − 2 [ln|1 − u|]′ = 2e/u + 2 [ln u − ln(e − w)]′.
 
 use super::Ray;
-use super::orbit::{CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit};
+use super::orbit::{
+    CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit,
+};
 
 /// Gauss–Legendre of ten points on [0, 1]: abscissae and weights (Abramowitz & Stegun 25.4.30).
 const NODES: [(f64, f64); 10] = {
@@ -41,32 +44,62 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     if u_point <= 0.0 {
         return f64::INFINITY;
     }
-    let Ray { slope, emission_slope, energy: e } = *ray;
-    let d = if u_camera < 1.0 { critical_excess(u_camera, slope) } else { (e * e - CRITICAL_ENERGY_SQUARED) / 16.0 };
-    let trapped = d < 0.0 && u_camera > PHOTON_SPHERE;
+    let Ray {
+        slope,
+        emission_slope,
+        energy: e,
+    } = *ray;
+    let d = if u_camera < 1.0 {
+        critical_excess(u_camera, slope)
+    } else {
+        (e * e - CRITICAL_ENERGY_SQUARED) / 16.0
+    };
+    let scattered = d < 0.0 && u_camera <= PHOTON_SPHERE;
+    let trapped = d < 0.0 && !scattered;
     let near = swept < 0.5 && u_point < 2.0 * u_camera && u_camera < 2.0 * u_point;
-    let form = if e < 0.0 || trapped || near { Form::Direct } else { Form::Far };
+    let path = Path {
+        u_point,
+        emission_slope,
+        d,
+        swept,
+        u_camera,
+        energy: e,
+    };
 
-    let mut time = quadrature(form, e, d, u_camera, slope, u_point, emission_slope, swept);
-    if form == Form::Far {
-        let ratio = (ahead(e, emission_slope, u_point) / u_point) / (ahead(e, slope, u_camera) / u_camera);
-        time += ratio.ln() - (emission_slope / u_point - slope / u_camera) / e;
-    }
+    let time = if trapped || near {
+        let closed = |w: f64, u: f64| 2.0 * (u / ahead(e, w, u)).ln();
+        closed(emission_slope, u_point) - closed(slope, u_camera)
+            + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
+    } else if scattered {
+        let closed = |w: f64, u: f64| (ahead(e, w, u) / u).ln() - w / (u * e);
+        closed(emission_slope, u_point) - closed(slope, u_camera)
+            + path.integral(|u, w| u / (2.0 * e) + 1.5 * (e + w) / (1.0 - u))
+    } else {
+        // No turning point. Light that left the past horizon has e and w of one sign.
+        let outgoing = e * slope > 0.0;
+        let closed = |w: f64, u: f64| {
+            let rest = ((e.abs() + w.abs()) / u).ln();
+            (if outgoing { -rest } else { rest }) - w / (u * e)
+        };
+        let horizon = if outgoing {
+            -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln()
+        } else {
+            0.0
+        };
+        closed(emission_slope, u_point) - closed(slope, u_camera)
+            + horizon
+            + path.integral(|u, w| u / (2.0 * e) + (1.5 * u * u / (e.abs() + w.abs())).copysign(e))
+    };
     time + to_rain_time(u_camera) - to_rain_time(u_point)
 }
 
-/// How e/u² + e/u is integrated.
-#[derive(Clone, Copy, PartialEq)]
-enum Form {
-    /// As it stands: near the camera, inside, and where e may vanish.
-    Direct,
-    /// Less its closed-form part: far away.
-    Far,
-}
-
-/// e − w for e > 0, without cancellation.
+/// e − w without cancellation.
 fn ahead(e: f64, w: f64, u: f64) -> f64 {
-    if w > 0.0 { u * u * (1.0 - u) / (e + w) } else { e - w }
+    if e * w > 0.0 {
+        u * u * (1.0 - u) / (e + w)
+    } else {
+        e - w
+    }
 }
 
 /// T − t̂.
@@ -75,70 +108,64 @@ fn to_rain_time(u: f64) -> f64 {
     2.0 / beta - 2.0 * beta.ln_1p()
 }
 
-#[expect(clippy::too_many_arguments, reason = "the two ends of one ray")]
-fn quadrature(form: Form, e: f64, d: f64, u0: f64, w0: f64, u_end: f64, w_end: f64, swept: f64) -> f64 {
-    let (mut u, mut w) = (u0, w0);
-    let mut left = swept;
-    let mut sum = 0.0;
-    let mut step = 0.0;
-    let mut poles: Option<([Pole; 10], Pole)> = None;
-    loop {
-        // Inside, the singularity behind the camera is 2/√u away and recedes; outside all panels are equal.
-        let longest = LONGEST_PANEL.min(0.8 / u.max(1.0).sqrt()).min(1.0 / e.abs().max(1.0).cbrt());
-        let panels = (left / longest * (1.0 - 1e-12)).ceil().max(1.0);
-        if panels <= 1.0 || (step / (left / panels) - 1.0).abs() > 1e-9 {
-            if panels > 1.0 || (step / left - 1.0).abs() > 1e-9 {
-                step = left / panels;
-                poles = None;
+/// A ray as the quadrature sees it.
+struct Path {
+    u_point: f64,
+    emission_slope: f64,
+    d: f64,
+    swept: f64,
+    u_camera: f64,
+    energy: f64,
+}
+
+impl Path {
+    /// ∫ f(u, w) dΦ along the ray, in panels from the point to the camera: that way a ray that ends deep inside stays accurate,
+    /// for there w² − u³ of the camera's end would have lost the e² that decides about the rest.
+    fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
+        let (mut u, mut w) = (self.u_point, self.emission_slope);
+        let mut left = self.swept;
+        let mut sum = 0.0;
+        let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
+        let beyond = 2.0 / self.u_camera.sqrt();
+        let mut cached: Option<(f64, [Pole; 10], Pole)> = None;
+        loop {
+            // Inside, the singularity lies 2/√u behind the camera.
+            let panels = (left / narrow.min(0.4 * (left + beyond)) - 1e-9)
+                .ceil()
+                .max(1.0);
+            let step = left / panels;
+            let fitting = cached.filter(|(length, ..)| (step / length - 1.0).abs() < 1e-12);
+            let Some((step, nodes, whole)) = fitting.or_else(|| poles_over(step, self.d)) else {
+                return f64::NAN;
+            };
+            cached = Some((step, nodes, whole));
+            let mut panel = 0.0;
+            for (pole, (_, weight)) in nodes.iter().zip(NODES) {
+                let (u, w) = back(u, w, pole);
+                panel += weight * f(u, w);
             }
-        }
-        let (nodes, whole) = match poles {
-            Some(ref cached) => cached,
-            None => {
-                let Some(fresh) = poles_over(step, d) else { return f64::NAN };
-                poles.insert(fresh)
+            sum += panel * step;
+            if panels <= 1.0 {
+                return sum;
             }
-        };
-        let last = panels <= 1.0;
-        let (u_next, w_next) = if last {
-            (u_end, w_end)
-        } else {
-            let carried = carry(u, w, whole);
-            (u + carried.rise, carried.chord * carried.rise - w)
-        };
-        // Leaving the past horizon behind: e and w of one sign, so e + w is safe and e − w is not.
-        let outgoing = e * (w + w_next) > 0.0;
-        let mut panel = 0.0;
-        for (pole, (_, weight)) in nodes.iter().zip(NODES) {
-            let carried = carry(u, w, pole);
-            let un = u + carried.rise;
-            let wn = carried.chord * carried.rise - w;
-            let k = un * un / if outgoing { e + wn } else { e - wn };
-            panel += weight
-                * match form {
-                    Form::Direct => e * (1.0 + un) / (un * un) + k,
-                    Form::Far => un / (2.0 * e) + 1.5 * k,
-                };
+            (u, w) = back(u, w, &whole);
+            left -= step;
         }
-        sum += panel * step;
-        if outgoing {
-            let factor = if form == Form::Far { -3.0 } else { -2.0 };
-            sum += factor * ((1.0 - u_next) / (1.0 - u)).ln();
-        }
-        if last {
-            return sum;
-        }
-        left -= step;
-        (u, w) = (u_next, w_next);
     }
 }
 
-/// The pole orbit at the nodes of a panel and at its end.
-fn poles_over(step: f64, d: f64) -> Option<([Pole; 10], Pole)> {
+/// The ray (u, w) carried towards the camera.
+fn back(u: f64, w: f64, pole: &Pole) -> (f64, f64) {
+    let carried = carry(u, -w, pole);
+    (u + carried.rise, -(carried.chord * carried.rise + w))
+}
+
+/// The length of a panel, and the pole orbit at its nodes and at its end.
+fn poles_over(step: f64, d: f64) -> Option<(f64, [Pole; 10], Pole)> {
     let whole = pole_orbit(step, d)?;
     let mut nodes = [whole; 10];
     for (node, (x, _)) in nodes.iter_mut().zip(NODES) {
         *node = pole_orbit(step * x, d)?;
     }
-    Some((nodes, whole))
+    Some((step, nodes, whole))
 }

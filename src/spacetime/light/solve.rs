@@ -3,7 +3,9 @@
 //! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
 //! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
 
-use super::orbit::{CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot};
+use super::orbit::{
+    CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot,
+};
 use super::{Branch, Ray};
 use std::f64::consts::PI;
 
@@ -27,7 +29,14 @@ struct Start {
 
 impl Fan {
     fn new(u: f64) -> Fan {
-        if u < 1.0 { Fan::Outside { u } } else { Fan::Inside { u, s: u * (u - 1.0).sqrt() } }
+        if u < 1.0 {
+            Fan::Outside { u }
+        } else {
+            Fan::Inside {
+                u,
+                s: u * (u - 1.0).sqrt(),
+            }
+        }
     }
 
     fn u(self) -> f64 {
@@ -52,7 +61,11 @@ impl Fan {
 
     fn start(self, x: f64) -> Start {
         match self {
-            Fan::Outside { u } => Start { slope: x, d: critical_excess(u, x), d_x: x / 8.0 },
+            Fan::Outside { u } => Start {
+                slope: x,
+                d: critical_excess(u, x),
+                d_x: x / 8.0,
+            },
             Fan::Inside { s, .. } => Start {
                 slope: x - s,
                 d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0,
@@ -78,24 +91,37 @@ pub fn join(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<R
 
 /// As [`join`], starting from a guess of the slope at the camera (1/r_s), for instance a neighbour's; the result is the same
 /// whatever the guess, only faster with a good one.
-pub fn join_near(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess: Option<f64>) -> Option<Ray> {
+pub fn join_near(
+    u_point: f64,
+    swept: f64,
+    u_camera: f64,
+    branch: Branch,
+    guess: Option<f64>,
+) -> Option<Ray> {
     if !exists(u_point, swept, u_camera, branch) {
         return None;
     }
     let fan = Fan::new(u_camera);
-    let guess = guess.filter(|w| w.is_finite()).unwrap_or_else(|| first_guess(u_point, swept, u_camera));
+    let guess = guess
+        .filter(|w| w.is_finite())
+        .unwrap_or_else(|| first_guess(u_point, swept, u_camera));
     let (x, emission_slope) = solve(fan, u_point, swept, fan.of_slope(guess))?;
     let energy = fan.energy(x);
     Some(Ray {
         slope: fan.start(x).slope,
         emission_slope,
-        energy: if branch == Branch::Minus { -energy } else { energy },
+        energy: if branch == Branch::Minus {
+            -energy
+        } else {
+            energy
+        },
     })
 }
 
 /// Whether such a ray exists.
 fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
-    let in_range = u_point >= 0.0 && u_camera > 0.0 && swept > 0.0 && (u_point + swept + u_camera).is_finite();
+    let in_range =
+        u_point >= 0.0 && u_camera > 0.0 && swept > 0.0 && (u_point + swept + u_camera).is_finite();
     if !in_range || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
         return false;
     }
@@ -165,7 +191,10 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
         // Rounding in u(Φ) ends the descent; the step is then the size of that error.
         let scale = x.abs() + 1e-3 * u;
         let size = step.abs();
-        if miss == 0.0 || size <= 4.0 * f64::EPSILON * scale || (size < 1e-10 * scale && size > 0.25 * last_step) {
+        if miss == 0.0
+            || size <= 4.0 * f64::EPSILON * scale
+            || (size < 1e-10 * scale && size > 0.25 * last_step)
+        {
             return Some((x, carried.chord * rise_wanted - start.slope));
         }
         last_step = size;
@@ -176,7 +205,15 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
 
 /// The middle of two parameters as seen from the camera: halfway in the angle θ of x = −u cot θ.
 fn middle(low: f64, high: f64, u: f64) -> f64 {
-    let angle = |x: f64| if x == f64::NEG_INFINITY { 0.0 } else if x == f64::INFINITY { PI } else { u.atan2(-x) };
+    let angle = |x: f64| {
+        if x == f64::NEG_INFINITY {
+            0.0
+        } else if x == f64::INFINITY {
+            PI
+        } else {
+            u.atan2(-x)
+        }
+    };
     let theta = 0.5 * (angle(low) + angle(high));
     -u / theta.tan()
 }
