@@ -1,1 +1,4 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
+
+mod reference_oracles;
+mod reference_trace;

@@ -199,9 +199,8 @@ fn energy_and_angular_momentum_are_kept() {
                     let state = segment.at(part * segment.length);
                     // E is a difference of terms of size |p|, L a product of size r|p|, and where a ray clings to the horizon |p| has no bound.
                     size = size.max(state.momentum.length());
-                    if (state.energy()-energy).abs() > 1e-13 * size * (1.0 + 1.0 / l.sqrt()) { eprintln!("L {l} i {i} tau {} n {} size {size} state {state:?} order err {:e}", segment.start, ray.segments.len(), state.energy()-energy); }
                     close(state.energy(), energy, 1e-13 * size * (1.0 + 1.0 / l.sqrt()));
-                    close(state.angular_momentum(), spin, 1e-13 * size * l.max(1.0));
+                    close(state.angular_momentum(), spin, 1e-14 * size * state.position.length().max(1.0));
                 }
             }
         }
