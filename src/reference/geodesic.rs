@@ -14,7 +14,7 @@ use glam::DVec2;
 /// The highest order of the series; the optimum at a tolerance of 1e-17 is 22.
 pub const MAX_ORDER: usize = 24;
 
-type Series = [f64; MAX_ORDER + 1];
+type Series = [DVec2; MAX_ORDER + 1];
 
 /// Light at one moment, in the plane of its orbit: position in r_s from the hole, and rain-frame momentum (towards the future;
 /// the scale is free).
@@ -53,8 +53,8 @@ pub struct Segment {
     /// How much delay it covers, in r_s/c.
     pub length: f64,
     order: usize,
-    x: [Series; 2],
-    p: [Series; 2],
+    x: Series,
+    p: Series,
 }
 
 impl Segment {
@@ -67,12 +67,18 @@ impl Segment {
         // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
         let mut length: f64 = r / (1.0 + 1.0 / r.sqrt());
         for n in [order - 1, order] {
-            let size = (x[0][n].abs().max(x[1][n].abs()) / r).max(p[0][n].abs().max(p[1][n].abs()) / w);
+            let size = (x[n].abs().max_element() / r).max(p[n].abs().max_element() / w);
             if size > 0.0 {
                 length = length.min((tolerance / size).powf(1.0 / n as f64));
             }
         }
-        Segment { start, length, order, x, p }
+        Segment {
+            start,
+            length,
+            order,
+            x,
+            p,
+        }
     }
 
     /// The delay at the end of the segment.
@@ -82,7 +88,10 @@ impl Segment {
 
     /// The state `elapsed` (0 to `length`) after the start of the segment.
     pub fn at(&self, elapsed: f64) -> State {
-        State { position: self.position(elapsed), momentum: self.evaluate(&self.p, elapsed) }
+        State {
+            position: self.position(elapsed),
+            momentum: self.evaluate(&self.p, elapsed),
+        }
     }
 
     /// The position `elapsed` after the start of the segment.
@@ -94,7 +103,7 @@ impl Segment {
     pub fn velocity(&self, elapsed: f64) -> DVec2 {
         let mut v = DVec2::ZERO;
         for n in (1..=self.order).rev() {
-            v = v * elapsed + n as f64 * DVec2::new(self.x[0][n], self.x[1][n]);
+            v = v * elapsed + n as f64 * self.x[n];
         }
         v
     }
@@ -103,24 +112,24 @@ impl Segment {
     pub fn reach(&self) -> f64 {
         let mut sum = 0.0;
         for n in (1..=self.order).rev() {
-            sum = (sum + self.x[0][n].abs().max(self.x[1][n].abs())) * self.length;
+            sum = (sum + self.x[n].length()) * self.length;
         }
-        sum * std::f64::consts::SQRT_2
+        sum
     }
 
     /// The elapsed time in [from, to] at which the position crosses the line a·x = c, given that a·x − c has opposite signs at
     /// the two ends (Newton, kept inside the bracket).
     pub fn cross_line(&self, a: DVec2, c: f64, from: f64, to: f64) -> f64 {
-        root(from, to, |s| (a.dot(self.position(s)) - c, a.dot(self.velocity(s))))
+        root(from, to, |s| {
+            (a.dot(self.position(s)) - c, a.dot(self.velocity(s)))
+        })
     }
 
-    fn evaluate(&self, c: &[Series; 2], s: f64) -> DVec2 {
-        let (mut a, mut b) = (0.0, 0.0);
-        for n in (0..=self.order).rev() {
-            a = a * s + c[0][n];
-            b = b * s + c[1][n];
-        }
-        DVec2::new(a, b)
+    fn evaluate(&self, series: &Series, elapsed: f64) -> DVec2 {
+        series[..=self.order]
+            .iter()
+            .rev()
+            .fold(DVec2::ZERO, |sum, &c| sum * elapsed + c)
     }
 }
 
@@ -145,7 +154,11 @@ pub fn root(mut a: f64, mut b: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
             b = s;
         }
         let newton = s - value / slope;
-        let next = if newton > a.min(b) && newton < a.max(b) { newton } else { 0.5 * (a + b) };
+        let next = if newton > a.min(b) && newton < a.max(b) {
+            newton
+        } else {
+            0.5 * (a + b)
+        };
         if (next - s).abs() <= 2.0 * f64::EPSILON * next.abs() {
             return next;
         }
@@ -159,48 +172,79 @@ fn order_for(tolerance: f64) -> usize {
     ((-0.5 * tolerance.ln()).ceil() as usize + 2).clamp(6, MAX_ORDER)
 }
 
-/// The Taylor coefficients of x and p in τ.
-fn series(state: State, order: usize) -> ([Series; 2], [Series; 2]) {
+/// The Taylor coefficients of x and p in τ: dx/dτ = qx − ip, dp/dτ = (3/2)fx − qp. Each coefficient of a product is a sum over the
+/// earlier ones; sums over the same terms share a loop.
+fn series(state: State, order: usize) -> (Series, Series) {
+    let mut x = [DVec2::ZERO; MAX_ORDER + 1];
+    let mut p = [DVec2::ZERO; MAX_ORDER + 1];
+    (x[0], p[0]) = (state.position, state.momentum);
     let zero = [0.0; MAX_ORDER + 1];
-    let mut x = [zero; 2];
-    let mut p = [zero; 2];
-    (x[0][0], x[1][0]) = state.position.into();
-    (p[0][0], p[1][0]) = state.momentum.into();
     let mut s = zero; // r² = x·x
     let mut w = zero; // ω² = p·p
     let mut m = zero; // x·p
     let mut q = zero; // r^{-3/2} = s^{-3/4}: βn = qx
     let mut g = zero; // r^{-7/2} = s^{-7/4}
     let mut i = zero; // 1/ω = w^{-1/2}
-    let mut f = zero; // g m
+    let mut f = zero; // gm
     for n in 0..order {
-        s[n] = product(&x[0], &x[0], n) + product(&x[1], &x[1], n);
-        w[n] = product(&p[0], &p[0], n) + product(&p[1], &p[1], n);
-        m[n] = product(&x[0], &p[0], n) + product(&x[1], &p[1], n);
-        q[n] = power(&s, -0.75, &q, n);
-        g[n] = power(&s, -1.75, &g, n);
-        i[n] = power(&w, -0.5, &i, n);
-        f[n] = product(&g, &m, n);
-        let next = 1.0 / (n + 1) as f64;
-        for a in 0..2 {
-            x[a][n + 1] = next * (product(&q, &x[a], n) - product(&i, &p[a], n));
-            p[a][n + 1] = next * (1.5 * product(&f, &x[a], n) - product(&q, &p[a], n));
+        let (mut sum_s, mut sum_w, mut sum_m) = (0.0, 0.0, 0.0);
+        for ((xa, pa), (xb, pb)) in pairs(&x, &p, n).zip(pairs(&x, &p, n).rev()) {
+            sum_s += xa.dot(*xb);
+            sum_w += pa.dot(*pb);
+            sum_m += xa.dot(*pb);
         }
+        (s[n], w[n], m[n]) = (sum_s, sum_w, sum_m);
+        if n == 0 {
+            let r = s[0].sqrt();
+            q[0] = 1.0 / (r * r.sqrt());
+            g[0] = q[0] / s[0];
+            i[0] = 1.0 / w[0].sqrt();
+        } else {
+            // y = s^a: n s₀ yₙ = Σ_{j=1..n} (j(a + 1) − n) s_j y_{n−j}, which is s y' = a s' y term by term.
+            let (mut sum_q, mut sum_g, mut sum_i) = (0.0, 0.0, 0.0);
+            let count = n as f64;
+            let mut k = 0.0;
+            for ((sa, wa), ((qb, gb), ib)) in s[1..=n]
+                .iter()
+                .zip(&w[1..=n])
+                .zip(q[..n].iter().zip(&g[..n]).zip(&i[..n]).rev())
+            {
+                k += 1.0;
+                sum_q += (0.25 * k - count) * sa * qb;
+                sum_g += (-0.75 * k - count) * sa * gb;
+                sum_i += (0.5 * k - count) * wa * ib;
+            }
+            q[n] = sum_q / (count * s[0]);
+            g[n] = sum_g / (count * s[0]);
+            i[n] = sum_i / (count * w[0]);
+        }
+        f[n] = g[..=n]
+            .iter()
+            .zip(m[..=n].iter().rev())
+            .map(|(a, b)| a * b)
+            .sum();
+        let (mut dx, mut dp) = (DVec2::ZERO, DVec2::ZERO);
+        for (((q, i), f), (x, p)) in q[..=n]
+            .iter()
+            .zip(&i[..=n])
+            .zip(&f[..=n])
+            .zip(pairs(&x, &p, n).rev())
+        {
+            dx += *q * *x - *i * *p;
+            dp += 1.5 * f * *x - *q * *p;
+        }
+        let next = 1.0 / (n + 1) as f64;
+        x[n + 1] = next * dx;
+        p[n + 1] = next * dp;
     }
     (x, p)
 }
 
-/// Coefficient n of the product of two series.
-fn product(a: &Series, b: &Series, n: usize) -> f64 {
-    a[..=n].iter().zip(b[..=n].iter().rev()).map(|(a, b)| a * b).sum()
-}
-
-/// Coefficient n of y = s^exponent, given the earlier ones: n s₀ yₙ = Σ_{j=1..n} (j·exponent − (n − j)) s_j y_{n−j}, which is
-/// s y' = exponent · s' y term by term.
-fn power(s: &Series, exponent: f64, y: &Series, n: usize) -> f64 {
-    if n == 0 {
-        return s[0].powf(exponent);
-    }
-    let sum: f64 = (1..=n).map(|j| (j as f64 * exponent - (n - j) as f64) * s[j] * y[n - j]).sum();
-    sum / (n as f64 * s[0])
+/// Coefficients 0 to n of two series together.
+fn pairs<'a>(
+    x: &'a Series,
+    p: &'a Series,
+    n: usize,
+) -> impl DoubleEndedIterator<Item = (&'a DVec2, &'a DVec2)> + ExactSizeIterator {
+    x[..=n].iter().zip(&p[..=n])
 }
