@@ -2,3 +2,4 @@
 
 mod reference_oracles;
 mod reference_trace;
+mod light_against_judge;
