@@ -1,3 +1,5 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
 mod scene_config;
 mod scene_files;
+mod scene_models;
+mod scene_sky;
