@@ -5,8 +5,10 @@ use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lensrunner::measure::project::{self, ProjectError};
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
@@ -19,6 +21,7 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Simulate(SimulateArgs),
+    Project(ProjectArgs),
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -43,31 +46,103 @@ struct SimulateArgs {
     output: Option<PathBuf>,
 }
 
+/// Says where points are seen: CSV r,phi,L on standard input, CSV r,phi,L,psi,delay,redshift on standard output.
+///
+/// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
+/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
+#[derive(Args)]
+struct ProjectArgs {
+    /// How the ray is found; exact is the closed form in f64.
+    #[arg(long, value_name = "NAME", default_value = "exact")]
+    method: String,
+    /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=3))]
+    order: u8,
+    /// The frame at the camera in which psi is measured.
+    #[arg(long, value_enum, default_value_t = FrameArg::Static)]
+    frame: FrameArg,
+    /// The sign of the photon's energy; matters only where camera and point are both inside the horizon.
+    #[arg(long, value_enum, default_value_t = BranchArg::Plus)]
+    branch: BranchArg,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FrameArg {
+    /// Hovering; exists only outside the horizon.
+    Static,
+    /// Falling from rest at infinity.
+    Rain,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum BranchArg {
+    Plus,
+    Minus,
+}
+
 fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Simulate(args) => run_simulate(&args),
+        Command::Project(args) => run_project(&args),
     }
 }
 
 fn run_simulate(args: &SimulateArgs) -> ExitCode {
-    let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
+    let request = simulate::Request {
+        until: args.until,
+        every: args.every,
+        seed: args.seed,
+    };
     let result = output(args.output.as_ref())
         .map_err(SimulateError::from)
         .and_then(|mut out| simulate::run(&args.scene, &request, &mut out, &mut io::stderr()));
     match result {
         Ok(_) => ExitCode::SUCCESS,
-        Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
         Err(error @ SimulateError::Input(_)) => fail(&error, 2),
         Err(error @ SimulateError::Io(_)) => fail(&error, 1),
+    }
+}
+
+fn run_project(args: &ProjectArgs) -> ExitCode {
+    let order = Order::new(args.order).expect("clap has checked the range");
+    let request = project::Request {
+        order,
+        frame: match args.frame {
+            FrameArg::Static => project::Frame::Static,
+            FrameArg::Rain => project::Frame::Rain,
+        },
+        branch: match args.branch {
+            BranchArg::Plus => Branch::Plus,
+            BranchArg::Minus => Branch::Minus,
+        },
+    };
+    let result = project::method(&args.method).and_then(|method| {
+        project::run(
+            &mut io::stdin().lock(),
+            &mut io::stdout().lock(),
+            method.as_ref(),
+            request,
+        )
+    });
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(error @ ProjectError::Io(_)) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
 }
 
 /// A buffered writer to `path`, or to standard output.
 fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
     Ok(match path {
-        Some(path) => Box::new(BufWriter::new(
-            File::create(path).map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?,
-        )),
+        Some(path) => Box::new(BufWriter::new(File::create(path).map_err(|error| {
+            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+        })?)),
         None => Box::new(BufWriter::new(io::stdout().lock())),
     })
 }

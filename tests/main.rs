@@ -3,3 +3,7 @@ mod scene_config;
 mod scene_files;
 mod scene_models;
 mod scene_sky;
+
+mod reference_oracles;
+mod reference_trace;
+mod light_against_judge;

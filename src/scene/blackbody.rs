@@ -5,14 +5,10 @@
 
 use std::sync::OnceLock;
 
-/// The temperature, in K, at which the luminance of [`blackbody_rgb`] is 1.
-pub const UNIT_TEMPERATURE: f64 = 6500.0;
-/// The lowest temperature of the table, in K; colder bodies are black to the eye.
-pub const TABLE_MIN: f64 = 500.0;
-/// The highest temperature of the table, in K; hotter ones keep its colour and their luminance grows as T (Rayleigh and Jeans).
-pub const TABLE_MAX: f64 = 1e6;
-/// Entries of the table for the GPU.
-pub const TABLE_SIZE: usize = 256;
+/// The temperature, in K, at which the luminance of [`blackbody_rgb`] is 1: that of the Sun (IAU 2015 Resolution B3).
+pub const UNIT_TEMPERATURE: f64 = 5772.0;
+/// The least a channel has of the colour's luminance in [`table`], where logarithms are kept: less does not show beside the others.
+const LEAST_CHANNEL: f64 = 1e-4;
 
 /// Second radiation constant hc/k in nm·K (CODATA 2018, exact).
 const C2: f64 = 1.438_776_877e7;
@@ -87,38 +83,29 @@ fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
     rgb.map(|channel| (channel - least) / (1.0 - least))
 }
 
-/// The table for the GPU, [`TABLE_SIZE`] entries evenly spaced in ln T from [`TABLE_MIN`] to [`TABLE_MAX`]: red, green and blue at
-/// luminance 1, and the natural logarithm of the luminance. Linear between entries, then colour times exp of the logarithm, stays
-/// within 0.6 % of [`blackbody_rgb`] in luminance.
-pub fn table() -> Vec<[f32; 4]> {
-    (0..TABLE_SIZE)
+/// The table for the GPU: `entries` (at least 2) evenly spaced in ln T from `coldest` to `hottest` (K), the natural logarithms of the
+/// channels of [`blackbody_rgb`] and a zero. Logarithms, because radiance spans many powers of ten; with 512 entries from 200 K to
+/// 2·10⁶ K linear interpolation is within 0.5 % from 300 K up.
+pub fn table(entries: usize, coldest: f32, hottest: f32) -> Vec<[f32; 4]> {
+    let span = (f64::from(hottest) / f64::from(coldest)).ln();
+    (0..entries)
         .map(|index| {
-            let temperature =
-                TABLE_MIN * (TABLE_MAX / TABLE_MIN).powf(index as f64 / (TABLE_SIZE - 1) as f64);
-            let [r, g, b] = blackbody_rgb(temperature);
-            let luminance = luminance([r, g, b]);
-            [r / luminance, g / luminance, b / luminance, luminance.ln()]
-                .map(|number| number as f32)
+            let temperature = f64::from(coldest) * (span * index as f64 / (entries.max(2) - 1) as f64).exp();
+            let rgb = blackbody_rgb(temperature);
+            let least = LEAST_CHANNEL * luminance(rgb);
+            let [r, g, b] = rgb.map(|channel| channel.max(least).max(f64::MIN_POSITIVE).ln() as f32);
+            [r, g, b, 0.0]
         })
         .collect()
 }
 
-/// What the GPU makes of the table at `temperature` (K): the twin of the shader's function.
-pub fn lookup(table: &[[f32; 4]], temperature: f32) -> [f32; 3] {
-    if temperature.is_nan() || temperature < TABLE_MIN as f32 || table.len() < 2 {
-        return [0.0; 3];
-    }
-    let last = (table.len() - 1) as f32;
-    let place = ((temperature / TABLE_MIN as f32).ln() / (TABLE_MAX / TABLE_MIN).ln() as f32
-        * last)
-        .min(last);
-    let index = (place as usize).min(table.len() - 2);
+/// What the shader makes of [`table`] at `temperature` (K); its ends hold beyond them.
+pub fn lookup(table: &[[f32; 4]], coldest: f32, hottest: f32, temperature: f32) -> [f32; 3] {
+    let last = table.len() - 1;
+    let place = (temperature.clamp(coldest, hottest) / coldest).ln() / (hottest / coldest).ln() * last as f32;
+    let index = (place as usize).min(last - 1);
     let part = place - index as f32;
-    let mix = |channel: usize| {
-        table[index][channel] + part * (table[index + 1][channel] - table[index][channel])
-    };
-    let luminance = mix(3).exp() * (temperature / TABLE_MAX as f32).max(1.0);
-    [mix(0) * luminance, mix(1) * luminance, mix(2) * luminance]
+    [0, 1, 2].map(|channel| (table[index][channel] + part * (table[index + 1][channel] - table[index][channel])).exp())
 }
 
 /// The luminance Y of a linear sRGB colour.
