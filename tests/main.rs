@@ -1,6 +1,8 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
 mod scene_config;
 mod scene_files;
+mod scene_models;
+mod scene_sky;
 
 mod reference_oracles;
 mod reference_trace;
