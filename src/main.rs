@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
@@ -27,8 +28,11 @@ enum Command {
 /// into rain axes through the pure boost of p. Rows by T, then in scene order.
 #[derive(Args)]
 struct SimulateArgs {
-    /// The scene file, TOML.
-    scene: PathBuf,
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    scene: String,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
     /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
     #[arg(long, value_name = "T")]
     until: Option<f64>,
@@ -50,16 +54,22 @@ fn main() -> ExitCode {
 }
 
 fn run_simulate(args: &SimulateArgs) -> ExitCode {
-    let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
-    let result = output(args.output.as_ref())
-        .map_err(SimulateError::from)
-        .and_then(|mut out| simulate::run(&args.scene, &request, &mut out, &mut io::stderr()));
-    match result {
-        Ok(_) => ExitCode::SUCCESS,
+    match simulate_scene(args) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error @ SimulateError::Input(_)) => fail(&error, 2),
         Err(error @ SimulateError::Io(_)) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
+}
+
+fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
+    let config = args.config.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
+    let scene = scene::load(&args.scene)?;
+    let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
+    request.check(&scene, &config)?;
+    let mut out = output(args.output.as_ref())?;
+    simulate::simulate(&scene, &config, &request, &mut out, &mut io::stderr())?;
+    Ok(())
 }
 
 /// A buffered writer to `path`, or to standard output.
