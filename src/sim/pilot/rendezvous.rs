@@ -1,6 +1,6 @@
-//! Zero-effort-miss shooting: where would both be if both coasted, and which thrust closes the gap in position and velocity?
+//! Zero-effort-miss shooting: where would both be if the one coasted and the other went on as it does, and which thrust closes the gap in position and velocity?
 //!
-//! With the miss z and the velocity difference v at the end of `go` (target minus own, both coasting in the real spacetime), the thrust of
+//! With the miss z and the velocity difference v at the end of `go` (target minus own, in the real spacetime), the thrust of
 //! least ∫a² is linear in time: from 6z/go² − 2v/go to 4v/go − 6z/go² (e.g. Ebrahimi, Bahrami, Roshanian, Acta Astronautica 62 (2008) 556).
 
 use glam::DVec3;
@@ -27,9 +27,9 @@ pub fn rendezvous(task: &Task) -> Option<DVec3> {
 fn meet(task: &Task, go: f64) -> Option<DVec3> {
     let h = go / STEPS as f64;
     let (mut own, mut other) = (task.own, task.other);
-    for _ in 0..STEPS {
+    for index in 0..STEPS {
         own = advance(&own, h, |_| DVec3::ZERO);
-        other = advance(&other, h, |_| DVec3::ZERO);
+        other = advance(&other, h, |at| task.other_burn.acceleration(at, index as f64 * h, h));
     }
     let miss = other.x - own.x;
     let drift = other.velocity() - own.velocity();
