@@ -41,6 +41,10 @@ impl Burn {
     pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
 }
 
+/// What an orbit that falls in costs, in r_s of distance per unit of E² over the barrier.
+const FALL: f64 = 20.0;
+/// The fuel, in c, with which a pilot stops risking such orbits.
+pub const RESERVE: f64 = 1.0;
 /// What leaving the arena costs, in r_s of distance per unit of energy.
 const UNBOUND: f64 = 200.0;
 
@@ -155,10 +159,24 @@ fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
     let unbound = if task.aim == Aim::Escape { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
     danger
         + unbound
+        + fall_risk(&own, task.fuel - spent)
         + match task.aim {
             Aim::Catch => nearest + 0.15 * end + 0.1 * spent + penalty,
             Aim::Escape => -nearest - 0.3 * mean - 0.3 * end.min(12.0) + 0.05 * spent + penalty,
         }
+}
+
+/// What it costs to be on an orbit that leads down to [`SAFE_RADIUS`]: some while there is fuel to leave it, nearly all when there is not.
+pub fn fall_risk(own: &Point, fuel_left: f64) -> f64 {
+    let energy = own.energy();
+    let barrier = (1.0 - 1.0 / SAFE_RADIUS) * (1.0 + own.x.cross(own.p).length_squared() / (SAFE_RADIUS * SAFE_RADIUS));
+    let leaves = energy >= 1.0 && own.x.dot(own.velocity()) > 0.0;
+    let lacking = energy * energy - barrier;
+    if leaves || lacking < 0.0 {
+        0.0
+    } else {
+        lacking * FALL + if fuel_left < RESERVE { 500.0 } else { 0.0 }
+    }
 }
 
 /// How one who flees reckons the hunter: it thrusts towards the prey and brakes its sideways drift, but not into the hole.
