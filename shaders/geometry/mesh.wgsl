@@ -171,7 +171,7 @@ fn finished(placement: Placement, index: u32, triangle: ModelTriangle, corner: v
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     let u = v0.position.w * corner.x + v1.position.w * corner.y + v2.position.w * corner.z;
     var vertex = seen_vertex(placement, index, ray, offset, normal_of(placement, normal.xyz), vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
-    if !ray.valid || !finite(ray.apparent) {
+    if !ray.valid || !finite_vector(ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);
     }

@@ -126,7 +126,7 @@ fn edge_error(placement: Placement, triangle: ModelTriangle, from_corner: vec3<f
 fn fan_sight(apex: vec3<f32>, outer: vec3<f32>, s: f32, order: u32) -> Sight {
     let parts = split_offset(outer);
     let offset = apex + (outer - apex) * s;
-    return sight(offset, dot(offset, frame.radial.xyz), parts.across * s, parts.side, order);
+    return sight(dot(offset, frame.radial.xyz), parts.across * s, parts.side, order);
 }
 
 /// Error of a radial side of a fan.

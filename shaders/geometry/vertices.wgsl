@@ -23,8 +23,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if on_axis {
         parts.across = 0.0;
     }
-    let ray = sight(offset, parts.along, parts.across, parts.side, order);
-    let ok = ray.valid && finite(ray.apparent);
+    let ray = sight(parts.along, parts.across, parts.side, order);
+    let ok = ray.valid && finite_vector(ray.apparent);
     if ray.valid && !ok {
         atomicAdd(&counters.caught, 1u);
     }
