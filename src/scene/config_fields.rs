@@ -108,7 +108,7 @@ config! {
     /// How time runs.
     clock: Clock {
         pace: f64 = 1.5, number(0.01, 50.0), "r_s/c per second", "game time T that passes in a second before the screen";
-        step: f64 = 0.01, number(0.0005, 0.05), "r_s/c", "fixed step of the simulation";
+        step: f64 = 0.03125, number(0.0005, 0.5), "r_s/c", "fixed step of the simulation";
         max_steps: u32 = 200u32, integer(1, 10000), "steps", "most steps in one frame; beyond it the game slows down";
     }
     /// The picture.

@@ -12,9 +12,9 @@
 //! ai = "none"                      # or "flee", "pursue"
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
 //! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
-//! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); without end if absent
+//! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
-//! player = true                    # flown from the keyboard when there is one
+//! player = true                    # flown from the keyboard when there is one, else by its AI
 //! model = "ships/quarry.glb"
 //! ```
 //! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos χ),
