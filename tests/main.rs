@@ -1,1 +1,3 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
+
+mod spacetime_light;
