@@ -7,3 +7,5 @@ mod scene_sky;
 mod reference_oracles;
 mod reference_trace;
 mod light_against_judge;
+
+mod spacetime_light;
