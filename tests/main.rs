@@ -1,3 +1,6 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
 mod scene_config;
 mod scene_files;
+mod sim_chase;
+mod sim_simulate;
+mod spacetime_matter;

@@ -218,7 +218,7 @@ fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
                     format!("position = {x:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.length()),
                 );
             }
-            if !(p.length() <= MAX_START_MOMENTUM) {
+            if !(0.0..=MAX_START_MOMENTUM).contains(&p.length()) {
                 return fault(momentum, format!("momentum = {p:?} must be finite and at most {MAX_START_MOMENTUM:e} c"));
             }
             Ok(ShipState::new(x, p))
@@ -273,7 +273,7 @@ fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
             return fault(&entry.until, format!("until = {until} must be later than from = {from}"));
         }
         let acceleration = DVec3::from_array(*entry.acceleration.get_ref());
-        if !(acceleration.length() <= MAX_ACCELERATION) {
+        if !(0.0..=MAX_ACCELERATION).contains(&acceleration.length()) {
             return fault(
                 &entry.acceleration,
                 format!("acceleration = {acceleration:?} must be finite and at most {MAX_ACCELERATION} c²/r_s"),
