@@ -5,21 +5,58 @@ use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use lensrunner::lensing::command::{self as bake, BakeArgs};
+use lensrunner::measure::project::{self, ProjectError};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
 #[command(version, about)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
 enum Command {
+    #[cfg(feature = "game")]
+    Play(lensrunner::play::PlayArgs),
+    #[cfg(feature = "game")]
+    Shot(ShotArgs),
+    /// Bakes a lensing table and measures its error.
+    Bake(BakeArgs),
+    Project(ProjectArgs),
     Simulate(SimulateArgs),
+}
+
+/// Draws one picture of a scene, without a window.
+///
+/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
+/// frequency.ratio (g = ν_observed/ν_emitted) of the nearest surface.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct ShotArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// Adds object id, image order, travel time and g to an .exr.
+    #[arg(long)]
+    layers: bool,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The picture: .png or .exr.
+    #[arg(short, value_name = "FILE")]
+    output: PathBuf,
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -47,9 +84,67 @@ struct SimulateArgs {
     output: Option<PathBuf>,
 }
 
+/// Says where points are seen: CSV r,phi,L on standard input, CSV r,phi,L,psi,delay,redshift on standard output.
+///
+/// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
+/// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
+#[derive(Args)]
+struct ProjectArgs {
+    /// How the ray is found; exact is the closed form in f64.
+    #[arg(long, value_name = "NAME", default_value = "exact")]
+    method: String,
+    /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=3))]
+    order: u8,
+    /// The frame at the camera in which psi is measured.
+    #[arg(long, value_enum, default_value_t = FrameArg::Static)]
+    frame: FrameArg,
+    /// The sign of the photon's energy; matters only where camera and point are both inside the horizon.
+    #[arg(long, value_enum, default_value_t = BranchArg::Plus)]
+    branch: BranchArg,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FrameArg {
+    /// Hovering; exists only outside the horizon.
+    Static,
+    /// Falling from rest at infinity.
+    Rain,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum BranchArg {
+    Plus,
+    Minus,
+}
+
 fn main() -> ExitCode {
     match Cli::parse().command {
-        Command::Simulate(args) => run_simulate(&args),
+        #[cfg(feature = "game")]
+        None => lensrunner::play::run(&lensrunner::play::PlayArgs::default()),
+        #[cfg(not(feature = "game"))]
+        None => fail(&"this build has no renderer: choose a subcommand (--help lists them)", 2),
+        #[cfg(feature = "game")]
+        Some(Command::Play(args)) => lensrunner::play::run(&args),
+        #[cfg(feature = "game")]
+        Some(Command::Shot(args)) => run_shot(&args),
+        Some(Command::Bake(args)) => match bake::run(&args) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, 1),
+        },
+        Some(Command::Project(args)) => run_project(&args),
+        Some(Command::Simulate(args)) => run_simulate(&args),
+    }
+}
+
+#[cfg(feature = "game")]
+fn run_shot(args: &ShotArgs) -> ExitCode {
+    use lensrunner::render::shot::{Request, ShotError, shot_to_file};
+    let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
+    match shot_to_file(&request, args.config.as_deref(), &args.output) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error @ (ShotError::Device(_) | ShotError::Picture(_))) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
 }
 
@@ -72,17 +167,39 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     Ok(())
 }
 
-/// A buffered writer to `path`, or to standard output.
+fn run_project(args: &ProjectArgs) -> ExitCode {
+    let order = Order::new(args.order).expect("clap has checked the range");
+    let request = project::Request {
+        order,
+        frame: match args.frame {
+            FrameArg::Static => project::Frame::Static,
+            FrameArg::Rain => project::Frame::Rain,
+        },
+        branch: match args.branch {
+            BranchArg::Plus => Branch::Plus,
+            BranchArg::Minus => Branch::Minus,
+        },
+    };
+    let result = project::method(&args.method)
+        .and_then(|method| project::run(&mut io::stdin().lock(), &mut io::stdout().lock(), method.as_ref(), request));
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error @ ProjectError::Io(_)) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
+    }
+}
+
 fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
     Ok(match path {
         Some(path) => Box::new(BufWriter::new(
             File::create(path).map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?,
         )),
-        None => Box::new(BufWriter::new(io::stdout().lock())),
+        None => Box::new(BufWriter::new(io::stdout())),
     })
 }
 
-fn fail(error: &dyn std::error::Error, code: u8) -> ExitCode {
-    eprintln!("lensrunner: {error}");
+fn fail(error: &dyn std::fmt::Display, code: u8) -> ExitCode {
+    eprintln!("error: {error}");
     ExitCode::from(code)
 }

@@ -4,3 +4,9 @@ mod scene_files;
 mod sim_chase;
 mod sim_simulate;
 mod spacetime_matter;
+mod scene_models;
+mod scene_sky;
+
+mod reference_oracles;
+mod reference_trace;
+mod light_against_judge;

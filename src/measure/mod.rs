@@ -1,1 +1,3 @@
-//! See the map of the house in docs/architecture.md.
+//! Instruments: what the methods of the game give for the same question.
+
+pub mod project;

@@ -3,6 +3,7 @@
 //! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
 pub mod assembly;
+pub mod blackbody;
 pub mod camera;
 pub mod config;
 mod config_fields;
@@ -10,6 +11,7 @@ mod document;
 pub mod error;
 pub mod import;
 mod load;
+pub mod milky_way;
 pub mod model;
 pub mod planet;
 pub mod prop;
@@ -17,6 +19,7 @@ pub mod rules;
 mod setting;
 pub mod shapes;
 pub mod ship;
+pub mod stars;
 pub mod texture;
 
 pub use assembly::{Assembly, Body, Object};

@@ -28,6 +28,7 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::setting::range_text;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
@@ -300,9 +301,7 @@ pub(crate) fn in_range(value: &Spanned<f64>, key: &str, range: std::ops::RangeIn
     if range.contains(&x) && x.is_finite() {
         return Ok(x);
     }
-    let (low, high) = (range.start(), range.end());
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    fault(value, format!("{key} = {x} must be from {low} to {high:e}{unit}"))
+    fault(value, format!("{key} = {x} must be from {}", range_text(*range.start(), *range.end(), unit)))
 }
 
 fn optional(value: &Option<Spanned<f64>>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<Option<f64>, Fault> {

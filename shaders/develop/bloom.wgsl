@@ -1,0 +1,35 @@
+// Bloom: the picture halved a few times, then added up again. The first halving also lays the thin triangles over the picture.
+
+@group(2) @binding(0) var source: texture_2d<f32>;
+@group(2) @binding(1) var linear_sampler: sampler;
+
+struct Screen {
+    @builtin(position) position: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) i: u32) -> Screen {
+    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
+    return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
+}
+
+/// Four bilinear taps: a 4 × 4 tent over the finer level.
+@fragment
+fn down(in: Screen) -> @location(0) vec4<f32> {
+    let d = 1.0 / vec2<f32>(textureDimensions(source));
+    return 0.25 * (textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, -1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, -1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, 1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0));
+}
+
+/// The coarser level, smoothed; blending adds it to the finer one.
+@fragment
+fn up(in: Screen) -> @location(0) vec4<f32> {
+    let d = 0.5 / vec2<f32>(textureDimensions(source));
+    return 0.25 * (textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, -1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, -1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, 1.0), 0.0)
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0));
+}

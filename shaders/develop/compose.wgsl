@@ -1,0 +1,18 @@
+// Lays the sum of the thin triangles over the picture, once: premultiplied colour, with coverage held at one.
+
+@group(2) @binding(0) var source: texture_2d<f32>;
+
+@vertex
+fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
+    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
+    return vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0);
+}
+
+@fragment
+fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let sum = textureLoad(source, vec2<i32>(position.xy), 0);
+    if sum.a <= 0.0 {
+        discard;
+    }
+    return vec4<f32>(sum.rgb / max(sum.a, 1.0), min(sum.a, 1.0));
+}

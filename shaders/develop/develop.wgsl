@@ -1,0 +1,39 @@
+// Develop: exposure, bloom, tone curve. The target encodes sRGB.
+
+@group(2) @binding(0) var picture: texture_2d<f32>;
+@group(2) @binding(1) var linear_sampler: sampler;
+@group(2) @binding(2) var bloom: texture_2d<f32>;
+
+struct Screen {
+    @builtin(position) position: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) i: u32) -> Screen {
+    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
+    return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
+}
+
+/// A filmic curve: straight in the dark, a soft shoulder that reaches white at about ten times middle grey; colours lose their hue only
+/// as they come near to white.
+fn tone_curve(x: vec3<f32>) -> vec3<f32> {
+    let peak = max(x.r, max(x.g, x.b));
+    if peak <= 0.0 {
+        return vec3<f32>(0.0);
+    }
+    let mapped = 1.0 - exp(-peak);
+    let hue = x / peak;
+    let bleach = smoothstep(0.6, 1.0, mapped);
+    return mix(hue * mapped, vec3<f32>(1.0) - (vec3<f32>(1.0) - hue * mapped) * (1.0 - bleach), vec3<f32>(bleach));
+}
+
+@fragment
+fn fragment(in: Screen) -> @location(0) vec4<f32> {
+    let light = textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb;
+    let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
+    let exposed = (light + glow * frame.light.w) * adaptation.x * frame.light.x;
+    // Half a step of 8-bit noise against banding in the dark.
+    let noise = fract(52.9829189 * fract(dot(in.position.xy, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
+    return vec4<f32>(max(tone_curve(exposed) + noise / 1024.0, vec3<f32>(0.0)), 1.0);
+}

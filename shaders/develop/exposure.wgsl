@@ -1,0 +1,41 @@
+// Exposure: one workgroup looks at a coarse level of the bloom chain and moves the exposure towards what shows it well.
+
+@group(2) @binding(0) var source: texture_2d<f32>;
+
+var<workgroup> sums: array<vec2<f32>, 64>;
+
+/// Middle grey that the metered light is brought to.
+const KEY: f32 = 0.35;
+
+@compute @workgroup_size(64)
+fn main(@builtin(local_invocation_index) lane: u32) {
+    let size = textureDimensions(source);
+    var sum = vec2<f32>(0.0);
+    for (var k = lane; k < size.x * size.y; k += 64u) {
+        let light = luminance(textureLoad(source, vec2<u32>(k % size.x, k / size.x), 0).rgb);
+        // Weighted by itself: what shines is metered, not the black between.
+        if light > 0.0 && light < 1e5 {
+            sum += vec2<f32>(light * light, light);
+        }
+    }
+    sums[lane] = sum;
+    workgroupBarrier();
+    if lane == 0u {
+        var total = vec2<f32>(0.0);
+        for (var k = 0u; k < 64u; k++) {
+            total += sums[k];
+        }
+        let metered = total.x / max(total.y, 1e-9);
+        let wanted = clamp(KEY / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
+        var exposure = adaptation.x;
+        if (frame.switches.x & FLAG_HOLD_EXPOSURE) == 0u {
+            if adaptation.z == 0.0 {
+                exposure = wanted;
+            } else {
+                // In stops, as the eye does it.
+                exposure = exp(mix(log(max(exposure, 1e-12)), log(wanted), frame.exposure.z));
+            }
+        }
+        adaptation = vec4<f32>(exposure, metered, 1.0, 0.0);
+    }
+}

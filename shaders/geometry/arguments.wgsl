@@ -1,0 +1,40 @@
+// Between the stages: one thread that turns counts into indirect arguments. They lie in a group of their own, because a buffer cannot be
+// written and drive a dispatch at once.
+
+@group(2) @binding(0) var<storage, read_write> arguments: Arguments;
+
+/// Indirect arguments, one row of four words each (an indexed draw takes two).
+struct Arguments {
+    refine: vec4<u32>,
+    mesh: vec4<u32>,
+    opaque: vec4<u32>,
+    opaque_rest: vec4<u32>,
+    thin: vec4<u32>,
+}
+
+
+/// Before each pass of splitting: takes up the queue that was filled, and empties the other.
+@compute @workgroup_size(1)
+fn next_pieces() {
+    let filled = 1u - counters.turn;
+    counters.turn = filled;
+    let count = min(atomicLoad(&counters.pieces[filled]), frame.capacity.z);
+    atomicStore(&counters.pieces[1u - filled], 0u);
+    arguments.refine = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
+}
+
+/// After the last: the mesh stage and the draws.
+@compute @workgroup_size(1)
+fn finish() {
+    let items = min(atomicLoad(&counters.work), frame.capacity.z);
+    // Two dimensions: one holds 65,535 groups at most.
+    arguments.mesh = vec4<u32>(min(items, 32768u), (items + 32767u) / 32768u, 1u, 0u);
+    arguments.opaque = vec4<u32>(min(atomicLoad(&counters.indices), frame.capacity.y), 1u, 0u, 0u);
+}
+
+/// After the mesh stage, which may add thin triangles.
+@compute @workgroup_size(1)
+fn finish_thin() {
+    arguments.opaque_rest = vec4<u32>(0u, 0u, 0u, 0u);
+    arguments.thin = vec4<u32>(min(atomicLoad(&counters.thin), frame.capacity.w), 1u, 0u, 0u);
+}

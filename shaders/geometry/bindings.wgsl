@@ -1,0 +1,52 @@
+// Group 1: what the stages of geometry hand to each other. The order is that of the frame.
+
+@group(1) @binding(0) var<storage, read> placements: array<Placement>;
+@group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
+@group(1) @binding(2) var<storage, read> model_edges: array<vec2<u32>>;
+@group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
+/// Chunks of 64 threads of one placement, filled up to the size of the dispatch with NO_PLACEMENT.
+@group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
+@group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
+/// Offset from the camera at emission (rain axes) of each model vertex; w: VERTEX_*.
+@group(1) @binding(6) var<storage, read_write> emitted: array<vec4<f32>>;
+/// x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction, w: error in radians.
+@group(1) @binding(7) var<storage, read_write> edge_states: array<vec4<f32>>;
+/// Two queues of `capacity.z` pieces each: one is split into the other.
+@group(1) @binding(8) var<storage, read_write> pieces: array<Piece>;
+@group(1) @binding(9) var<storage, read_write> work: array<WorkItem>;
+@group(1) @binding(10) var<storage, read_write> indices: array<u32>;
+@group(1) @binding(11) var<storage, read_write> thin: array<ThinVertex>;
+@group(1) @binding(12) var<storage, read_write> counters: Counters;
+
+struct ThinVertex {
+    /// Clip position, grown to at least a pixel.
+    position: vec4<f32>,
+    /// x: seen vertex (bits of a u32), y: coverage, the part of that pixel that is truly covered.
+    data: vec4<f32>,
+}
+
+struct Counters {
+    vertices: atomic<u32>,
+    indices: atomic<u32>,
+    work: atomic<u32>,
+    thin: atomic<u32>,
+    /// Lengths of the two queues of pieces, and which one is read now.
+    pieces: array<atomic<u32>, 2>,
+    turn: u32,
+    /// Patches drawn coarser than asked because a buffer was full or the splitting too deep.
+    coarse: atomic<u32>,
+    /// Triangles cut at the axis.
+    cut: atomic<u32>,
+    /// Results that were not finite, caught.
+    caught: atomic<u32>,
+    unused: array<u32, 2>,
+}
+
+const NO_PLACEMENT: u32 = 0xffffffffu;
+
+const VERTEX_PLAIN: f32 = 0.0;
+const VERTEX_ON_AXIS: f32 = 1.0;
+const VERTEX_UNSEEN: f32 = -1.0;
+
+const EDGE_CUT: u32 = 1u;
+const EDGE_UNSEEN: u32 = 2u;

@@ -1,0 +1,45 @@
+// The rasteriser's part: opaque triangles with depth, then thin ones, summed with their coverage.
+
+@vertex
+fn opaque_vertex(@builtin(vertex_index) index: u32) -> Surface {
+    let vertex = seen[index];
+    return surface_of(vertex, clip_position(vertex.apparent.xyz), 1.0);
+}
+
+@fragment
+fn opaque_fragment(in: Surface) -> @location(0) vec4<f32> {
+    if hidden(in) {
+        discard;
+    }
+    return vec4<f32>(shaded(in), 1.0);
+}
+
+/// For comparing pictures: object id, image order, travel time and g.
+@fragment
+fn layers_fragment(in: Surface) -> @location(0) vec4<f32> {
+    if hidden(in) {
+        discard;
+    }
+    let ids = placements[in.which.x].ids;
+    return vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w);
+}
+
+@vertex
+fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
+    let corner = thin[index];
+    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y);
+}
+
+/// Colour times coverage, and coverage: both are added, and the sum is laid over the picture once. The order does not matter.
+@fragment
+fn thin_fragment(in: Surface) -> @location(0) vec4<f32> {
+    if hidden(in) {
+        discard;
+    }
+    return vec4<f32>(shaded(in) * in.coverage, in.coverage);
+}
+
+/// Geometry inside the horizon is not seen from outside.
+fn hidden(in: Surface) -> bool {
+    return in.leaving.w < 1.0 && (frame.switches.x & FLAG_INSIDE) == 0u;
+}

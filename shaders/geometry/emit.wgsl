@@ -1,0 +1,146 @@
+// How a stage hands over: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is held inside its buffer.
+
+/// A triangle of seen vertices that is to be drawn. Its height on the screen decides how: at least a pixel, as it is; less, as a thin
+/// triangle grown to a pixel, with the covered part as alpha, so that narrow images are lines and not dots.
+fn thin_coverage(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
+    let a = p1 - p0;
+    let b = p2 - p0;
+    let area = abs(a.x * b.y - a.y * b.x);
+    let longest = sqrt(max(dot(a, a), max(dot(b, b), dot(b - a, b - a))));
+    return area / max(longest, 1e-6);
+}
+
+fn pixels(clip: vec4<f32>) -> vec2<f32> {
+    return clip.xy / clip.w * 0.5 * frame.size.xy;
+}
+
+/// Grows a thin triangle: every corner moves away from the centroid until no half-width is under half a pixel.
+fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, length_along: f32) -> vec2<f32> {
+    let across = vec2<f32>(-direction.y, direction.x);
+    let v = p - centre;
+    let along_part = dot(v, direction) * max(1.0, 1.0 / max(length_along, 0.05));
+    let across_part = dot(v, across) * min(1.0 / max(height, 1e-3), 1e3);
+    return centre + direction * along_part + across * across_part;
+}
+
+/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye).
+fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
+    let c0 = clip_position(seen[i0].apparent.xyz);
+    let c1 = clip_position(seen[i1].apparent.xyz);
+    let c2 = clip_position(seen[i2].apparent.xyz);
+    let near = frame.projection.z;
+    if c0.w < near || c1.w < near || c2.w < near {
+        return false;
+    }
+    let p0 = pixels(c0);
+    let p1 = pixels(c1);
+    let p2 = pixels(c2);
+    let height = thin_coverage(p0, p1, p2);
+    if height >= 1.0 {
+        return false;
+    }
+    // Coverage adds up to the truth only if each line of sight meets one layer: back faces are left out.
+    let facing = dot(seen[i0].normal.xyz, seen[i0].leaving.xyz) + dot(seen[i1].normal.xyz, seen[i1].leaving.xyz)
+        + dot(seen[i2].normal.xyz, seen[i2].leaving.xyz);
+    if !two_sided && facing < 0.0 {
+        return true;
+    }
+    let a = p1 - p0;
+    let b = p2 - p1;
+    let c = p0 - p2;
+    var direction = a;
+    if dot(b, b) > dot(direction, direction) { direction = b; }
+    if dot(c, c) > dot(direction, direction) { direction = c; }
+    let along = length(direction);
+    if along < 1e-4 {
+        return true;
+    }
+    direction = direction / along;
+    let coverage = max(height, 1e-3) * min(along, 1.0);
+    let slot = atomicAdd(&counters.thin, 3u);
+    if slot + 3u > frame.capacity.w {
+        atomicSub(&counters.thin, 3u);
+        return false;
+    }
+    let centre = (p0 + p1 + p2) / 3.0;
+    let scale = 2.0 / frame.size.xy;
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, height, along) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, 0.0, 0.0));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, height, along) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, 0.0, 0.0));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, height, along) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, 0.0, 0.0));
+    return true;
+}
+
+/// Draws three seen vertices as they are.
+fn emit_triangle(i0: u32, i1: u32, i2: u32, two_sided: bool) {
+    if emit_thin(i0, i1, i2, two_sided) {
+        return;
+    }
+    let slot = atomicAdd(&counters.indices, 3u);
+    if slot + 3u > frame.capacity.y {
+        atomicSub(&counters.indices, 3u);
+        atomicAdd(&counters.coarse, 1u);
+        return;
+    }
+    indices[slot] = i0;
+    indices[slot + 1u] = i1;
+    indices[slot + 2u] = i2;
+}
+
+/// Hands a tame piece to the mesh stage: its blocks are allocated here, so that a full buffer is noticed while a coarser way is left.
+fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) -> bool {
+    let fan = piece.what.z == PIECE_FAN;
+    var row = 0u;
+    loop {
+        if row >= rows { break; }
+        var column = 0u;
+        loop {
+            if column >= columns { break; }
+            let h = min(BLOCK, rows - row);
+            let w = min(BLOCK, columns - column);
+            let vertex_count = select((h + 1u) * (h + 2u) / 2u, (h + 1u) * (w + 1u), fan);
+            let triangle_count = select(h * h, 2u * h * w, fan);
+            let slot = atomicAdd(&counters.work, 1u);
+            let first_vertex = atomicAdd(&counters.vertices, vertex_count);
+            let first_index = atomicAdd(&counters.indices, 3u * triangle_count);
+            if slot >= frame.capacity.z || first_vertex + vertex_count > frame.capacity.x || first_index + 3u * triangle_count > frame.capacity.y {
+                // Given back, so that the counts stay inside the buffers.
+                atomicSub(&counters.work, 1u);
+                atomicSub(&counters.vertices, vertex_count);
+                atomicSub(&counters.indices, 3u * triangle_count);
+                atomicAdd(&counters.coarse, 1u);
+                return false;
+            }
+            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, triangle_count));
+            column += BLOCK;
+        }
+        row += BLOCK;
+    }
+    return true;
+}
+
+/// Puts a piece into the queue that the next pass of splitting reads.
+fn emit_piece(queue: u32, placement: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
+    let slot = atomicAdd(&counters.pieces[queue], 1u);
+    if slot >= frame.capacity.z {
+        atomicSub(&counters.pieces[queue], 1u);
+        atomicAdd(&counters.coarse, 1u);
+        return;
+    }
+    pieces[queue * frame.capacity.z + slot] = Piece(vec4<u32>(placement, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
+}
+
+/// Whether a patch with these corners is off the screen for sure: all beyond one side by more than its sag.
+fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
+    let fx = frame.projection.x;
+    let fy = frame.projection.y;
+    let sx = inverseSqrt(1.0 + fx * fx);
+    let sy = inverseSqrt(1.0 + fy * fy);
+    // A third more than the measured error: the curve may bulge most between the places where it was measured.
+    let sag = min(1.34 * error, 3.0);
+    let margin = vec3<f32>(length(a), length(b), length(c)) * sag;
+    let x = vec3<f32>(a.x, b.x, c.x);
+    let y = vec3<f32>(a.y, b.y, c.y);
+    let z = -vec3<f32>(a.z, b.z, c.z);
+    return all((z - x * fx) * sx < -margin) || all((z + x * fx) * sx < -margin)
+        || all((z - y * fy) * sy < -margin) || all((z + y * fy) * sy < -margin);
+}

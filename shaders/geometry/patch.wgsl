@@ -1,0 +1,145 @@
+// What the stages after the vertices share: the axis, the error of an edge, points of a patch.
+
+/// Deepest splitting. An edge passes the axis no nearer than a tenth of a pixel (else it is cut there), so 2^10 parts of up to 8 segments
+/// resolve it on a screen of 800 pixels' radius.
+const DEEPEST: u32 = 10u;
+/// Cells of a block of the mesh stage; an edge that needs more segments is split.
+const BLOCK: u32 = 8u;
+
+fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
+    return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
+}
+
+/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of a static observer there: γβ outward.
+fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
+    if (placement.triangles.w & PLACEMENT_HELD) == 0u {
+        return placement.momentum;
+    }
+    let r = max(length(position), 1.0005);
+    let gamma = inverseSqrt(1.0 - 1.0 / r);
+    return vec4<f32>(position * (gamma / (r * sqrt(r))), gamma);
+}
+
+fn seen_vertex(placement: Placement, index: u32, ray: Sight, offset: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
+    var vertex: SeenVertex;
+    vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
+    let position = frame.radial.xyz * frame.radial.w + offset;
+    let momentum = momentum_at(placement, position);
+    vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
+    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(position));
+    vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
+    return vertex;
+}
+
+/// Whether the axis is an edge of the image of this order: behind the hole (φ = π) always, on the near side (φ = 0) from order 2 on.
+/// `along` is the offset from the camera along the outward radial.
+fn axis_matters(along: f32, order: u32) -> bool {
+    return frame.radial.w + along < 0.0 || order >= 2u;
+}
+
+/// Nearer than this to the axis (a tenth of a pixel) is on it. The same rule for vertices and edges, so that neighbours agree.
+fn axis_tolerance(offset: vec3<f32>) -> f32 {
+    return 0.1 * frame.size.z * length(offset);
+}
+
+fn across_plane(offset: vec3<f32>) -> vec2<f32> {
+    return vec2<f32>(dot(offset, frame.side_a.xyz), dot(offset, frame.side_b.xyz));
+}
+
+fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    return atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// The level that brings the error of a chord under the budget: the error falls as the square of the number of segments.
+fn level_for(error: f32) -> u32 {
+    let n = ceil(sqrt(error / frame.size.w));
+    // Not-a-number compares false.
+    if n > 1.0 {
+        return u32(min(n, 4096.0));
+    }
+    return 1u;
+}
+
+/// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.
+fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>) -> f32 {
+    let e1 = angle_between(quarter, mix(a, b, vec3<f32>(0.25)));
+    let e2 = angle_between(middle, mix(a, b, vec3<f32>(0.5)));
+    let e3 = angle_between(three_quarters, mix(a, b, vec3<f32>(0.75)));
+    return max(e2, max(e1, e3));
+}
+
+/// The body point of barycentric coordinates in a model triangle.
+fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
+    let first = placement.vertices.x;
+    return model_vertices[first + triangle.vertices.x].position.xyz * corner.x
+        + model_vertices[first + triangle.vertices.y].position.xyz * corner.y
+        + model_vertices[first + triangle.vertices.z].position.xyz * corner.z;
+}
+
+/// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.
+fn comes_first(a: vec3<f32>, b: vec3<f32>) -> bool {
+    if a.x != b.x {
+        return a.x > b.x;
+    }
+    if a.y != b.y {
+        return a.y > b.y;
+    }
+    return a.z >= b.z;
+}
+
+/// The point at fraction t from a to b, the same bits whichever end is called a.
+fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
+    if comes_first(a, b) {
+        return a + (b - a) * t;
+    }
+    return b + (a - b) * (1.0 - t);
+}
+
+/// Offset from the camera of a body point at its own emission time.
+fn emitted_offset(placement: Placement, body: vec3<f32>, order: u32) -> vec3<f32> {
+    return offset_at(placement, body, emission_shift(placement, body, order));
+}
+
+fn apparent_corner(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
+    let body = body_point(placement, triangle, corner);
+    return sight_at(emitted_offset(placement, body, placement.ids.x), placement.ids.x).apparent;
+}
+
+/// Error in radians of replacing the seen curve between two corners by a chord.
+fn edge_error(placement: Placement, triangle: ModelTriangle, from_corner: vec3<f32>, to_corner: vec3<f32>) -> f32 {
+    var a = from_corner;
+    var b = to_corner;
+    if !comes_first(a, b) {
+        a = to_corner;
+        b = from_corner;
+    }
+    return chord_error(
+        apparent_corner(placement, triangle, a),
+        apparent_corner(placement, triangle, a + (b - a) * 0.25),
+        apparent_corner(placement, triangle, a + (b - a) * 0.5),
+        apparent_corner(placement, triangle, a + (b - a) * 0.75),
+        apparent_corner(placement, triangle, b));
+}
+
+/// A point of the fan round the axis: `outer` is an offset of its outer edge, `apex` the offset of the axis point, `s` runs from the
+/// axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis itself.
+fn fan_sight(apex: vec3<f32>, outer: vec3<f32>, s: f32, order: u32) -> Sight {
+    let parts = split_offset(outer);
+    let offset = apex + (outer - apex) * s;
+    return sight(dot(offset, frame.radial.xyz), parts.across * s, parts.side, order);
+}
+
+/// Error of a radial side of a fan.
+fn radial_error(apex: vec3<f32>, outer: vec3<f32>, order: u32) -> f32 {
+    return chord_error(
+        fan_sight(apex, outer, 0.0, order).apparent,
+        fan_sight(apex, outer, 0.25, order).apparent,
+        fan_sight(apex, outer, 0.5, order).apparent,
+        fan_sight(apex, outer, 0.75, order).apparent,
+        fan_sight(apex, outer, 1.0, order).apparent);
+}
+
+/// The offset of the axis point: on the axis exactly, at the height of the barycentric point.
+fn apex_offset(offset: vec3<f32>) -> vec3<f32> {
+    return frame.radial.xyz * dot(offset, frame.radial.xyz);
+}

@@ -1,0 +1,80 @@
+// What a surface sends to the camera.
+
+@group(2) @binding(0) var<storage, read> placements: array<Placement>;
+@group(2) @binding(1) var<storage, read> seen: array<SeenVertex>;
+@group(2) @binding(2) var<storage, read> materials: array<Material>;
+@group(2) @binding(3) var surface_textures: texture_2d_array<f32>;
+@group(2) @binding(4) var surface_sampler: sampler;
+@group(2) @binding(5) var<storage, read> thin: array<ThinVertex>;
+
+struct ThinVertex {
+    position: vec4<f32>,
+    data: vec4<f32>,
+}
+
+struct Surface {
+    @builtin(position) position: vec4<f32>,
+    @location(0) normal: vec4<f32>,
+    @location(1) leaving: vec4<f32>,
+    @location(2) uv: vec3<f32>,
+    @location(3) coverage: f32,
+    @location(4) @interpolate(flat) which: vec2<u32>,
+}
+
+fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
+    return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage,
+        vec2<u32>(bitcast<u32>(vertex.surface.z), bitcast<u32>(vertex.surface.w)));
+}
+
+fn shaded(in: Surface) -> vec3<f32> {
+    let placement = placements[in.which.x];
+    let material = materials[in.which.y];
+    var base = material.base.rgb;
+    var emitted = material.emissive.rgb;
+    // Derivatives are taken where all pixels pass.
+    let dx = dpdx(in.uv.xy);
+    let dy = dpdy(in.uv.xy);
+    if material.surface.y >= 0.0 {
+        let texel = textureSampleGrad(surface_textures, surface_sampler, in.uv.xy, i32(material.surface.y), dx, dy).rgb;
+        base *= texel;
+        emitted *= texel;
+    }
+    let leaving = normalize(in.leaving.xyz);
+    var n = normalize(in.normal.xyz);
+    if dot(n, leaving) < 0.0 {
+        n = -n;
+    }
+    let light = irradiance(placement, n);
+    let metallic = material.surface.x;
+    let roughness = max(material.emissive.w, 0.08);
+    var colour = emitted + base * light * (1.0 - metallic);
+    // What a glossy surface mirrors: the surroundings in the mirrored direction, sharpened towards the side the light comes from.
+    let mirrored = reflect(-leaving, n);
+    let fresnel = mix(vec3<f32>(0.04), base, vec3<f32>(metallic));
+    let rim = pow(1.0 - max(dot(n, leaving), 0.0), 5.0);
+    let reflected = irradiance(placement, normalize(mix(mirrored, n, vec3<f32>(roughness * roughness))));
+    colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(placement, mirrored, roughness);
+    let flags = frame.switches.x;
+    let g = in.normal.w;
+    return min(shifted_colour(colour, g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u), vec3<f32>(6e4));
+}
+
+/// Light that falls on a surface of normal n: ambient and first harmonic of what shines around the object.
+fn irradiance(placement: Placement, n: vec3<f32>) -> vec3<f32> {
+    return max(vec3<f32>(
+        placement.light_red.w + dot(placement.light_red.xyz, n),
+        placement.light_green.w + dot(placement.light_green.xyz, n),
+        placement.light_blue.w + dot(placement.light_blue.xyz, n)), vec3<f32>(0.0));
+}
+
+/// A highlight towards the main light, narrower on smooth surfaces.
+fn gloss(placement: Placement, direction: vec3<f32>, roughness: f32) -> f32 {
+    let main = placement.light_red.xyz + placement.light_green.xyz + placement.light_blue.xyz;
+    let strength = length(main);
+    if strength < 1e-9 {
+        return 1.0;
+    }
+    let aligned = max(dot(direction, main / strength), 0.0);
+    let power = 2.0 / (roughness * roughness);
+    return 0.6 + 0.25 * power * pow(aligned, power) * 0.25;
+}

@@ -1,0 +1,112 @@
+// Stage 3, the object stage: one thread per model triangle and order. Culls, cuts at the axis, draws what is flat enough as it is, and hands
+// the rest on: to the mesh stage if eight segments a side are enough, else to be split.
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = group.y * groups.x + group.x;
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
+        return;
+    }
+    let placement = placements[chunk.placement];
+    let local = chunk.first + lane;
+    if local >= placement.triangles.y {
+        return;
+    }
+    let number = placement.triangles.x + local;
+    let triangle = model_triangles[number];
+    let order = placement.ids.x;
+    let base = placement.ids.z;
+    let slots = vec3<u32>(base) + triangle.vertices.xyz;
+    let o0 = emitted[slots.x];
+    let o1 = emitted[slots.y];
+    let o2 = emitted[slots.z];
+    let e0 = edge_states[placement.ids.w + triangle.edges.x];
+    let e1 = edge_states[placement.ids.w + triangle.edges.y];
+    let e2 = edge_states[placement.ids.w + triangle.edges.z];
+    if o0.w == VERTEX_UNSEEN || o1.w == VERTEX_UNSEEN || o2.w == VERTEX_UNSEEN {
+        return;
+    }
+    let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
+    let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
+    let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
+
+    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans.
+    if o0.w == VERTEX_ON_AXIS {
+        cut(chunk.placement, number, corner_0, corner_1, corner_2, true, false, false);
+        return;
+    }
+    if o1.w == VERTEX_ON_AXIS {
+        cut(chunk.placement, number, corner_1, corner_2, corner_0, true, false, false);
+        return;
+    }
+    if o2.w == VERTEX_ON_AXIS {
+        cut(chunk.placement, number, corner_2, corner_0, corner_1, true, false, false);
+        return;
+    }
+    let cuts = vec3<bool>((bitcast<u32>(e0.y) & EDGE_CUT) != 0u, (bitcast<u32>(e1.y) & EDGE_CUT) != 0u, (bitcast<u32>(e2.y) & EDGE_CUT) != 0u);
+    // The fraction counts from the lower vertex of the edge.
+    if cuts.x {
+        cut(chunk.placement, number, vec3<f32>(0.0, 1.0 - e0.z, e0.z), corner_2, corner_0, true, true, false);
+        return;
+    }
+    if cuts.y {
+        cut(chunk.placement, number, vec3<f32>(1.0 - e1.z, 0.0, e1.z), corner_0, corner_1, true, true, false);
+        return;
+    }
+    if cuts.z {
+        cut(chunk.placement, number, vec3<f32>(1.0 - e2.z, e2.z, 0.0), corner_1, corner_2, true, true, false);
+        return;
+    }
+    let q0 = across_plane(o0.xyz);
+    let q1 = across_plane(o1.xyz);
+    let q2 = across_plane(o2.xyz);
+    let s0 = q1.x * q2.y - q1.y * q2.x;
+    let s1 = q2.x * q0.y - q2.y * q0.x;
+    let s2 = q0.x * q1.y - q0.y * q1.x;
+    if (s0 > 0.0 && s1 > 0.0 && s2 > 0.0) || (s0 < 0.0 && s1 < 0.0 && s2 < 0.0) {
+        let corner = vec3<f32>(s0, s1, s2) / (s0 + s1 + s2);
+        let height = dot(o0.xyz * corner.x + o1.xyz * corner.y + o2.xyz * corner.z, frame.radial.xyz);
+        if axis_matters(height, order) {
+            cut(chunk.placement, number, corner, corner_1, corner_2, true, true, true);
+            return;
+        }
+    }
+
+    let v0 = seen[slots.x].apparent.xyz;
+    let v1 = seen[slots.y].apparent.xyz;
+    let v2 = seen[slots.z].apparent.xyz;
+    let levels = vec3<u32>(bitcast<u32>(e0.x), bitcast<u32>(e1.x), bitcast<u32>(e2.x));
+    let most = max(levels.x, max(levels.y, levels.z));
+    if off_screen(v0, v1, v2, max(e0.w, max(e1.w, e2.w))) {
+        return;
+    }
+    if most <= 1u {
+        emit_triangle(slots.x, slots.y, slots.z, two_sided(placement));
+        return;
+    }
+    if most <= BLOCK {
+        let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
+        if !emit_work(piece, vec4<u32>(levels, 1u), most, 1u) {
+            emit_triangle(slots.x, slots.y, slots.z, two_sided(placement));
+        }
+        return;
+    }
+    emit_piece(0u, chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+}
+
+/// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge or inside, over the other edges too.
+/// For an edge cut the corners are: `first` the end after the cut, then the vertex opposite; the third is the remaining one.
+fn cut(placement: u32, number: u32, apex: vec3<f32>, first: vec3<f32>, second: vec3<f32>, one: bool, two: bool, three: bool) {
+    atomicAdd(&counters.cut, 1u);
+    let third = vec3<f32>(1.0) - first - second;
+    if one {
+        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, first, second);
+    }
+    if two {
+        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, second, third);
+    }
+    if three {
+        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, third, first);
+    }
+}

@@ -1,0 +1,34 @@
+// Stage 1: one thread per model vertex and order. Solves the emission time, projects, writes what the rasteriser may draw as it is.
+
+@compute @workgroup_size(64)
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = group.y * groups.x + group.x;
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
+        return;
+    }
+    let placement = placements[chunk.placement];
+    let local = chunk.first + lane;
+    if local >= placement.vertices.y {
+        return;
+    }
+    let vertex = model_vertices[placement.vertices.x + local];
+    let order = placement.ids.x;
+    let s = emission_shift(placement, vertex.position.xyz, order);
+    let offset = offset_at(placement, vertex.position.xyz, s);
+    let slot = placement.ids.z + local;
+
+    var parts = split_offset(offset);
+    let on_axis = parts.across < axis_tolerance(offset) && axis_matters(parts.along, order);
+    if on_axis {
+        parts.across = 0.0;
+    }
+    let ray = sight(parts.along, parts.across, parts.side, order);
+    let ok = ray.valid && finite_vector(ray.apparent);
+    if ray.valid && !ok {
+        atomicAdd(&counters.caught, 1u);
+    }
+    seen[slot] = seen_vertex(placement, chunk.placement, ray, offset, normal_of(placement, vertex.normal.xyz),
+        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
+    emitted[slot] = vec4<f32>(offset, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
+}

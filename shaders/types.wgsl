@@ -1,0 +1,162 @@
+// The types that every pass shares. Each has a Rust mirror of the same name in src/render/types.rs; a test compares sizes and offsets.
+//
+// Frames: "rain" axes are the flat axes of the slice T = const carried by observers who fall from rest at infinity; "camera" axes are
+// (right, up, back) in the rest frame of the camera. Lengths in r_s, times in r_s/c.
+
+struct Frame {
+    /// Lorentz matrix from rain (x, y, z, t) to camera (right, up, back, t).
+    camera_from_rain: mat4x4<f32>,
+    /// Its inverse.
+    rain_from_camera: mat4x4<f32>,
+    /// Unit vector from the hole to the camera (rain axes); w: the camera's radius L.
+    radial: vec4<f32>,
+    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: u = 1/L, of the second: β = √u.
+    side_a: vec4<f32>,
+    side_b: vec4<f32>,
+    /// x, y: cotangents of half the field of view across and down; z: near distance in r_s; w: time T since the start, for what twinkles.
+    projection: vec4<f32>,
+    /// x, y: size of the target in pixels; z: angle of one pixel in radians at the centre; w: error budget in radians.
+    size: vec4<f32>,
+    /// x: exposure bias (stops, as a factor), y: star brightness, z: sky brightness, w: bloom strength.
+    light: vec4<f32>,
+    /// x: least exposure, y: greatest exposure, z: adaptation factor of this frame in (0, 1], w: ψ of the edge of the shadow, rain frame.
+    exposure: vec4<f32>,
+    /// x: bits of FLAG_*; y: greatest tessellation level; z: number of stars; w: number of image orders drawn.
+    switches: vec4<u32>,
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns.
+    sky_x: vec4<f32>,
+    sky_y: vec4<f32>,
+    sky_z: vec4<f32>,
+    /// Capacities: x vertices, y indices, z work items, w thin vertices.
+    capacity: vec4<u32>,
+}
+
+const FLAG_DOPPLER: u32 = 1u;
+const FLAG_BEAMING: u32 = 2u;
+const FLAG_STARS: u32 = 4u;
+const FLAG_MILKY_WAY: u32 = 8u;
+const FLAG_INSIDE: u32 = 16u;
+const FLAG_HOLD_EXPOSURE: u32 = 32u;
+
+/// One object seen in one image order.
+struct Placement {
+    /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
+    offset: vec4<f32>,
+    /// dx/dT of the centre; w: 1 where the object moves or turns, else 0.
+    velocity: vec4<f32>,
+    /// Rain-frame momentum per mass; w: γ.
+    momentum: vec4<f32>,
+    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction.
+    shape_x: vec4<f32>,
+    shape_y: vec4<f32>,
+    shape_z: vec4<f32>,
+    /// d(shape)/dT.
+    shape_rate_x: vec4<f32>,
+    shape_rate_y: vec4<f32>,
+    shape_rate_z: vec4<f32>,
+    /// Columns of the rotation from body axes to rain axes, for normals.
+    turn_x: vec4<f32>,
+    turn_y: vec4<f32>,
+    turn_z: vec4<f32>,
+    /// Light that falls on a surface of normal n (rain axes): ambient + direction·n, per channel.
+    light_red: vec4<f32>,
+    light_green: vec4<f32>,
+    light_blue: vec4<f32>,
+    /// x: image order, y: object id, z: first out vertex, w: first edge state.
+    ids: vec4<u32>,
+    /// x: first model vertex, y: vertex count, z: first model edge, w: edge count.
+    vertices: vec4<u32>,
+    /// x: first model triangle, y: triangle count, z: first material, w: PLACEMENT_*.
+    triangles: vec4<u32>,
+}
+
+/// Both sides of a triangle are drawn.
+const PLACEMENT_TWO_SIDED: u32 = 1u;
+/// The object does not move; each of its points emits as a static observer there.
+const PLACEMENT_HELD: u32 = 2u;
+
+fn two_sided(placement: Placement) -> bool {
+    return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;
+}
+
+struct ModelVertex {
+    /// Body axes, model units; w: u of the texture.
+    position: vec4<f32>,
+    /// Unit normal in body axes; w: v of the texture.
+    normal: vec4<f32>,
+    /// x: material, counted from the model's own first; a vertex belongs to one material. yzw unused.
+    info: vec4<u32>,
+}
+
+struct ModelTriangle {
+    /// Three vertices in ascending order, counted from the model's own first; w unused.
+    vertices: vec4<u32>,
+    /// Edge i is opposite to vertex i; w unused.
+    edges: vec4<u32>,
+}
+
+struct Chunk {
+    placement: u32,
+    first: u32,
+}
+
+/// A vertex as the camera sees it: what the rasteriser draws.
+struct SeenVertex {
+    /// Direction from the camera times light path, camera axes; w: the light path (delay T_arrival − T_emission).
+    apparent: vec4<f32>,
+    /// Normal in rain axes (rest frame of the object, pure boost); w: g = ν_observed/ν_emitted.
+    normal: vec4<f32>,
+    /// Unit direction in which the light left, rest frame of the object, rain axes; w: radius at emission.
+    leaving: vec4<f32>,
+    /// x, y: texture coordinates; z: placement, w: material (bits).
+    surface: vec4<f32>,
+}
+
+/// A part of a triangle on its way from the object stage to the mesh stage. Corners are barycentric coordinates in the model triangle,
+/// whose vertices are sorted by index: that makes every point of an edge the same bits from both its sides.
+struct Piece {
+    /// x: placement, y: model triangle, z: kind (PIECE_*), w: depth of splitting.
+    what: vec4<u32>,
+    corner_0: vec4<f32>,
+    corner_1: vec4<f32>,
+    corner_2: vec4<f32>,
+}
+
+/// A triangle, tessellated on a barycentric grid.
+const PIECE_TRIANGLE: u32 = 0u;
+/// A triangle whose corner 0 is the axis: there its image is an arc, so it is tessellated as a quad (from the axis, along the edge).
+const PIECE_FAN: u32 = 1u;
+
+/// One block of at most 8 × 8 cells for a workgroup of the mesh stage.
+struct WorkItem {
+    piece: Piece,
+    /// Levels of the sides. Triangle: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at corner 1 and 2.
+    levels: vec4<u32>,
+    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y), z, w: first row and column of the block.
+    grid: vec4<u32>,
+    /// x: first seen vertex, y: first index, z: vertices, w: triangles.
+    place: vec4<u32>,
+}
+
+struct Material {
+    /// Linear base colour; w: alpha.
+    base: vec4<f32>,
+    /// Emitted radiance, linear; w: roughness.
+    emissive: vec4<f32>,
+    /// x: metallic, y: texture layer or −1, z: 1 if the base colour shines by itself, w unused.
+    surface: vec4<f32>,
+}
+
+struct Star {
+    /// Unit direction on the sky, rain axes; w: flux, in units of a star of magnitude 0.
+    direction: vec4<f32>,
+    /// x: temperature in K; yzw unused.
+    colour: vec4<f32>,
+}
+
+struct SeenStar {
+    /// x, y: centre in NDC; z, w unused.
+    place: vec4<f32>,
+    /// Linear light of the whole star, to be spread over its spot.
+    colour: vec4<f32>,
+}

@@ -1,0 +1,311 @@
+//! The `project` table: points in, viewing angle, travel time and redshift out, by a method chosen by name.
+//!
+//! The input is CSV with the header `r,phi,L` (r_s = 1, radians), the output CSV `r,phi,L,psi,delay,redshift` in the same order.
+
+use crate::spacetime::light::{self, Branch, Order};
+use rayon::prelude::*;
+use std::f64::consts::PI;
+use std::io::{Read, Write};
+
+/// φ this close to 0 or π (radians) is moved to this distance: on the axis itself the ray's plane is not defined.
+pub const AXIS_CLEARANCE: f64 = 1e-9;
+
+/// The header of the input.
+pub const INPUT_HEADER: &str = "r,phi,L";
+
+/// The header of the output.
+pub const OUTPUT_HEADER: &str = "r,phi,L,psi,delay,redshift";
+
+/// Significant digits of the output.
+const DIGITS: usize = 12;
+
+/// The frame in which ψ is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// Hovering at the camera's place; exists only at L > 1.
+    Static,
+    /// Falling from rest at infinity.
+    Rain,
+}
+
+/// A point and a camera, r_s = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Query {
+    /// The point's radius.
+    pub r: f64,
+    /// The angle at the hole between camera and point, radians, in (0, π).
+    pub phi: f64,
+    /// The camera's radius.
+    pub camera: f64,
+}
+
+/// How a point is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// ψ in the rain frame at the camera, radians from the outward radial direction, in [0, π].
+    pub psi_rain: f64,
+    /// ψ in the static frame at the camera, radians; None at and under the horizon.
+    pub psi_static: Option<f64>,
+    /// T_arrival − T_emission in Painlevé–Gullstrand time, r_s/c.
+    pub delay: f64,
+}
+
+/// A method of projection: the exact solution, a table, an approximation.
+pub trait Projector: Sync {
+    /// How the image of order `order` is seen, or None where no such ray exists. The branch matters only where camera and point
+    /// are both inside the horizon.
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight>;
+}
+
+/// The closed form of `spacetime::light` in f64.
+pub struct Exact;
+
+impl Projector for Exact {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        let (u_point, u_camera) = (1.0 / query.r, 1.0 / query.camera);
+        let branch = if u_point > 1.0 && u_camera > 1.0 {
+            branch
+        } else {
+            Branch::Plus
+        };
+        let ray = light::connect(u_point, order.swept(query.phi), u_camera, branch)?;
+        Some(Sight {
+            psi_rain: light::rain_angle(ray.slope, ray.energy, u_camera),
+            psi_static: light::static_angle(ray.slope, ray.energy, u_camera),
+            delay: ray.delay,
+        })
+    }
+}
+
+/// The names that [`method`] knows.
+pub const METHODS: &[&str] = &["exact"];
+
+/// The method called `name`.
+pub fn method(name: &str) -> Result<Box<dyn Projector>, ProjectError> {
+    match name {
+        "exact" => Ok(Box::new(Exact)),
+        _ => Err(ProjectError::UnknownMethod {
+            name: name.to_owned(),
+        }),
+    }
+}
+
+/// What is wrong with the input of [`project`].
+#[derive(Debug, thiserror::Error)]
+pub enum ProjectError {
+    /// No method has that name.
+    #[error("unknown method {name:?}: choose one of {}", METHODS.join(", "))]
+    UnknownMethod {
+        /// The name asked for.
+        name: String,
+    },
+    /// The first line is not the header.
+    #[error("line 1: expected the header {INPUT_HEADER:?}, found {found:?}")]
+    Header {
+        /// What stands there.
+        found: String,
+    },
+    /// A line is not text.
+    #[error("line {line}: not UTF-8 text")]
+    Text {
+        /// The line, counted from 1.
+        line: usize,
+    },
+    /// A row has too few or too many fields.
+    #[error("line {line}: expected 3 fields ({INPUT_HEADER}), found {found}")]
+    Columns {
+        /// The line, counted from 1.
+        line: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A field is not a number.
+    #[error("line {line}: {field} = {text:?} is not a number")]
+    Number {
+        /// The line, counted from 1.
+        line: usize,
+        /// The column's name.
+        field: &'static str,
+        /// What stands there.
+        text: String,
+    },
+    /// A number is out of its range.
+    #[error("line {line}: {field} = {text} is out of range: {range}")]
+    Range {
+        /// The line, counted from 1.
+        line: usize,
+        /// The column's name.
+        field: &'static str,
+        /// What stands there.
+        text: String,
+        /// What is allowed.
+        range: &'static str,
+    },
+    /// Reading or writing failed.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+}
+
+/// What is asked about every point.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Which image.
+    pub order: Order,
+    /// The frame of ψ.
+    pub frame: Frame,
+    /// The sign of the photon's energy.
+    pub branch: Branch,
+}
+
+/// [`project`] from `input` to `output`; nothing is written if any line is wrong.
+pub fn run(
+    input: &mut dyn Read,
+    output: &mut dyn Write,
+    method: &dyn Projector,
+    request: Request,
+) -> Result<(), ProjectError> {
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes)?;
+    let text = str::from_utf8(&bytes).map_err(|error| {
+        let newlines = bytes[..error.valid_up_to()]
+            .iter()
+            .filter(|&&byte| byte == b'\n')
+            .count();
+        ProjectError::Text { line: newlines + 1 }
+    })?;
+    output.write_all(project(text, method, request)?.as_bytes())?;
+    Ok(output.flush()?)
+}
+
+/// Projects every row of the CSV text `input` and returns the CSV output.
+///
+/// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay in
+/// r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
+/// empty where no ray joins the two. The input is checked as a whole before anything is returned.
+pub fn project(
+    input: &str,
+    method: &dyn Projector,
+    request: Request,
+) -> Result<String, ProjectError> {
+    let rows = parse(input)?;
+    let lines: Vec<String> = rows
+        .par_iter()
+        .map(|row| row.answer(method, request))
+        .collect();
+    let mut output = String::with_capacity(
+        OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>(),
+    );
+    for line in std::iter::once(OUTPUT_HEADER).chain(lines.iter().map(String::as_str)) {
+        output.push_str(line);
+        output.push('\n');
+    }
+    Ok(output)
+}
+
+/// A row of the input: its fields as written and as numbers.
+struct Row<'a> {
+    texts: [&'a str; 3],
+    query: Query,
+}
+
+impl Row<'_> {
+    fn answer(&self, method: &dyn Projector, request: Request) -> String {
+        let mut line = self.texts.join(",");
+        let sight = method.project(self.query, request.order, request.branch);
+        let psi = sight.and_then(|sight| match request.frame {
+            Frame::Rain => Some(sight.psi_rain),
+            Frame::Static => sight.psi_static,
+        });
+        let delay = sight.map(|sight| sight.delay);
+        let redshift =
+            sight.and_then(|_| light::static_redshift(1.0 / self.query.r, 1.0 / self.query.camera));
+        for value in [psi, delay, redshift] {
+            line.push(',');
+            if let Some(value) = value {
+                line.push_str(&significant(value));
+            }
+        }
+        line
+    }
+}
+
+fn parse(input: &str) -> Result<Vec<Row<'_>>, ProjectError> {
+    let input = input.strip_prefix('\u{feff}').unwrap_or(input);
+    // Only the end of the file may be blank.
+    let mut lines = input.trim_end().lines();
+    let header = lines.next().unwrap_or("");
+    if header.split(',').map(str::trim).ne(INPUT_HEADER.split(',')) {
+        return Err(ProjectError::Header {
+            found: header.trim().chars().take(80).collect(),
+        });
+    }
+    lines
+        .enumerate()
+        .map(|(index, text)| parse_row(text, index + 2))
+        .collect()
+}
+
+fn parse_row(text: &str, line: usize) -> Result<Row<'_>, ProjectError> {
+    let fields: Vec<&str> = text.split(',').map(str::trim).collect();
+    let &[r, phi, camera] = fields.as_slice() else {
+        return Err(ProjectError::Columns {
+            line,
+            found: if text.trim().is_empty() {
+                0
+            } else {
+                fields.len()
+            },
+        });
+    };
+    let number =
+        |field: &'static str, text: &str, range: &'static str, allowed: fn(f64) -> bool| {
+            let value: f64 = text.parse().map_err(|_| ProjectError::Number {
+                line,
+                field,
+                text: text.to_owned(),
+            })?;
+            if allowed(value) {
+                Ok(value)
+            } else {
+                Err(ProjectError::Range {
+                    line,
+                    field,
+                    text: text.to_owned(),
+                    range,
+                })
+            }
+        };
+    // 1/x must be a number too, or there is nothing to compute with.
+    let radius = |x: f64| x > 0.0 && x.is_finite() && x.recip().is_normal();
+    let query = Query {
+        r: number("r", r, "a finite radius greater than 0", radius)?,
+        phi: number("phi", phi, "0 to π radians", |x| {
+            x >= -AXIS_CLEARANCE && x <= PI + AXIS_CLEARANCE
+        })?
+        .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
+        camera: number("L", camera, "a finite radius greater than 0", radius)?,
+    };
+    Ok(Row {
+        texts: [r, phi, camera],
+        query,
+    })
+}
+
+/// A number with twelve significant digits, in plain notation where that is short; empty if it is not finite.
+pub fn significant(value: f64) -> String {
+    if !value.is_finite() {
+        return String::new();
+    }
+    let scientific = format!("{value:.*e}", DIGITS - 1);
+    let exponent: i32 = scientific
+        .split_once('e')
+        .and_then(|(_, text)| text.parse().ok())
+        .unwrap_or(0);
+    let last = DIGITS as i32 - 1;
+    if value == 0.0 || (-5..=last).contains(&exponent) {
+        let decimals = if value == 0.0 { last } else { last - exponent };
+        format!("{value:.*}", decimals as usize)
+    } else {
+        scientific
+    }
+}

@@ -1,1 +1,0 @@
-//! See the map of the house in docs/architecture.md.

@@ -1,0 +1,219 @@
+//! The ray that meets a point: Newton's method on the closed form, kept inside a bracket.
+//!
+//! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
+//! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
+
+use super::orbit::{
+    CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot,
+};
+use super::{Branch, Ray};
+use std::f64::consts::PI;
+
+/// The rays of one camera, numbered by one increasing parameter x.
+#[derive(Clone, Copy)]
+enum Fan {
+    /// Camera at u < 1: x = w, any number.
+    Outside { u: f64 },
+    /// Camera at u ≥ 1: x = w + s ≤ 0 with s = √(u³ − u²). Backwards in time nothing stays inside, so w ≤ −s; e² = x(x − 2s) has
+    /// its relative accuracy also where e is small.
+    Inside { u: f64, s: f64 },
+}
+
+/// One ray of a fan.
+struct Start {
+    slope: f64,
+    d: f64,
+    /// ∂d/∂x (∂w/∂x = 1).
+    d_x: f64,
+}
+
+impl Fan {
+    fn new(u: f64) -> Fan {
+        if u < 1.0 {
+            Fan::Outside { u }
+        } else {
+            Fan::Inside {
+                u,
+                s: u * (u - 1.0).sqrt(),
+            }
+        }
+    }
+
+    fn u(self) -> f64 {
+        match self {
+            Fan::Outside { u } | Fan::Inside { u, .. } => u,
+        }
+    }
+
+    fn top(self) -> f64 {
+        match self {
+            Fan::Outside { .. } => f64::INFINITY,
+            Fan::Inside { .. } => 0.0,
+        }
+    }
+
+    fn of_slope(self, w: f64) -> f64 {
+        match self {
+            Fan::Outside { .. } => w,
+            Fan::Inside { s, .. } => w + s,
+        }
+    }
+
+    fn start(self, x: f64) -> Start {
+        match self {
+            Fan::Outside { u } => Start {
+                slope: x,
+                d: critical_excess(u, x),
+                d_x: x / 8.0,
+            },
+            Fan::Inside { s, .. } => Start {
+                slope: x - s,
+                d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0,
+                d_x: (x - s) / 8.0,
+            },
+        }
+    }
+
+    /// |e|.
+    fn energy(self, x: f64) -> f64 {
+        match self {
+            Fan::Outside { u } => (x * x + u * u * (1.0 - u)).sqrt(),
+            Fan::Inside { s, .. } => (x * (x - 2.0 * s)).sqrt(),
+        }
+    }
+}
+
+/// The exact ray that joins the point at `u_point` (0 is the sky) to the camera at `u_camera` over the angle `swept`; arguments,
+/// and the cases of None, as in [`super::connect`].
+pub fn join(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<Ray> {
+    join_near(u_point, swept, u_camera, branch, None)
+}
+
+/// As [`join`], starting from a guess of the slope at the camera (1/r_s), for instance a neighbour's; the result is the same
+/// whatever the guess, only faster with a good one.
+pub fn join_near(
+    u_point: f64,
+    swept: f64,
+    u_camera: f64,
+    branch: Branch,
+    guess: Option<f64>,
+) -> Option<Ray> {
+    if !exists(u_point, swept, u_camera, branch) {
+        return None;
+    }
+    let fan = Fan::new(u_camera);
+    let guess = guess
+        .filter(|w| w.is_finite())
+        .unwrap_or_else(|| first_guess(u_point, swept, u_camera));
+    let (x, emission_slope) = solve(fan, u_point, swept, fan.of_slope(guess))?;
+    let energy = fan.energy(x);
+    Some(Ray {
+        slope: fan.start(x).slope,
+        emission_slope,
+        energy: if branch == Branch::Minus {
+            -energy
+        } else {
+            energy
+        },
+    })
+}
+
+/// Whether such a ray exists.
+fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
+    let in_range =
+        u_point >= 0.0 && u_camera > 0.0 && swept > 0.0 && (u_point + swept + u_camera).is_finite();
+    if !in_range || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
+        return false;
+    }
+    if u_point < 1.0 {
+        return true;
+    }
+    // Inside: the ray of zero energy, r = (1 − cos η)/2 with η growing like Φ, reaches farthest.
+    u_camera > u_point && swept < (1.0 - 2.0 / u_point).acos() - (1.0 - 2.0 / u_camera).acos()
+}
+
+/// The straight line of flat space where it makes sense, else the ray that winds around the photon sphere.
+fn first_guess(u_point: f64, swept: f64, u_camera: f64) -> f64 {
+    if swept < 2.5 {
+        (u_point - u_camera * swept.cos()) / swept.sin()
+    } else {
+        (PHOTON_SPHERE - u_camera) * (u_camera + 1.0 / 3.0).sqrt()
+    }
+}
+
+/// x and the slope at the point.
+fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
+    /// More than enough: bisection alone needs about 60 steps.
+    const MOST_STEPS: usize = 200;
+    let u = fan.u();
+    let rise_wanted = u_point - u;
+    let (mut low, mut high) = (f64::NEG_INFINITY, fan.top());
+    let mut x = guess;
+    let mut last_step = f64::INFINITY;
+    for _ in 0..MOST_STEPS {
+        if !(x > low && x < high) {
+            x = middle(low, high, u);
+            if !(x > low && x < high) {
+                // Two neighbouring numbers hold the ray between them.
+                let w = fan.start(if low.is_finite() { low } else { high }).slope;
+                return match follow(u, w, swept) {
+                    Fate::At { slope, .. } => Some((fan.of_slope(w), slope)),
+                    _ => None,
+                };
+            }
+        }
+        let start = fan.start(x);
+        let carried = match shoot(u, start.slope, start.d, swept) {
+            Shot::At(carried) => carried,
+            Shot::Escaped => {
+                low = x;
+                x = f64::NAN;
+                continue;
+            }
+            Shot::Plunged => {
+                high = x;
+                x = f64::NAN;
+                continue;
+            }
+        };
+        let miss = rise_wanted - carried.rise;
+        if miss > 0.0 {
+            low = x;
+        } else {
+            high = x;
+        }
+        let rate = carried.by_slope + carried.by_d * start.d_x;
+        // Newton on (u + c)^{-1/2}: u has a double pole where the ray falls in, and is straight in x far out.
+        let c = 1.0;
+        let here = (u + carried.rise).max(-0.5) + c;
+        let there = u_point + c;
+        let step = miss / rate * 2.0 * here / ((here * there).sqrt() + there);
+        // Rounding in u(Φ) ends the descent; the step is then the size of that error.
+        let scale = x.abs() + 1e-3 * u;
+        let size = step.abs();
+        if miss == 0.0
+            || size <= 4.0 * f64::EPSILON * scale
+            || (size < 1e-10 * scale && size > 0.25 * last_step)
+        {
+            return Some((x, carried.chord * rise_wanted - start.slope));
+        }
+        last_step = size;
+        x += step;
+    }
+    None
+}
+
+/// The middle of two parameters as seen from the camera: halfway in the angle θ of x = −u cot θ.
+fn middle(low: f64, high: f64, u: f64) -> f64 {
+    let angle = |x: f64| {
+        if x == f64::NEG_INFINITY {
+            0.0
+        } else if x == f64::INFINITY {
+            PI
+        } else {
+            u.atan2(-x)
+        }
+    };
+    let theta = 0.5 * (angle(low) + angle(high));
+    -u / theta.tan()
+}
