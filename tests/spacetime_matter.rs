@@ -275,12 +275,13 @@ fn free_gyroscopes_turn_by_the_geodetic_angle() {
 fn driven_gyroscopes_turn_by_the_fermi_walker_angle() {
     // On any circle: 2π[1 − γ(1 − 3M/r)] with γ = (1 − 2M/r − r²ω²)^{-1/2}; the thrust is outward, γ²(1/r² − rω²)√(1 − 2/r).
     // At 3 M the circle is unstable and quickly left, so only a part of a turn is flown.
-    for (r, omega, known_thrust, gyro, part) in [
-        (10.0, 0.02, 0.00706126729737, 1.23806981816, 1.0),
-        (3.0, 0.05, 0.19245008973, TAU, 0.1),
-        (3.0, 0.15, 0.19245008973, TAU, 0.3),
-    ] {
-        let gamma: f64 = 1.0 / (1.0 - 2.0 / r - r * r * omega * omega).sqrt();
+    let circles: [[f64; 5]; 3] = [
+        [10.0, 0.02, 0.00706126729737, 1.23806981816, 1.0],
+        [3.0, 0.05, 0.19245008973, TAU, 0.1],
+        [3.0, 0.15, 0.19245008973, TAU, 0.3],
+    ];
+    for [r, omega, known_thrust, gyro, part] in circles {
+        let gamma = 1.0 / (1.0 - 2.0 / r - r * r * omega * omega).sqrt();
         let thrust =
             gamma * gamma * (1.0 / (r * r) - r * omega * omega) * (1.0 - 2.0 / r).sqrt();
         close(
@@ -335,13 +336,14 @@ fn driven_gyroscopes_turn_by_the_fermi_walker_angle() {
 #[test]
 fn hovering_takes_the_closed_form_thrust() {
     // (M/r²)/√(1 − 2M/r), in M.
-    for (r, thrust) in [
-        (2.5, 0.3577708764),
-        (3.0, 0.19245008973),
-        (4.0, 0.0883883476483),
-        (6.0, 0.034020690872),
-        (20.0, 0.00263523138347),
-    ] {
+    let hovers: [[f64; 2]; 5] = [
+        [2.5, 0.3577708764],
+        [3.0, 0.19245008973],
+        [4.0, 0.0883883476483],
+        [6.0, 0.034020690872],
+        [20.0, 0.00263523138347],
+    ];
+    for [r, thrust] in hovers {
         let start = resting_at(r / 2.0);
         let change = rate(&start, DVec3::X * (2.0 * thrust), DVec3::ZERO);
         close(change.position.length(), 0.0, ROUNDING, "it hovers");
