@@ -155,8 +155,8 @@ fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
     mean /= other.len() as f64;
     let spent = burn.thrust.length() * burn.duration.min(task.horizon);
     let danger = if lowest < SAFE_RADIUS { 1000.0 + 100.0 * (SAFE_RADIUS - lowest) } else { 0.0 };
-    // Who flees stays bound to the hole, so that an empty tank does not carry it out of the arena for ever.
-    let unbound = if task.aim == Aim::Escape { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
+    // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
+    let unbound = if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
     danger
         + unbound
         + fall_risk(&own, task.fuel - spent)
