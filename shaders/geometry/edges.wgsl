@@ -3,10 +3,10 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    if index >= arrayLength(&chunks) {
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let chunk = chunks[index];
     let placement = placements[chunk.placement];
     let local = chunk.first + lane;
     if local >= placement.vertices.w {

@@ -65,7 +65,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         let slot = item.place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement.triangles.w == 1u) {
+        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, two_sided(placement)) {
             b = a;
             c = a;
         }
@@ -116,17 +116,14 @@ fn side_point(a: vec3<f32>, b: vec3<f32>, i: u32, n: u32, level: u32) -> vec3<f3
 
 /// The seen vertex of a point of a model triangle. A corner of the model itself is taken from the first stage, to the last bit.
 fn vertex_at(placement: Placement, index: u32, triangle: ModelTriangle, corner: vec3<f32>) -> SeenVertex {
-    let material = triangle.vertices.w + placement.triangles.z;
     if corner.x == 1.0 || corner.y == 1.0 || corner.z == 1.0 {
         let which = select(select(triangle.vertices.z, triangle.vertices.y, corner.y == 1.0), triangle.vertices.x, corner.x == 1.0);
-        var vertex = seen[placement.ids.z + which];
-        vertex.surface.w = bitcast<f32>(material);
-        return vertex;
+        return seen[placement.ids.z + which];
     }
     let body = body_point(placement, triangle, corner);
     let offset = emitted_offset(placement, body, placement.ids.x);
     let ray = sight_at(offset, placement.ids.x);
-    return finished(placement, index, triangle, corner, ray, offset, material);
+    return finished(placement, index, triangle, corner, ray, offset);
 }
 
 fn fan_vertex(item: WorkItem, placement: Placement, triangle: ModelTriangle, row: u32, column: u32) -> SeenVertex {
@@ -163,17 +160,17 @@ fn fan_vertex(item: WorkItem, placement: Placement, triangle: ModelTriangle, row
     let rim = emitted_offset(placement, body_point(placement, triangle, outer), order);
     let ray = fan_sight(apex, rim, s, order);
     let corner = mix(item.piece.corner_0.xyz, outer, vec3<f32>(s));
-    return finished(placement, item.piece.what.x, triangle, corner, ray, apex + (rim - apex) * s, triangle.vertices.w + placement.triangles.z);
+    return finished(placement, item.piece.what.x, triangle, corner, ray, apex + (rim - apex) * s);
 }
 
-fn finished(placement: Placement, index: u32, triangle: ModelTriangle, corner: vec3<f32>, ray: Sight, offset: vec3<f32>, material: u32) -> SeenVertex {
+fn finished(placement: Placement, index: u32, triangle: ModelTriangle, corner: vec3<f32>, ray: Sight, offset: vec3<f32>) -> SeenVertex {
     let first = placement.vertices.x;
     let v0 = model_vertices[first + triangle.vertices.x];
     let v1 = model_vertices[first + triangle.vertices.y];
     let v2 = model_vertices[first + triangle.vertices.z];
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     let u = v0.position.w * corner.x + v1.position.w * corner.y + v2.position.w * corner.z;
-    var vertex = seen_vertex(placement, index, ray, offset, normal_of(placement, normal.xyz), vec2<f32>(u, normal.w), material);
+    var vertex = seen_vertex(placement, index, ray, offset, normal_of(placement, normal.xyz), vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
     if !ray.valid || !finite(ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);

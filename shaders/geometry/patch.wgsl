@@ -10,12 +10,23 @@ fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
     return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
 }
 
+/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of a static observer there: γβ outward.
+fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
+    if (placement.triangles.w & PLACEMENT_HELD) == 0u {
+        return placement.momentum;
+    }
+    let r = max(length(position), 1.0005);
+    let gamma = inverseSqrt(1.0 - 1.0 / r);
+    return vec4<f32>(position * (gamma / (r * sqrt(r))), gamma);
+}
+
 fn seen_vertex(placement: Placement, index: u32, ray: Sight, offset: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
     var vertex: SeenVertex;
     vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
-    vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, placement.momentum));
     let position = frame.radial.xyz * frame.radial.w + offset;
-    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, placement.momentum), length(position));
+    let momentum = momentum_at(placement, position);
+    vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
+    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
     return vertex;
 }

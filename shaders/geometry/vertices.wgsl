@@ -3,10 +3,10 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    if index >= arrayLength(&chunks) {
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let chunk = chunks[index];
     let placement = placements[chunk.placement];
     let local = chunk.first + lane;
     if local >= placement.vertices.y {
@@ -29,6 +29,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         atomicAdd(&counters.caught, 1u);
     }
     seen[slot] = seen_vertex(placement, chunk.placement, ray, offset, normal_of(placement, vertex.normal.xyz),
-        vec2<f32>(vertex.position.w, vertex.normal.w), 0u);
+        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
     emitted[slot] = vec4<f32>(offset, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

@@ -153,11 +153,13 @@ pub fn energy(w: Real, u: Real, room: Real) -> Real {
     (w * w + u * u * room).max(0.0).sqrt()
 }
 
-/// (cos ψ, sin ψ) of the look direction in the rain frame at u, for slope w and energy e ≥ 0; ψ from the outward radial.
-pub fn look(w: Real, e: Real, u: Real, beta: Real, room: Real) -> [Real; 2] {
-    let (radial, across) = if w > 0.0 { (w + beta * e, u * room) } else { (u * u - e * e, u * (beta * e - w)) };
-    let n = 1.0 / (radial * radial + across * across).sqrt();
-    [-radial * n, across * n]
+/// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e ≥ 0, `room` = 1 − u; the one
+/// against the sweep is u. Regular through the horizon for w ≤ 0.
+pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Real {
+    if w > 0.0 {
+        return (w + beta * e) / room;
+    }
+    (u * u - e * e) / (beta * e - w)
 }
 
 /// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn`: how the table corrects a closed form.

@@ -31,7 +31,7 @@ pub mod single {
     include!("formulas.rs");
 }
 
-pub use lookup::{Place, Seen, lookup, place};
+pub use lookup::{LensRay, lens_lookup, lens_lookup_at};
 pub use slice::Slice;
 pub use table::{Scheme, Table, TableError, load_or_bake};
 

@@ -309,6 +309,6 @@ fn optional(value: &Option<Spanned<f64>>, key: &str, range: std::ops::RangeInclu
     value.as_ref().map(|value| in_range(value, key, range, unit)).transpose()
 }
 
-fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
+pub(crate) fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
     Err(Fault { span: place.span(), message })
 }

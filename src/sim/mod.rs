@@ -9,6 +9,8 @@ pub mod flight;
 pub mod hash;
 pub mod history;
 pub mod physics;
+pub mod pilot;
+pub mod rules;
 pub mod ship;
 pub mod simulate;
 
@@ -19,6 +21,8 @@ pub use clock::Clock;
 pub use flight::Command;
 pub use history::{History, Sample};
 pub use physics::ShipPhysicsPlugin;
+pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
+pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
 pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion, muster};
 
 /// The order of a fixed step.
@@ -64,6 +68,25 @@ pub enum SimEvent {
         /// Why.
         reason: ship::EndReason,
     },
+    /// The chase is decided.
+    Decided {
+        /// How.
+        outcome: Outcome,
+        /// T in r_s/c.
+        time: f64,
+    },
+}
+
+impl SimEvent {
+    /// When it happened, T in r_s/c.
+    pub fn time(&self) -> f64 {
+        match self {
+            SimEvent::FuelSpent { time, .. }
+            | SimEvent::CrossedHorizon { time, .. }
+            | SimEvent::Ended { time, .. }
+            | SimEvent::Decided { time, .. } => *time,
+        }
+    }
 }
 
 impl std::fmt::Display for SimEvent {
@@ -71,6 +94,7 @@ impl std::fmt::Display for SimEvent {
         match self {
             SimEvent::FuelSpent { ship, time } => write!(f, "{ship}: out of fuel at T = {time}"),
             SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon by T = {time}"),
+            SimEvent::Decided { outcome, time } => write!(f, "{outcome} at T = {time}"),
             SimEvent::Ended { ship, time, proper_time, reason } => {
                 write!(f, "{ship}: {reason} at T = {time}, tau = {proper_time}")
             }
@@ -95,6 +119,6 @@ pub struct SimulationPlugins;
 
 impl PluginGroup for SimulationPlugins {
     fn build(self) -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(ShipPhysicsPlugin)
+        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(EnemyAiPlugin).add(ShipPhysicsPlugin).add(ChaseRulesPlugin)
     }
 }

@@ -7,6 +7,7 @@ use crate::spacetime::matter::ShipState;
 
 use super::flight::Command;
 use super::history::History;
+use super::pilot::Mind;
 
 /// A ship.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
@@ -139,7 +140,7 @@ pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &EngineDefaults, 
         let first_other = (0..specs.len()).find(|&other| other != index);
         let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
         if let (true, Some(target)) = (spec.ai != Ai::None, target) {
-            world.entity_mut(fleet.0[index]).insert(Pilot { ai: spec.ai, target });
+            world.entity_mut(fleet.0[index]).insert((Pilot { ai: spec.ai, target }, Mind::default()));
         }
     }
     world.insert_resource(fleet);

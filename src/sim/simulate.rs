@@ -16,7 +16,7 @@ use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
 use super::ship::{Controls, Ended, Engine, EngineDefaults, Fleet, Fuel, Programme, Ship, ShipMotion, muster};
-use super::{Clock, SimEvent, SimulationPlugins};
+use super::{Chance, Chase, ChaseRules, Clock, SimEvent, SimulationPlugins, begin_chase};
 
 /// The header row.
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
@@ -107,8 +107,9 @@ pub fn world_of(scene: &SimScene, seed: u64) -> App {
     app.edit_schedule(FixedUpdate, |schedule| {
         schedule.set_executor(SingleThreadedExecutor::new());
     });
-    let _ = seed;
+    app.insert_resource(Chance::from_seed(seed)).insert_resource(ChaseRules(scene.rules));
     muster(app.world_mut(), &scene.ships, &EngineDefaults::default(), 0.0);
+    begin_chase(app.world_mut());
     app.finish();
     app.cleanup();
     app
@@ -124,26 +125,30 @@ pub fn run(path: &Path, request: &Request, out: &mut dyn Write, log: &mut dyn Wr
 /// Runs `scene`; rows by T, then in scene order.
 pub fn simulate(scene: &SimScene, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
     let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
-    let until = request.until.unwrap_or(if chase { scene.rules.time_limit } else { DEFAULT_UNTIL });
+    let mut until = request.until.unwrap_or(if chase { scene.rules.time_limit } else { DEFAULT_UNTIL });
     check(until, request.every)?;
     let mut app = world_of(scene, request.seed);
     let started = Instant::now();
     writeln!(out, "{COLUMNS}")?;
     let mut row = 0u64;
+    let mut before = departures(app.world());
     loop {
-        let clock = *app.world().resource::<Clock>();
-        let next = clock.time + clock.step;
+        // Rows inside the step just flown, its end included; at first, T = 0 alone.
         while let due = due_time(row, request.every, until)
-            && due < next
+            && due <= app.world().resource::<Clock>().time
         {
-            write_rows(app.world(), due, out)?;
+            write_rows(app.world(), &before, due, out)?;
             if due >= until {
-                return finish(app.world(), until, started, out, log);
+                return finish(app.world(), &before, until, started, out, log);
             }
             row += 1;
         }
+        before = departures(app.world());
         app.world_mut().run_schedule(FixedUpdate);
-        tell(app.world_mut(), log)?;
+        tell(app.world_mut(), until, log)?;
+        if let Some((_, decided)) = app.world().get_resource::<Chase>().and_then(|chase| chase.outcome) {
+            until = until.min(decided);
+        }
     }
 }
 
@@ -166,32 +171,39 @@ fn due_time(row: u64, every: f64, until: f64) -> f64 {
     due.min(until)
 }
 
-/// The ships at T = `time`, within one step of the clock: a partial step from a copy, so that looking never changes the flight.
-fn ships_at(world: &World, time: f64) -> impl Iterator<Item = (&Ship, ShipState)> {
-    let clock = world.resource::<Clock>();
-    world.resource::<Fleet>().0.iter().filter_map(move |&entity| {
-        let ship = world.get::<Ship>(entity)?;
-        let state = world.get::<ShipMotion>(entity)?.0;
-        if world.get::<Ended>(entity).is_some() {
-            return None;
-        }
-        if time <= clock.time {
-            return Some((ship, state));
-        }
-        let flight = Flight { state, fuel: world.get::<Fuel>(entity)?.left };
-        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
-        let (end, _) = fly(&flight, clock.time, time, command, &world.get::<Programme>(entity)?.0, |_| ());
-        (!has_ended(&end.state)).then_some((ship, end.state))
-    })
+/// T and the flights of all ships, in scene order, before a step.
+type Departures = (f64, Vec<Flight>);
+
+fn departures(world: &World) -> Departures {
+    let flight = |&entity: &Entity| {
+        Some(Flight { state: world.get::<ShipMotion>(entity)?.0, fuel: world.get::<Fuel>(entity)?.left })
+    };
+    (world.resource::<Clock>().time, world.resource::<Fleet>().0.iter().filter_map(flight).collect())
 }
 
-fn write_rows(world: &World, time: f64, out: &mut dyn Write) -> io::Result<()> {
-    for (ship, state) in ships_at(world, time) {
+/// The ships at T = `time` in the step just flown, and whether each has ended (its state is then the last). Inside the step it is flown
+/// again from its beginning with the same commands, so that looking never changes the flight.
+fn ships_at(world: &World, before: &Departures, time: f64) -> Vec<(String, ShipState, bool)> {
+    let at_end = time >= world.resource::<Clock>().time;
+    let one = |(&entity, departure): (&Entity, &Flight)| {
+        let name = world.get::<Ship>(entity)?.name.clone();
+        let state = world.get::<ShipMotion>(entity)?.0;
+        let ended = world.get::<Ended>(entity);
+        if at_end || ended.is_some_and(|ended| ended.time <= time) {
+            return Some((name, state, ended.is_some()));
+        }
+        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
+        let (end, _) = fly(departure, before.0, time, command, &world.get::<Programme>(entity)?.0, |_| ());
+        Some((name, end.state, has_ended(&end.state)))
+    };
+    world.resource::<Fleet>().0.iter().zip(&before.1).filter_map(one).collect()
+}
+
+fn write_rows(world: &World, before: &Departures, time: f64, out: &mut dyn Write) -> io::Result<()> {
+    for (name, state, _) in ships_at(world, before, time).into_iter().filter(|&(_, _, ended)| !ended) {
         let (x, p, q, l) = (state.position, state.momentum, state.attitude, angular_momentum(&state));
-        write!(out, "{}", ship.name)?;
-        for number in
-            [time, state.proper_time, x.x, x.y, x.z, p.x, p.y, p.z, q.w, q.x, q.y, q.z, energy(&state), l.x, l.y, l.z]
-        {
+        write!(out, "{name}")?;
+        for number in [time, state.proper_time, x.x, x.y, x.z, p.x, p.y, p.z, q.w, q.x, q.y, q.z, energy(&state), l.x, l.y, l.z] {
             write!(out, ",{number:.16e}")?;
         }
         writeln!(out)?;
@@ -199,25 +211,25 @@ fn write_rows(world: &World, time: f64, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-fn tell(world: &mut World, log: &mut dyn Write) -> io::Result<()> {
-    for event in world.resource_mut::<Messages<SimEvent>>().drain() {
+fn tell(world: &mut World, until: f64, log: &mut dyn Write) -> io::Result<()> {
+    for event in world.resource_mut::<Messages<SimEvent>>().drain().filter(|event| event.time() <= until) {
         writeln!(log, "{event}")?;
     }
     Ok(())
 }
 
-fn finish(world: &World, time: f64, started: Instant, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
+fn finish(
+    world: &World,
+    before: &Departures,
+    time: f64,
+    started: Instant,
+    out: &mut dyn Write,
+    log: &mut dyn Write,
+) -> Result<Summary, SimulateError> {
     out.flush()?;
     let mut hash = StateHash::default();
-    for &entity in &world.resource::<Fleet>().0 {
-        if let (Some(ship), Some(motion), true) =
-            (world.get::<Ship>(entity), world.get::<ShipMotion>(entity), world.get::<Ended>(entity).is_some())
-        {
-            hash.ship(&ship.name, &motion.0);
-        }
-    }
-    for (ship, state) in ships_at(world, time) {
-        hash.ship(&ship.name, &state);
+    for (name, state, _) in ships_at(world, before, time) {
+        hash.ship(&name, &state);
     }
     let summary = Summary { steps: world.resource::<Clock>().tick, seconds: started.elapsed().as_secs_f64(), hash };
     let rate = summary.steps as f64 / summary.seconds.max(1e-9);
