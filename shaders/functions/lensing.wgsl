@@ -132,8 +132,13 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     } else {
         w = (root - b) / q;
     }
-    let ahead = w * ((1.0 + cam.bend * k) * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + cam.fade * k * s * w * w;
-    return vec2<f32>(w, ahead);
+    let turn = 1.0 + cam.bend * k;
+    if cam.bend > 0.0 {
+        // The same derivative with the growing terms that cancel taken out by the equation for w.
+        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + cam.fade * w * w);
+        return vec2<f32>(w, (turn * rise + f * k + rest) / s + w * am * s * s);
+    }
+    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + cam.fade * k * s * w * w);
 }
 
 fn energy(w: f32, u: f32, room: f32) -> f32 {
@@ -155,6 +160,10 @@ fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
     let st = sin(turn);
     let sine = max(s0 * ct + c0 * st, 1e-12);
     return -u * (c0 * ct - s0 * st) / sine;
+}
+
+fn emission_scale(cam: LensCamera, c: f32) -> f32 {
+    return c + cam.a / (1.0 + 4.0 * cam.a);
 }
 
 fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e: f32, w_e: f32) -> vec3<f32> {
@@ -260,6 +269,21 @@ fn lens_camera() -> LensCamera {
     return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y));
 }
 
+fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
+    if cam.room <= 0.0 {
+        // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
+        let e = energy(w_e, c, room);
+        return vec3<f32>(-sqrt(e * e - cam.a * cam.a * cam.room), e, w_e);
+    }
+    let e = energy(w, cam.a, cam.room);
+    // Away from a turning point the energy gives the magnitude more precisely.
+    let square = e * e - c * c * room;
+    if square > 0.3 * e * e {
+        return vec3<f32>(w, e, select(sqrt(square), -sqrt(square), w_e < 0.0));
+    }
+    return vec3<f32>(w, e, w_e);
+}
+
 fn lookup(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
     let nothing = LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
@@ -271,14 +295,10 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
     let bent = bent_sweep(swept);
     let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
     let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let w = turned_slope(guess.x, cam.a, table.x);
-    let e = energy(w, cam.a, cam.room);
-    var w_e = turned_slope(guess.y, c, table.z);
-    // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        w_e = select(sqrt(square), -sqrt(square), w_e < 0.0);
-    }
+    let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
+    let w = ray.x;
+    let e = ray.y;
+    let w_e = ray.z;
     let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
     let delay = parts.x + parts.z * (parts.y + table.y);
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);

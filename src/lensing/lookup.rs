@@ -113,6 +113,22 @@ pub fn finite(x: f32) -> bool {
     x.abs() < 3e38
 }
 
+/// (w, e, w_e) made consistent from the two slopes of the table: each is taken from where it is well conditioned.
+pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
+    if cam.room <= 0.0 {
+        // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
+        let e = energy(w_e, c, room);
+        return [-(e * e - cam.a * cam.a * cam.room).sqrt(), e, w_e];
+    }
+    let e = energy(w, cam.a, cam.room);
+    // Away from a turning point the energy gives the magnitude more precisely.
+    let square = e * e - c * c * room;
+    if square > 0.3 * e * e {
+        return [w, e, if w_e < 0.0 { -square.sqrt() } else { square.sqrt() }];
+    }
+    [w, e, w_e]
+}
+
 /// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ).
 pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
     let cam = &slice.camera;
@@ -125,14 +141,8 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
     let bent = bent_sweep(swept);
     let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
     let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let w = turned_slope(guess[0], cam.a, table[0]);
-    let e = energy(w, cam.a, cam.room);
-    let mut w_e = turned_slope(guess[1], c, table[2]);
-    // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        w_e = if w_e < 0.0 { -square.sqrt() } else { square.sqrt() };
-    }
+    let [w, e, w_e] =
+        joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
     let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
     let delay = parts[0] + parts[2] * (parts[1] + table[1]);
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);

@@ -39,7 +39,7 @@ impl Slice {
 
     /// The exact slice at `l`, baked on the spot with the same layout: what the interpolation in L is judged by.
     pub fn bake(nodes: usize, l: f64) -> Slice {
-        let (nx, ny) = (nodes, 2 * nodes);
+        let [nx, ny, _] = bake::size(nodes);
         let layer = bake::layer(&double::camera(l), nx, ny, &spline::coefficients(nx), &spline::coefficients(ny));
         let coefficients = layer.into_iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]);
         Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
