@@ -23,8 +23,9 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, len
     return centre + direction * along_part + across * across_part;
 }
 
-/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye).
-fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
+/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). `cells` is the number of cells side by
+/// side in the patch that it belongs to: a sliver inside a patch that is wider than a pixel is no thin image, and stays opaque.
+fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool, cells: f32) -> bool {
     let c0 = clip_position(seen[i0].apparent.xyz);
     let c1 = clip_position(seen[i1].apparent.xyz);
     let c2 = clip_position(seen[i2].apparent.xyz);
@@ -36,7 +37,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
     let p1 = pixels(c1);
     let p2 = pixels(c2);
     let height = thin_coverage(p0, p1, p2);
-    if height >= 1.0 {
+    if height * cells >= 1.0 {
         return false;
     }
     // Coverage adds up to the truth only if each line of sight meets one layer: back faces are left out.
@@ -72,7 +73,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
 
 /// Draws three seen vertices as they are.
 fn emit_triangle(i0: u32, i1: u32, i2: u32, two_sided: bool) {
-    if emit_thin(i0, i1, i2, two_sided) {
+    if emit_thin(i0, i1, i2, two_sided, 1.0) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);

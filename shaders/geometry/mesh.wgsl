@@ -43,6 +43,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     storageBarrier();
 
     let first = item.place.x;
+    let cells = f32(min(item.grid.x, item.grid.y)) * exp2(f32(item.piece.what.w));
     for (var k = lane; k < item.place.w; k += 64u) {
         var a: u32; var b: u32; var c: u32;
         if fan {
@@ -70,7 +71,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         let slot = item.place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, two_sided(placement)) {
+        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, two_sided(placement), cells) {
             b = a;
             c = a;
         }

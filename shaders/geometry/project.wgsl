@@ -14,39 +14,24 @@ struct Sight {
 /// The ray of `order` from the point `offset` away from the camera (rain axes). `side` is the unit vector across the axis towards the
 /// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it.
 fn sight(along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
-    let camera = lens_camera();
-    // In the plane of the ray: x along the outward radial, y across.
-    let at = place(camera, vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(along, across, 0.0), vec3<f32>(camera.l + along, across, 0.0));
-    var sweep = at.phi;
-    var turn = 1.0;
-    if order == 2u {
-        sweep = 2.0 * HALF_TURN - at.phi;
-        turn = -1.0;
-    } else if order == 3u {
-        sweep = 2.0 * HALF_TURN + at.phi;
-    }
-    let ray = lookup(camera, at, sweep);
+    let ray = lens_lookup(along, across, order);
+    let turn = select(1.0, -1.0, order == 2u);
     let n = frame.radial.xyz;
     // The direction, at the camera, in which the ray sweeps backwards round the hole; even orders go the other way.
-    let seen_at = n * ray.look.x + side * (turn * ray.look.y);
+    let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
 
     var result: Sight;
     result.valid = ray.valid && ray.delay > 0.0;
     result.delay = ray.delay;
     result.apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
-    // Over E b, the photon's momentum across is u and along it as `look` has it; its frequency is the length of both.
-    let frequency = camera.a / max(ray.look.y, 1e-9);
-    result.arriving = vec4<f32>(-seen_at * frequency, frequency);
+    result.arriving = vec4<f32>(-seen_at * ray.frequency, ray.frequency);
 
     // At the point: radial m, and the sweep's tangent side·cosφ − n·sinφ, times its sense.
-    let c = 1.0 / at.r;
-    let sin_phi = across * c;
-    let cos_phi = (camera.l + along) * c;
-    let m = n * cos_phi + side * sin_phi;
-    let tangent = (side * cos_phi - n * sin_phi) * turn;
-    let there = look(ray.emission_slope, ray.energy, c, sqrt(c), max(at.room, 1e-4));
-    let emitted_frequency = c / max(there.y, 1e-9);
-    result.leaving = vec4<f32>(-(m * there.x + tangent * there.y) * emitted_frequency, emitted_frequency);
+    let height = frame.radial.w + along;
+    let c = inverseSqrt(max(height * height + across * across, 1e-12));
+    let m = n * (height * c) + side * (across * c);
+    let tangent = (side * (height * c) - n * (across * c)) * turn;
+    result.leaving = vec4<f32>(m * ray.emission_radial - tangent * ray.emission_tangential, ray.emission_frequency);
     return result;
 }
 
