@@ -43,7 +43,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     storageBarrier();
 
     let first = item.place.x;
-    let cells = f32(min(item.grid.x, item.grid.y)) * exp2(f32(item.piece.what.w));
     for (var k = lane; k < item.place.w; k += 64u) {
         var a: u32; var b: u32; var c: u32;
         if fan {
@@ -71,7 +70,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         let slot = item.place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, two_sided(placement), cells) {
+        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement) {
             b = a;
             c = a;
         }
@@ -162,6 +161,11 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
             query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.offset, s);
+            if s == 0.0 {
+                // A quarter of a pixel past the axis: the next order begins there with arcs cut at other points, and between two chords of
+                // one circle a pixel could be missed.
+                query.across = -0.25 * frame.size.z * length(apex);
+            }
         }
         let next = answer(placement, query, placement.ids.x);
         if k == 0u {

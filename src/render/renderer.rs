@@ -100,6 +100,11 @@ impl Renderer {
         &self.gpu
     }
 
+    /// The baked table.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
     /// Adds a model.
     pub fn add_model(&mut self, model: &Model) -> ModelRange {
         self.geometry.models_changed();
