@@ -5,3 +5,6 @@ mod scene_files;
 mod reference_oracles;
 mod reference_trace;
 mod light_against_judge;
+
+mod lensing_integrator;
+mod lensing_tables;
