@@ -12,3 +12,5 @@ mod reference_trace;
 mod light_against_judge;
 
 mod spacetime_light;
+mod lensing_integrator;
+mod lensing_tables;

@@ -85,7 +85,7 @@ fn sweep_raw(sweep: f32, s: f32) -> f32 {
 }
 
 fn sweep_axis(cam: LensCamera, c: f32, sweep: f32) -> f32 {
-    let s = 2.8 * sqrt(min(cam.a, 1.0) + c);
+    let s = 2.8 * sqrt(cam.a / (1.0 + cam.a) + c);
     let first = sweep_raw(0.0, s);
     return (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first);
 }
@@ -120,11 +120,13 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     let sk = basis(cam, bent);
     let s = sk.x;
     let k = sk.y;
-    let am = cam.a * cam.fade;
+    // What is right only in weak fields, held down where K grows.
+    let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
+    let am = cam.a * m;
     let f = cam.force;
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
-    let q = cam.fade * k * k;
+    let q = m * k * k;
     let root = sqrt(max(b * b + 2.0 * q * c, 0.05 * b * b + 1e-4 * q));
     var w = 0.0;
     if b > 0.0 {
@@ -135,10 +137,10 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     let turn = 1.0 + cam.bend * k;
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
-        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + cam.fade * w * w);
+        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
         return vec2<f32>(w, (turn * rise + f * k + rest) / s + w * am * s * s);
     }
-    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + cam.fade * k * s * w * w);
+    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w);
 }
 
 fn energy(w: f32, u: f32, room: f32) -> f32 {

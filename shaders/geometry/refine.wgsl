@@ -12,6 +12,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let placement = placements[piece.what.x];
     let triangle = model_triangles[piece.what.y];
     measure(piece, placement, triangle);
+    model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
+        bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
     if piece.what.z == PIECE_FAN {
         refine_fan(piece, 1u - queue);
     } else {
@@ -22,6 +24,22 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 /// What was measured of a piece: its points as they are seen, and for a fan their offsets.
 var<private> points: array<vec3<f32>, 17>;
 var<private> offsets: array<vec3<f32>, 6>;
+
+/// Levels of the model triangle's edges, from the stage of edges.
+var<private> model_levels: vec3<u32>;
+
+/// The level of the edge between two corners: a whole edge of the model has the level that its other triangle knows too.
+fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
+    let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
+    if !whole {
+        return level_for(error);
+    }
+    let absent = a + b;
+    if absent.x == 0.0 {
+        return model_levels.x;
+    }
+    return select(model_levels.z, model_levels.y, absent.y == 0.0);
+}
 
 /// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
 /// at ¼, ½, ¾; then from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾, from 10 that at corner 2, from 14 the arc at ¼, ½, ¾.
@@ -73,7 +91,7 @@ fn refine_triangle(piece: Piece, queue: u32) {
     if off_screen(points[0], points[1], points[2], max(errors.x, max(errors.y, errors.z))) {
         return;
     }
-    let levels = vec3<u32>(level_for(errors.x), level_for(errors.y), level_for(errors.z));
+    let levels = vec3<u32>(level_between(c1, c2, errors.x), level_between(c2, c0, errors.y), level_between(c0, c1, errors.z));
     let most = max(levels.x, max(levels.y, levels.z));
     let depth = piece.what.w;
     if most <= BLOCK || depth >= DEEPEST {
@@ -120,7 +138,7 @@ fn refine_triangle(piece: Piece, queue: u32) {
 fn refine_fan(piece: Piece, queue: u32) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let outer = level_for(chord_error(points[1], points[3], points[4], points[5], points[2]));
+    let outer = level_between(c1, c2, chord_error(points[1], points[3], points[4], points[5], points[2]));
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {
         let m = edge_point(c1, c2, 0.5);

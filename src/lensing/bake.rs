@@ -30,8 +30,7 @@ pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
 
 /// How many nodes along r, Φ and L a table of `nodes` has: the interpolation in L needs the most.
 pub fn size(nodes: usize) -> [usize; 3] {
-    let across = (nodes * 11 / 20).max(5);
-    [across, 2 * across, nodes]
+    [(nodes * 62 / 100).max(5), (nodes * 106 / 100).max(5), nodes]
 }
 
 /// The table of `nodes` camera radii. `done` is called with each share of the work
