@@ -132,6 +132,7 @@ fn a_galaxy_on_the_axis_is_a_closed_annulus_and_the_shadow_is_dark() {
                     let [r, g, b, _] = picture.linear[y * 480 + x];
                     if r + g + b > 0.0 || id(x, y) != 0.0 {
                         lit += 1;
+                        println!("{name}: lit at {x}, {y}: {:?} {:?}", [r, g, b], picture.layers[y * 480 + x]);
                     }
                 }
             }

@@ -56,5 +56,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         error = chord_error(points[0], points[1], points[2], points[3], points[4]);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error)), bitcast<f32>(0u), 0.0, error);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement))), bitcast<f32>(0u), 0.0, error);
 }
