@@ -1,6 +1,6 @@
 // Where an apparent point lies on the screen.
 
-fn finite(v: vec3<f32>) -> bool {
+fn finite_vector(v: vec3<f32>) -> bool {
     // NaN fails every comparison; infinities fail this one.
     return all(abs(v) < vec3<f32>(1e30));
 }

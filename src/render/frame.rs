@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DQuat, DVec3};
 
-use crate::scene::blackbody;
+use crate::scene::{blackbody, milky_way};
 use crate::spacetime::{frames, light};
 
 use super::placements::Placed;
@@ -146,6 +146,10 @@ pub struct Capacity {
     pub thin: u32,
 }
 
+/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
+/// stars down to magnitude 6 show beside a lit ship.
+pub const SKY_UNIT: f32 = 4e-4;
+
 /// The uniform of a frame of `size` pixels.
 pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacity) -> types::Frame {
     let camera = &input.camera;
@@ -176,7 +180,13 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacit
         side_b: row(b, (1.0 / radius).sqrt()),
         projection: [cot as f32, (cot * f64::from(size[0]) / f64::from(size[1])) as f32, settings.near, input.time as f32],
         size: [size[0] as f32, size[1] as f32, pixel as f32, (pixel * f64::from(settings.pixel_error)) as f32],
-        light: [settings.exposure_bias, settings.star_brightness, if settings.milky_way { settings.sky_brightness } else { 0.0 }, settings.bloom],
+        light: [
+            settings.exposure_bias,
+            // A spot spreads a star's light over pixels of this solid angle.
+            settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32,
+            if settings.milky_way { settings.sky_brightness * SKY_UNIT * milky_way::PEAK } else { 0.0 },
+            settings.bloom,
+        ],
         exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, light::shadow_angle(1.0 / radius) as f32],
         switches: [switches, 64, if settings.stars { stars } else { 0 }, settings.orders],
         sky_x: [1.0, 0.0, 0.0, 0.0],

@@ -70,7 +70,7 @@ impl Pass {
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING_CAMERA, LENSING, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),

@@ -108,7 +108,7 @@ config! {
     /// How time runs.
     clock: Clock {
         pace: f64 = 1.5, number(0.01, 50.0), "r_s/c per second", "game time T that passes in a second before the screen";
-        step: f64 = 0.01, number(0.0005, 0.05), "r_s/c", "fixed step of the simulation";
+        step: f64 = 0.03125, number(0.0005, 0.5), "r_s/c", "fixed step of the simulation";
         max_steps: u32 = 200u32, integer(1, 10000), "steps", "most steps in one frame; beyond it the game slows down";
     }
     /// The picture.
@@ -158,14 +158,14 @@ config! {
     /// The player's ship.
     ship: ShipConfig {
         thrust: f64 = 0.06, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
-        fuel: f64 = 4.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
+        fuel: f64 = 7.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
         turn_rate: f64 = 1.2, number(0.05, 20.0), "rad per second", "fastest turn, by the second before the screen";
         size: f64 = 0.25, number(0.001, 10.0), "r_s", "length of the ship";
     }
     /// The ship that is chased.
     enemy: Enemy {
         thrust: f64 = 0.035, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
-        fuel: f64 = 6.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
+        fuel: f64 = 4.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
         replan_period: f64 = 2.5, number(0.05, 100.0), "r_s/c", "time between two plans";
         horizon: f64 = 40.0, number(1.0, 500.0), "r_s/c", "how far a plan looks ahead";
         reaction_delay: f64 = 1.0, number(0.0, 50.0), "r_s/c", "age of what it knows of the hunter";

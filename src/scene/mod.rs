@@ -11,6 +11,7 @@ mod document;
 pub mod error;
 pub mod import;
 mod load;
+pub mod milky_way;
 pub mod model;
 pub mod planet;
 pub mod prop;
@@ -18,6 +19,7 @@ pub mod rules;
 mod setting;
 pub mod shapes;
 pub mod ship;
+pub mod stars;
 pub mod texture;
 
 pub use assembly::{Assembly, Body, Object};

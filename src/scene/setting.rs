@@ -79,20 +79,40 @@ impl Setting {
 
     /// `value` in the setting's own type if it is allowed, or what is wrong.
     pub fn check(&self, value: Value) -> Result<Value, String> {
-        let refuse = |shown: &dyn fmt::Display, why: &str| Err(format!("{shown} {why}, allowed {}", self.allowed_text()));
+        let refuse = |shown: &dyn fmt::Display, why: &str| {
+            Err(format!("{shown} {why}, allowed {}", self.allowed_text()))
+        };
         match (self.allowed, value) {
-            (Allowed::Number { min, max }, Value::Number(number)) if (min..=max).contains(&number) => Ok(Value::Number(number)),
-            (Allowed::Number { min, max }, Value::Integer(number)) if (min..=max).contains(&f64::from(number)) => {
+            (Allowed::Number { min, max }, Value::Number(number))
+                if (min..=max).contains(&number) =>
+            {
+                Ok(Value::Number(number))
+            }
+            (Allowed::Number { min, max }, Value::Integer(number))
+                if (min..=max).contains(&f64::from(number)) =>
+            {
                 Ok(Value::Number(f64::from(number)))
             }
-            (Allowed::Integer { min, max }, Value::Integer(number)) if (min..=max).contains(&number) => Ok(Value::Integer(number)),
+            (Allowed::Integer { min, max }, Value::Integer(number))
+                if (min..=max).contains(&number) =>
+            {
+                Ok(Value::Integer(number))
+            }
             (Allowed::Switch, Value::Switch(on)) => Ok(Value::Switch(on)),
-            (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => Ok(Value::Word(word)),
+            (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => {
+                Ok(Value::Word(word))
+            }
             (Allowed::Key, Value::Word(word)) if is_key(&word) => Ok(Value::Word(word)),
             (Allowed::Number { .. }, Value::Number(number)) => refuse(&number, "is out of range"),
-            (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => refuse(&number, "is out of range"),
-                (Allowed::Integer { .. }, Value::Number(number)) => refuse(&number, "is no such whole number"),
-            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
+            (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => {
+                refuse(&number, "is out of range")
+            }
+            (Allowed::Integer { .. }, Value::Number(number)) => {
+                refuse(&number, "is no such whole number")
+            }
+            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => {
+                refuse(&format!("{word:?}"), "is not known")
+            }
             (_, Value::Word(word)) => refuse(&format!("{word:?}"), "has the wrong type"),
             (_, Value::Switch(on)) => refuse(&on, "has the wrong type"),
             (_, Value::Number(number)) => refuse(&number, "has the wrong type"),
@@ -102,10 +122,9 @@ impl Setting {
 
     /// What is allowed, for a person: `0.1 to 20 r_s/c per second`, `true or false`, `one of "table", "newton"`.
     pub fn allowed_text(&self) -> String {
-        let space = if self.unit.is_empty() { "" } else { " " };
         match self.allowed {
-            Allowed::Number { min, max } => format!("{} to {}{space}{}", plain(min), plain(max), self.unit),
-            Allowed::Integer { min, max } => format!("whole numbers {min} to {max}{space}{}", self.unit),
+            Allowed::Number { min, max } => range_text(min, max, self.unit),
+            Allowed::Integer { min, max } => format!("whole numbers {}", range_text(f64::from(min), f64::from(max), self.unit)),
             Allowed::Switch => "true or false".into(),
             Allowed::Choice(words) => format!("one of {}", words.iter().map(|word| format!("{word:?}")).collect::<Vec<_>>().join(", ")),
             Allowed::Key => "a key: KeyA to KeyZ, Digit0 to Digit9, F1 to F12, Space, Escape, ArrowUp, MouseLeft, … or None".into(),
@@ -113,9 +132,19 @@ impl Setting {
     }
 }
 
+/// `0.1 to 20 r_s/c`.
+pub(super) fn range_text(min: f64, max: f64, unit: &str) -> String {
+    let space = if unit.is_empty() { "" } else { " " };
+    format!("{} to {}{space}{unit}", plain(min), plain(max))
+}
+
 /// Long numbers with an exponent, others without.
 fn plain(number: f64) -> String {
-    if number != 0.0 && !(1e-4..1e7).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
+    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) {
+        format!("{number:e}")
+    } else {
+        number.to_string()
+    }
 }
 
 impl fmt::Display for Value {
@@ -133,10 +162,44 @@ impl fmt::Display for Value {
 /// `MouseMiddle`, or `None` for an action without a key.
 pub fn is_key(name: &str) -> bool {
     const NAMED: [&str; 38] = [
-        "None", "Space", "Enter", "Escape", "Tab", "Backspace", "Delete", "Insert", "Home", "End", "PageUp", "PageDown", "ArrowUp",
-        "ArrowDown", "ArrowLeft", "ArrowRight", "ShiftLeft", "ShiftRight", "ControlLeft", "ControlRight", "AltLeft", "AltRight", "Minus",
-        "Equal", "BracketLeft", "BracketRight", "Semicolon", "Quote", "Backquote", "Backslash", "Comma", "Period", "Slash", "CapsLock",
-        "NumpadEnter", "MouseLeft", "MouseRight", "MouseMiddle",
+        "None",
+        "Space",
+        "Enter",
+        "Escape",
+        "Tab",
+        "Backspace",
+        "Delete",
+        "Insert",
+        "Home",
+        "End",
+        "PageUp",
+        "PageDown",
+        "ArrowUp",
+        "ArrowDown",
+        "ArrowLeft",
+        "ArrowRight",
+        "ShiftLeft",
+        "ShiftRight",
+        "ControlLeft",
+        "ControlRight",
+        "AltLeft",
+        "AltRight",
+        "Minus",
+        "Equal",
+        "BracketLeft",
+        "BracketRight",
+        "Semicolon",
+        "Quote",
+        "Backquote",
+        "Backslash",
+        "Comma",
+        "Period",
+        "Slash",
+        "CapsLock",
+        "NumpadEnter",
+        "MouseLeft",
+        "MouseRight",
+        "MouseMiddle",
     ];
     let letter = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_uppercase();
     let digit = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_digit();
@@ -144,5 +207,7 @@ pub fn is_key(name: &str) -> bool {
         || name.strip_prefix("Key").is_some_and(letter)
         || name.strip_prefix("Digit").is_some_and(digit)
         || name.strip_prefix("Numpad").is_some_and(digit)
-        || name.strip_prefix('F').is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
+        || name
+            .strip_prefix('F')
+            .is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
 }

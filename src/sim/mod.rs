@@ -4,6 +4,7 @@
 //! One fixed step is the schedule `FixedUpdate` with the sets [`SimSet`] in their order. The same scene, seed and inputs give the same
 //! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
 
+pub mod assist;
 pub mod clock;
 pub mod flight;
 pub mod hash;
@@ -11,6 +12,7 @@ pub mod history;
 pub mod physics;
 pub mod pilot;
 pub mod rules;
+pub mod setup;
 pub mod ship;
 pub mod simulate;
 
@@ -23,6 +25,7 @@ pub use history::{History, Sample};
 pub use physics::ShipPhysicsPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
+pub use setup::{outcome, set_manual, start};
 pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion, muster};
 
 /// The order of a fixed step.
@@ -50,7 +53,7 @@ pub enum SimEvent {
         /// T in r_s/c.
         time: f64,
     },
-    /// A ship is inside r = 1 since the step that ended at `time`.
+    /// A ship went through r = 1.
     CrossedHorizon {
         /// The ship's name.
         ship: String,
@@ -93,7 +96,7 @@ impl std::fmt::Display for SimEvent {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SimEvent::FuelSpent { ship, time } => write!(f, "{ship}: out of fuel at T = {time}"),
-            SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon by T = {time}"),
+            SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon at T = {time}"),
             SimEvent::Decided { outcome, time } => write!(f, "{outcome} at T = {time}"),
             SimEvent::Ended { ship, time, proper_time, reason } => {
                 write!(f, "{ship}: {reason} at T = {time}, tau = {proper_time}")

@@ -1,22 +1,18 @@
 //! `lensrunner simulate`: the game without graphics, as fast as it goes, written as CSV.
 
 use std::io::{self, Write};
-use std::path::Path;
 use std::time::Instant;
 
 use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::scene::rules::{Rules, RulesEntry};
-use crate::scene::ship::{Ai, Fault, ShipEntry, ShipSpec, check_ships};
+use crate::scene::ship::Ai;
+use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
-use super::ship::{Controls, Ended, Engine, EngineDefaults, Fleet, Fuel, Programme, Ship, ShipMotion, muster};
-use super::{Chance, Chase, ChaseRules, Clock, SimEvent, SimulationPlugins, begin_chase};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
+use super::{Clock, SimEvent, SimulationPlugins, outcome, start};
 
 /// The header row.
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
@@ -45,13 +41,38 @@ impl Default for Request {
     }
 }
 
+impl Request {
+    /// Whether it can be run on `scene`, and its last T.
+    pub fn check(&self, scene: &Scene, config: &GameConfig) -> Result<f64, SimulateError> {
+        if scene.ships.is_empty() {
+            return Err(SimulateError::Input(format!("scene {}: a simulation needs at least one [[ship]]", scene.name)));
+        }
+        let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
+        let until = self.until.unwrap_or(if chase { scene.rules(config).time_limit } else { DEFAULT_UNTIL });
+        let every = self.every;
+        if !(0.0..=1e9).contains(&until) {
+            return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
+        }
+        if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
+            return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
+        }
+        Ok(until)
+    }
+}
+
 /// Why a run failed.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulateError {
     /// The input is wrong: exit code 2.
     #[error("{0}")]
     Input(String),
-    /// Reading or writing failed: exit code 1.
+    /// The scene is wrong: exit code 2.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The configuration is wrong: exit code 2.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Writing failed: exit code 1.
     #[error("{0}")]
     Io(#[from] io::Error),
 }
@@ -67,67 +88,29 @@ pub struct Summary {
     pub hash: StateHash,
 }
 
-/// What `simulate` needs of a scene file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SimScene {
-    /// The ships in the file's order.
-    pub ships: Vec<ShipSpec>,
-    /// The rules of the chase.
-    pub rules: Rules,
-}
-
-#[derive(Deserialize)]
-struct SimSceneEntry {
-    #[serde(default)]
-    ship: Vec<Spanned<ShipEntry>>,
-    #[serde(default)]
-    rules: RulesEntry,
-}
-
-/// Reads the ships and the rules of the scene file `name` from its text.
-pub fn parse(name: &str, text: &str) -> Result<SimScene, SimulateError> {
-    let at = |span: std::ops::Range<usize>, message: String| {
-        let line = 1 + text[..span.start.min(text.len())].matches('\n').count();
-        SimulateError::Input(format!("{name}:{line}: {message}"))
-    };
-    let entry: SimSceneEntry =
-        toml::from_str(text).map_err(|error| at(error.span().unwrap_or(0..0), error.message().to_owned()))?;
-    let fault = |fault: Fault| at(fault.span, fault.message);
-    let ships = check_ships(&entry.ship).map_err(fault)?;
-    if ships.is_empty() {
-        return Err(SimulateError::Input(format!("{name}: a simulation needs at least one [[ship]]")));
-    }
-    Ok(SimScene { ships, rules: entry.rules.check(Rules::default()).map_err(fault)? })
-}
-
-/// A world with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step.
-pub fn world_of(scene: &SimScene, seed: u64) -> App {
+/// An app with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step: run that schedule to go on.
+pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
     let mut app = App::new();
     app.add_plugins(SimulationPlugins);
     app.edit_schedule(FixedUpdate, |schedule| {
         schedule.set_executor(SingleThreadedExecutor::new());
     });
-    app.insert_resource(Chance::from_seed(seed)).insert_resource(ChaseRules(scene.rules));
-    muster(app.world_mut(), &scene.ships, &EngineDefaults::default(), 0.0);
-    begin_chase(app.world_mut());
     app.finish();
     app.cleanup();
+    start(app.world_mut(), scene, config, seed);
     app
 }
 
-/// Runs the scene file at `path`, rows to `out`, events and the last line to `log`.
-pub fn run(path: &Path, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| SimulateError::Input(format!("{name}: {error}")))?;
-    simulate(&parse(&name, &text)?, request, out, log)
-}
-
 /// Runs `scene`; rows by T, then in scene order.
-pub fn simulate(scene: &SimScene, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
-    let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
-    let mut until = request.until.unwrap_or(if chase { scene.rules.time_limit } else { DEFAULT_UNTIL });
-    check(until, request.every)?;
-    let mut app = world_of(scene, request.seed);
+pub fn simulate(
+    scene: &Scene,
+    config: &GameConfig,
+    request: &Request,
+    out: &mut dyn Write,
+    log: &mut dyn Write,
+) -> Result<Summary, SimulateError> {
+    let mut until = request.check(scene, config)?;
+    let mut app = app_of(scene, config, request.seed);
     let started = Instant::now();
     writeln!(out, "{COLUMNS}")?;
     let mut row = 0u64;
@@ -146,20 +129,10 @@ pub fn simulate(scene: &SimScene, request: &Request, out: &mut dyn Write, log: &
         before = departures(app.world());
         app.world_mut().run_schedule(FixedUpdate);
         tell(app.world_mut(), until, log)?;
-        if let Some((_, decided)) = app.world().get_resource::<Chase>().and_then(|chase| chase.outcome) {
+        if let Some((_, decided)) = outcome(app.world()) {
             until = until.min(decided);
         }
     }
-}
-
-fn check(until: f64, every: f64) -> Result<(), SimulateError> {
-    if !(until >= 0.0 && until <= 1e9) {
-        return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
-    }
-    if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
-        return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
-    }
-    Ok(())
 }
 
 /// T of row `row`: `row`·`every`, freed of the rounding that shows when `every` is a short decimal (3 · 0.1 = 0.30000000000000004); the

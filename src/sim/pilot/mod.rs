@@ -1,7 +1,8 @@
 //! [`EnemyAiPlugin`]: the pilots. One code flies hunter and quarry; the quarry has the sign of the distance turned.
 //!
 //! Far away, sampling model-predictive control ([`plan`]); where a meeting can be flown, zero-effort-miss shooting ([`rendezvous`]); the
-//! hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and takes it to have coasted since. Difficulty is
+//! hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and expects it to go on
+//! as it did. Difficulty is
 //! thrust, replanning period, horizon and reaction delay, nothing else.
 
 pub mod plan;
@@ -102,6 +103,11 @@ impl Plugin for EnemyAiPlugin {
     }
 }
 
+/// How long the other ship is watched to tell its thrust, in r_s/c.
+const WATCH: f64 = 1.0;
+/// How long it is expected to go on as it does, in r_s/c.
+const PERSISTENCE: f64 = 4.0;
+
 /// T between two looks at whether a meeting can be flown, in r_s/c.
 const MEETING_PERIOD: f64 = 0.25;
 
@@ -126,11 +132,14 @@ pub fn fly_by_pilot(
         };
         let now = clock.time;
         if now >= mind.next_plan {
+            let (other, other_burn) = reckon(other_history, now, skill.reaction_delay);
             let task = Task {
                 aim,
                 own: Point::from(&motion.0),
-                other: last_known(other_history, now, skill.reaction_delay),
+                other,
+                other_burn,
                 max_thrust: if fuel.left > 0.0 { engine.max_thrust } else { 0.0 },
+                fuel: fuel.left,
                 other_thrust: other_engine.max_thrust,
                 horizon: skill.horizon,
                 arena_radius: rules.0.arena_radius,
@@ -152,15 +161,24 @@ pub fn fly_by_pilot(
     }
 }
 
-/// The other ship as it was `delay` ago, flown on to now as if it had coasted.
-fn last_known(history: &History, now: f64, delay: f64) -> Point {
-    let sample = history.at(now - delay);
-    let mut point = Point { x: sample.position, p: sample.momentum };
-    let steps = (delay * 2.0).ceil().max(1.0);
-    for _ in 0..steps as usize {
-        point = rollout::advance(&point, delay / steps, |_| DVec3::ZERO);
-    }
-    point
+/// The other ship now, and what it burns, from what was to be seen of it up to `delay` ago: the burn is the change of its momentum over the
+/// last [`WATCH`] beyond free fall, taken to go on for [`PERSISTENCE`].
+fn reckon(history: &History, now: f64, delay: f64) -> (Point, Burn) {
+    let seen = |time: f64| {
+        let sample = history.at(time);
+        Point { x: sample.position, p: sample.momentum }
+    };
+    let fly = |mut point: Point, span: f64, burn: &Burn| {
+        let steps = (span * 2.0).ceil().max(1.0);
+        for _ in 0..steps as usize {
+            point = rollout::advance(&point, span / steps, |at| burn.acceleration(at, 0.0, 0.0));
+        }
+        point
+    };
+    let last = seen(now - delay);
+    let gained = (last.p - fly(seen(now - delay - WATCH), WATCH, &Burn::COAST).p) / WATCH;
+    let burn = Burn { thrust: last.to_local(gained), duration: PERSISTENCE };
+    (fly(last, delay, &burn), burn)
 }
 
 /// The command that gives the proper acceleration `wish` (rest-frame axes), the nose (−z) turning to where the engine pushes.

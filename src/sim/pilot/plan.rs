@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rand::{RngExt, rngs::StdRng};
 
-use super::rollout::{Point, Span, advance, coast};
+use super::rollout::{Point, Span, advance, track};
 
 /// A ship that comes under this radius (r_s) in a plan is judged as nearly lost: twice the horizon, above the photon sphere.
 pub const SAFE_RADIUS: f64 = 2.0;
@@ -18,6 +18,13 @@ pub enum Aim {
     Catch,
     /// To stay away from it.
     Escape,
+}
+
+impl Burn {
+    /// The proper acceleration (rest-frame axes) at `at`, in the middle of a step of `h` that begins `time` after the burn did.
+    pub fn acceleration(&self, at: &Point, time: f64, h: f64) -> DVec3 {
+        if time + 0.5 * h < self.duration { at.from_local(self.thrust) } else { DVec3::ZERO }
+    }
 }
 
 /// A burn: constant thrust on local axes, then coasting.
@@ -34,6 +41,21 @@ impl Burn {
     pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
 }
 
+/// What an orbit that falls in costs, in r_s of distance per unit of E² over the barrier.
+const FALL: f64 = 20.0;
+/// The fuel, in c, with which a pilot stops risking such orbits.
+pub const RESERVE: f64 = 1.0;
+/// What leaving the arena costs, in r_s of distance per unit of energy.
+const UNBOUND: f64 = 200.0;
+
+impl Task {
+    /// The energy of the circular orbit at half the arena's radius. Less than this, and the apoapsis lies in the arena.
+    fn arena_energy(&self) -> f64 {
+        let r = 0.5 * self.arena_radius;
+        (1.0 - 1.0 / r) / (1.0 - 1.5 / r).sqrt()
+    }
+}
+
 /// What a plan is made from.
 #[derive(Clone, Copy, Debug)]
 pub struct Task {
@@ -43,8 +65,12 @@ pub struct Task {
     pub own: Point,
     /// The other ship now, as far as the pilot knows.
     pub other: Point,
+    /// What the other is thought to burn next, from what it was seen to do.
+    pub other_burn: Burn,
     /// The most proper acceleration, c²/r_s.
     pub max_thrust: f64,
+    /// Δv left, in c.
+    pub fuel: f64,
     /// The other's engine as the pilot reckons it, c²/r_s: one who flees expects to be followed with it.
     pub other_thrust: f64,
     /// How far ahead, in r_s/c.
@@ -65,9 +91,11 @@ const REFINEMENTS: usize = 24;
 /// The best burn found, and its cost.
 pub fn plan(task: &Task, previous: &Burn, chance: &mut StdRng) -> (Burn, f64) {
     let span = Span { step: STEP, count: (task.horizon / STEP) as usize };
-    let other = coast(task.other, span);
+    let other = track(task.other, &task.other_burn, span);
     let mut best = (Burn::COAST, f64::INFINITY);
     let mut consider = |burn: Burn| {
+        let endurance = if burn.thrust == DVec3::ZERO { 0.0 } else { task.fuel / burn.thrust.length() };
+        let burn = Burn { duration: burn.duration.min(endurance), ..burn };
         let cost = cost(task, &burn, &other, span);
         if cost < best.1 {
             best = (burn, cost);
@@ -105,8 +133,7 @@ fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
     for (index, seen) in other.iter().enumerate() {
         let time = index as f64 * span.step;
         if index > 0 {
-            let thrusting = time - 0.5 * span.step < burn.duration;
-            own = advance(&own, span.step, |at| if thrusting { at.from_local(burn.thrust) } else { DVec3::ZERO });
+            own = advance(&own, span.step, |at| burn.acceleration(at, time - span.step, span.step));
             if task.aim == Aim::Escape {
                 hunter = follow(&hunter, &own, task.other_thrust, span.step);
             }
@@ -128,11 +155,28 @@ fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
     mean /= other.len() as f64;
     let spent = burn.thrust.length() * burn.duration.min(task.horizon);
     let danger = if lowest < SAFE_RADIUS { 1000.0 + 100.0 * (SAFE_RADIUS - lowest) } else { 0.0 };
+    // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
+    let unbound = if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
     danger
+        + unbound
+        + fall_risk(&own, task.fuel - spent)
         + match task.aim {
             Aim::Catch => nearest + 0.15 * end + 0.1 * spent + penalty,
             Aim::Escape => -nearest - 0.3 * mean - 0.3 * end.min(12.0) + 0.05 * spent + penalty,
         }
+}
+
+/// What it costs to be on an orbit that leads down to [`SAFE_RADIUS`]: some while there is fuel to leave it, nearly all when there is not.
+pub fn fall_risk(own: &Point, fuel_left: f64) -> f64 {
+    let energy = own.energy();
+    let barrier = (1.0 - 1.0 / SAFE_RADIUS) * (1.0 + own.x.cross(own.p).length_squared() / (SAFE_RADIUS * SAFE_RADIUS));
+    let leaves = energy >= 1.0 && own.x.dot(own.velocity()) > 0.0;
+    let lacking = energy * energy - barrier;
+    if leaves || lacking < 0.0 {
+        0.0
+    } else {
+        lacking * FALL + if fuel_left < RESERVE { 500.0 } else { 0.0 }
+    }
 }
 
 /// How one who flees reckons the hunter: it thrusts towards the prey and brakes its sideways drift, but not into the hole.

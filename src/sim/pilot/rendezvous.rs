@@ -1,11 +1,11 @@
-//! Zero-effort-miss shooting: where would both be if both coasted, and which thrust closes the gap in position and velocity?
+//! Zero-effort-miss shooting: where would both be if the one coasted and the other went on as it does, and which thrust closes the gap in position and velocity?
 //!
-//! With the miss z and the velocity difference v at the end of `go` (target minus own, both coasting in the real spacetime), the thrust of
+//! With the miss z and the velocity difference v at the end of `go` (target minus own, in the real spacetime), the thrust of
 //! least ∫a² is linear in time: from 6z/go² − 2v/go to 4v/go − 6z/go² (e.g. Ebrahimi, Bahrami, Roshanian, Acta Astronautica 62 (2008) 556).
 
 use glam::DVec3;
 
-use super::plan::{SAFE_RADIUS, Task};
+use super::plan::{RESERVE, SAFE_RADIUS, Task, fall_risk};
 use super::rollout::{Point, advance, proper_acceleration};
 
 /// Times to go that are tried, shortest first, in r_s/c.
@@ -17,7 +17,7 @@ const SHARE_OF_MISS: f64 = 0.05;
 /// See [`SHARE_OF_MISS`], in r_s.
 const MISS: f64 = 0.05;
 /// Share of the engine's thrust that a plan may use; the rest corrects.
-const RESERVE: f64 = 0.9;
+const THRUST_SHARE: f64 = 0.9;
 
 /// The thrust now (proper acceleration, rest-frame axes, c²/r_s) of the soonest meeting the engine can fly without coming near the hole.
 pub fn rendezvous(task: &Task) -> Option<DVec3> {
@@ -27,15 +27,15 @@ pub fn rendezvous(task: &Task) -> Option<DVec3> {
 fn meet(task: &Task, go: f64) -> Option<DVec3> {
     let h = go / STEPS as f64;
     let (mut own, mut other) = (task.own, task.other);
-    for _ in 0..STEPS {
+    for index in 0..STEPS {
         own = advance(&own, h, |_| DVec3::ZERO);
-        other = advance(&other, h, |_| DVec3::ZERO);
+        other = advance(&other, h, |at| task.other_burn.acceleration(at, index as f64 * h, h));
     }
     let miss = other.x - own.x;
     let drift = other.velocity() - own.velocity();
     let first = miss * (6.0 / (go * go)) - drift * (2.0 / go);
     let last = drift * (4.0 / go) - miss * (6.0 / (go * go));
-    let limit = task.max_thrust * RESERVE;
+    let limit = task.max_thrust * THRUST_SHARE;
     if first.length() > limit || last.length() > limit {
         return None;
     }
@@ -47,6 +47,9 @@ fn meet(task: &Task, go: f64) -> Option<DVec3> {
         if now.x.length_squared() < SAFE_RADIUS * SAFE_RADIUS {
             return None;
         }
+    }
+    if task.fuel < RESERVE && fall_risk(&now, task.fuel) > 0.0 {
+        return None;
     }
     let close = now.x.distance(other.x) <= MISS + SHARE_OF_MISS * miss.length();
     close.then(|| proper_acceleration(task.own.p, first).clamp_length_max(task.max_thrust))

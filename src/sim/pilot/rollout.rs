@@ -7,6 +7,8 @@ use glam::DVec3;
 use crate::spacetime::matter::{ShipState, boosted_acceleration, gamma, tidal_pull};
 use crate::spacetime::metric::river_speed;
 
+use super::plan::Burn;
+
 /// Position (r_s) and rain-frame momentum per mass (c).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
@@ -27,6 +29,12 @@ impl Point {
     pub fn velocity(&self) -> DVec3 {
         let r = self.x.length();
         self.p / gamma(self.p) - self.x * (river_speed(r) / r)
+    }
+
+    /// Energy per mass, as `matter::energy`.
+    pub fn energy(&self) -> f64 {
+        let r = self.x.length();
+        gamma(self.p) - self.x.dot(self.p) * (river_speed(r) / r)
     }
 
     fn rate(&self, acceleration: DVec3) -> Point {
@@ -50,6 +58,13 @@ impl Point {
         }
     }
 
+    /// The inverse of [`Point::from_local`].
+    pub fn to_local(&self, v: DVec3) -> DVec3 {
+        let outward = self.x / self.x.length();
+        let axis = self.x.cross(self.p).try_normalize().unwrap_or_else(|| outward.any_orthonormal_vector());
+        DVec3::new(v.dot(outward), v.dot(axis.cross(outward)), v.dot(axis))
+    }
+
     /// `local` (outward, along the motion around the hole, along the orbit's axis) on rest-frame axes.
     pub fn from_local(&self, local: DVec3) -> DVec3 {
         let outward = self.x / self.x.length();
@@ -67,13 +82,13 @@ pub struct Span {
     pub count: usize,
 }
 
-/// The free orbit from `start`: `count` + 1 points.
-pub fn coast(start: Point, span: Span) -> Vec<Point> {
+/// The flight from `start` under `burn`: `count` + 1 points.
+pub fn track(start: Point, burn: &Burn, span: Span) -> Vec<Point> {
     let mut track = Vec::with_capacity(span.count + 1);
-    track.push(start);
     let mut now = start;
-    for _ in 0..span.count {
-        now = advance(&now, span.step, |_| DVec3::ZERO);
+    track.push(now);
+    for index in 0..span.count {
+        now = advance(&now, span.step, |at| burn.acceleration(at, index as f64 * span.step, span.step));
         track.push(now);
     }
     track
