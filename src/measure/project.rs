@@ -280,7 +280,7 @@ fn parse_row(text: &str, line: usize) -> Result<Row<'_>, ProjectError> {
     let query = Query {
         r: number("r", r, "a finite radius greater than 0", radius)?,
         phi: number("phi", phi, "0 to π radians", |x| {
-            x >= -AXIS_CLEARANCE && x <= PI + AXIS_CLEARANCE
+            (-AXIS_CLEARANCE..=PI + AXIS_CLEARANCE).contains(&x)
         })?
         .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
         camera: number("L", camera, "a finite radius greater than 0", radius)?,

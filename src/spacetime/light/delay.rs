@@ -125,15 +125,19 @@ impl Path {
     fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
         let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
         if self.u_camera < 1.0 {
-            self.from_both_ends(narrow, f)
+            self.integral_of_halves(narrow, f)
         } else {
-            self.from_the_point(narrow, f)
+            self.integral_inwards(narrow, f)
         }
     }
 
     /// Camera outside: equal panels, half of them reached from either end, for errors grow like exp Φ near the photon sphere.
-    fn from_both_ends(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    fn integral_of_halves(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let count = (self.swept / narrow - 1e-9).ceil().max(1.0);
+        // A ray of the vacuum needs a dozen.
+        if count.is_nan() || count > 1e4 {
+            return f64::NAN;
+        }
         let Some(panel) = Panel::new(self.swept / count, self.d) else {
             return f64::NAN;
         };
@@ -156,7 +160,7 @@ impl Path {
 
     /// Camera inside: panels from the point on, shorter towards the singularity that lies 2/√u behind the camera. From the
     /// camera's end it would not do: there w² − u³ has lost the e² that decides about the rest.
-    fn from_the_point(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    fn integral_inwards(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let beyond = 2.0 / self.u_camera.sqrt();
         let f = |u: f64, w: f64| f(u, -w);
         let (mut u, mut w) = (self.u_point, -self.emission_slope);
@@ -164,7 +168,11 @@ impl Path {
         let mut sum = 0.0;
         loop {
             let last = left <= narrow.min(0.4 * (left + beyond));
-            let step = if last { left } else { narrow.min(0.4 * (left + beyond)) };
+            let step = if last {
+                left
+            } else {
+                narrow.min(0.4 * (left + beyond))
+            };
             let Some(panel) = Panel::new(step, self.d) else {
                 return f64::NAN;
             };

@@ -25,7 +25,11 @@ pub fn sky_angle(psi_rain: f64, u_camera: f64) -> Option<f64> {
 pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
     let (w, e, u) = (slope, energy, u_camera);
     // The critical ray is seen at this slope from outside the photon sphere and from inside it.
-    if !(in_range(u) && e > 0.0 && e.is_finite() && w < (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt()) {
+    if !(in_range(u)
+        && e > 0.0
+        && e.is_finite()
+        && w < (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt())
+    {
         return None;
     }
     let chord = if w > 0.0 {

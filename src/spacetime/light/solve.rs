@@ -102,10 +102,11 @@ pub fn join_near(
         return None;
     }
     let fan = Fan::new(u_camera);
-    let guess = guess
-        .filter(|w| w.is_finite())
-        .unwrap_or_else(|| first_guess(u_point, swept, u_camera));
-    let (x, emission_slope) = solve(fan, u_point, swept, fan.of_slope(guess))?;
+    let x = match guess.filter(|w| w.is_finite()) {
+        Some(w) => fan.of_slope(w),
+        None => first_guess(fan, u_point, swept),
+    };
+    let (x, emission_slope) = solve(fan, u_point, swept, x)?;
     let energy = fan.energy(x);
     Some(Ray {
         slope: fan.start(x).slope,
@@ -118,17 +119,20 @@ pub fn join_near(
     })
 }
 
-/// Whether u³ is a number to compute with: 1e-100 to 1e100 in 1/r_s.
+/// Φ in radians up to which rays are joined: beyond, neighbouring numbers w are rays that part before they get there.
+const MOST_SWEPT: f64 = 30.0;
+
+/// Whether u (1/r_s) is one that light can be computed for: below r = 1e-6 the rounding of u at the camera is felt as far out as
+/// the horizon.
 pub(super) fn in_range(u: f64) -> bool {
-    (1e-100..=1e100).contains(&u)
+    (1e-30..=1e6).contains(&u)
 }
 
 /// Whether such a ray exists.
 fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
     let sound = (u_point == 0.0 || in_range(u_point))
         && in_range(u_camera)
-        && swept > 0.0
-        && swept.is_finite();
+        && (1e-30..=MOST_SWEPT).contains(&swept);
     if !sound || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
         return false;
     }
@@ -139,12 +143,17 @@ fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
     u_camera > u_point && swept < (1.0 - 2.0 / u_point).acos() - (1.0 - 2.0 / u_camera).acos()
 }
 
-/// The straight line of flat space where it makes sense, else the ray that winds around the photon sphere.
-fn first_guess(u_point: f64, swept: f64, u_camera: f64) -> f64 {
-    if swept < 2.5 {
-        (u_point - u_camera * swept.cos()) / swept.sin()
-    } else {
-        (PHOTON_SPHERE - u_camera) * (u_camera + 1.0 / 3.0).sqrt()
+/// x of the straight line of flat space where it makes sense, else of the ray that winds around the photon sphere.
+fn first_guess(fan: Fan, u_point: f64, swept: f64) -> f64 {
+    let straight = fan.of_slope((u_point - fan.u() * swept.cos()) / swept.sin());
+    if swept < 2.5 && straight < fan.top() {
+        return straight;
+    }
+    match fan {
+        Fan::Outside { u } => (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt(),
+        Fan::Inside { s, .. } => {
+            -CRITICAL_ENERGY_SQUARED / (s + s.hypot(CRITICAL_ENERGY_SQUARED.sqrt()))
+        }
     }
 }
 
@@ -195,13 +204,14 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
         let here = (u + carried.rise).max(-0.5) + c;
         let there = u_point + c;
         let step = miss / rate * 2.0 * here / ((here * there).sqrt() + there);
-        // Rounding in u(Φ) ends the descent; the step is then the size of that error.
-        let scale = x.abs() + 1e-3 * u;
+        // Rounding in u(Φ) ends the descent; the steps then no longer shrink.
+        let scale = match fan {
+            Fan::Outside { .. } => x.abs() + 1e-3 * u,
+            Fan::Inside { .. } => x.abs(),
+        };
         let size = step.abs();
-        if miss == 0.0
-            || size <= 4.0 * f64::EPSILON * scale
-            || (size < 1e-10 * scale && size > 0.25 * last_step)
-        {
+        let at_the_floor = size < 1e-7 * scale && size > 0.25 * last_step;
+        if miss == 0.0 || size <= 4.0 * f64::EPSILON * scale || at_the_floor {
             return Some((x, carried.chord * rise_wanted - start.slope));
         }
         last_step = size;
@@ -210,8 +220,19 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
     None
 }
 
-/// The middle of two parameters as seen from the camera: halfway in the angle θ of x = −u cot θ.
+/// A parameter between two: their geometric mean where both are known and far apart, else halfway in the angle θ of x = −u cot θ, as
+/// seen from the camera, else a step towards the ray of zero energy.
 fn middle(low: f64, high: f64, u: f64) -> f64 {
+    if low * high > 0.0
+        && low.is_finite()
+        && high.is_finite()
+        && !(0.1..10.0).contains(&(low / high))
+    {
+        return (low * high).sqrt().copysign(low);
+    }
+    if high == 0.0 && low > -0.1 * u {
+        return 0.1 * low;
+    }
     let angle = |x: f64| {
         if x == f64::NEG_INFINITY {
             0.0
