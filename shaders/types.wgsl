@@ -66,8 +66,20 @@ struct Placement {
     ids: vec4<u32>,
     /// x: first model vertex, y: vertex count, z: first model edge, w: edge count.
     vertices: vec4<u32>,
-    /// x: first model triangle, y: triangle count, z: first material, w: 1 if both sides of a triangle are drawn.
+    /// x: first model triangle, y: triangle count, z: first material, w: PLACEMENT_*.
     triangles: vec4<u32>,
+}
+
+/// Both sides of a triangle are drawn.
+const PLACEMENT_TWO_SIDED: u32 = 1u;
+/// The object does not move; each of its points emits as a static observer there.
+const PLACEMENT_HELD: u32 = 2u;
+
+/// Its whole image of this order is narrower than two pixels.
+const PLACEMENT_THIN: u32 = 4u;
+
+fn two_sided(placement: Placement) -> bool {
+    return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;
 }
 
 struct ModelVertex {
@@ -75,10 +87,12 @@ struct ModelVertex {
     position: vec4<f32>,
     /// Unit normal in body axes; w: v of the texture.
     normal: vec4<f32>,
+    /// x: material, counted from the model's own first; a vertex belongs to one material. yzw unused.
+    info: vec4<u32>,
 }
 
 struct ModelTriangle {
-    /// Three vertices in ascending order and the material, counted from the model's own first.
+    /// Three vertices in ascending order, counted from the model's own first; w unused.
     vertices: vec4<u32>,
     /// Edge i is opposite to vertex i; w unused.
     edges: vec4<u32>,

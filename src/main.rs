@@ -6,7 +6,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
+use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
 
@@ -15,13 +17,45 @@ use lensrunner::spacetime::light::{Branch, Order};
 #[command(version, about)]
 struct Cli {
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
 }
 
 #[derive(Subcommand)]
 enum Command {
-    Simulate(SimulateArgs),
+    #[cfg(feature = "game")]
+    Play(lensrunner::play::PlayArgs),
+    #[cfg(feature = "game")]
+    Shot(ShotArgs),
+    Bake(BakeArgs),
     Project(ProjectArgs),
+    Simulate(SimulateArgs),
+}
+
+/// Draws one picture of a scene, without a window.
+///
+/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
+/// frequency.ratio (g = ν_observed/ν_emitted) of the nearest surface.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct ShotArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// Adds object id, image order, travel time and g to an .exr.
+    #[arg(long)]
+    layers: bool,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The picture: .png or .exr.
+    #[arg(short, value_name = "FILE")]
+    output: PathBuf,
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -30,8 +64,11 @@ enum Command {
 /// into rain axes through the pure boost of p. Rows by T, then in scene order.
 #[derive(Args)]
 struct SimulateArgs {
-    /// The scene file, TOML.
-    scene: PathBuf,
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    scene: String,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
     /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
     #[arg(long, value_name = "T")]
     until: Option<f64>,
@@ -66,6 +103,33 @@ struct ProjectArgs {
     branch: BranchArg,
 }
 
+/// Bakes a lensing table with a progress bar; prints its size, the time, and its error on fresh random points.
+#[derive(Args)]
+struct BakeArgs {
+    /// Nodes along each axis, 5 to 128; the scheme residual takes twice as many angles.
+    #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
+    nodes: u8,
+    /// What is stored.
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = SchemeArg::Residual)]
+    scheme: SchemeArg,
+    /// The file to write.
+    #[arg(short, value_name = "FILE", default_value = "tables/baked.lut")]
+    output: PathBuf,
+    /// Random points for each order to measure the error on.
+    #[arg(long, value_name = "N", default_value_t = 30_000)]
+    points: usize,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SchemeArg {
+    /// Residuals against closed forms, as splines: the one the game draws with.
+    Residual,
+    /// Paper 1, the meshes of its equations 3 to 7.
+    Paper,
+    /// Paper 1, uniform meshes.
+    PaperUniform,
+}
+
 #[derive(Clone, Copy, ValueEnum)]
 enum FrameArg {
     /// Hovering; exists only outside the horizon.
@@ -82,28 +146,48 @@ enum BranchArg {
 
 fn main() -> ExitCode {
     match Cli::parse().command {
-        Command::Simulate(args) => run_simulate(&args),
-        Command::Project(args) => run_project(&args),
+        #[cfg(feature = "game")]
+        None => lensrunner::play::run(&lensrunner::play::PlayArgs::default()),
+        #[cfg(not(feature = "game"))]
+        None => fail(&"this build has no renderer: choose a subcommand (--help lists them)", 2),
+        #[cfg(feature = "game")]
+        Some(Command::Play(args)) => lensrunner::play::run(&args),
+        #[cfg(feature = "game")]
+        Some(Command::Shot(args)) => run_shot(&args),
+        Some(Command::Bake(args)) => run_bake(args),
+        Some(Command::Project(args)) => run_project(&args),
+        Some(Command::Simulate(args)) => run_simulate(&args),
+    }
+}
+
+#[cfg(feature = "game")]
+fn run_shot(args: &ShotArgs) -> ExitCode {
+    use lensrunner::render::shot::{Request, ShotError, shot_to_file};
+    let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
+    match shot_to_file(&request, args.config.as_deref(), &args.output) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error @ (ShotError::Device(_) | ShotError::Picture(_))) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
 }
 
 fn run_simulate(args: &SimulateArgs) -> ExitCode {
-    let request = simulate::Request {
-        until: args.until,
-        every: args.every,
-        seed: args.seed,
-    };
-    let result = output(args.output.as_ref())
-        .map_err(SimulateError::from)
-        .and_then(|mut out| simulate::run(&args.scene, &request, &mut out, &mut io::stderr()));
-    match result {
-        Ok(_) => ExitCode::SUCCESS,
-        Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
-            ExitCode::SUCCESS
-        }
-        Err(error @ SimulateError::Input(_)) => fail(&error, 2),
+    match simulate_scene(args) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error @ SimulateError::Io(_)) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
     }
+}
+
+fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
+    let config = args.config.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
+    let scene = scene::load(&args.scene)?;
+    let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
+    request.check(&scene, &config)?;
+    let mut out = output(args.output.as_ref())?;
+    simulate::simulate(&scene, &config, &request, &mut out, &mut io::stderr())?;
+    Ok(())
 }
 
 fn run_project(args: &ProjectArgs) -> ExitCode {
@@ -119,35 +203,44 @@ fn run_project(args: &ProjectArgs) -> ExitCode {
             BranchArg::Minus => Branch::Minus,
         },
     };
-    let result = project::method(&args.method).and_then(|method| {
-        project::run(
-            &mut io::stdin().lock(),
-            &mut io::stdout().lock(),
-            method.as_ref(),
-            request,
-        )
-    });
+    let result = project::method(&args.method)
+        .and_then(|method| project::run(&mut io::stdin().lock(), &mut io::stdout().lock(), method.as_ref(), request));
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
-            ExitCode::SUCCESS
-        }
+        Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error @ ProjectError::Io(_)) => fail(&error, 1),
         Err(error) => fail(&error, 2),
     }
 }
 
-/// A buffered writer to `path`, or to standard output.
+fn run_bake(args: BakeArgs) -> ExitCode {
+    let scheme = match args.scheme {
+        SchemeArg::Residual => Scheme::Residual,
+        SchemeArg::Paper => Scheme::Paper,
+        SchemeArg::PaperUniform => Scheme::PaperUniform,
+    };
+    let request = lensing::command::Request {
+        nodes: usize::from(args.nodes),
+        scheme,
+        output: args.output,
+        points: args.points,
+    };
+    match lensing::command::run(&request) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
+    }
+}
+
 fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
     Ok(match path {
-        Some(path) => Box::new(BufWriter::new(File::create(path).map_err(|error| {
-            io::Error::new(error.kind(), format!("{}: {error}", path.display()))
-        })?)),
-        None => Box::new(BufWriter::new(io::stdout().lock())),
+        Some(path) => Box::new(BufWriter::new(
+            File::create(path).map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?,
+        )),
+        None => Box::new(BufWriter::new(io::stdout())),
     })
 }
 
-fn fail(error: &dyn std::error::Error, code: u8) -> ExitCode {
-    eprintln!("lensrunner: {error}");
+fn fail(error: &dyn std::fmt::Display, code: u8) -> ExitCode {
+    eprintln!("error: {error}");
     ExitCode::from(code)
 }

@@ -4,7 +4,7 @@
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
 @group(1) @binding(2) var<storage, read> model_edges: array<vec2<u32>>;
 @group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
-/// Chunks of 64 threads of one placement.
+/// Chunks of 64 threads of one placement, filled up to the size of the dispatch with NO_PLACEMENT.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
 /// Offset from the camera at emission (rain axes) of each model vertex; w: VERTEX_*.
@@ -17,7 +17,6 @@
 @group(1) @binding(10) var<storage, read_write> indices: array<u32>;
 @group(1) @binding(11) var<storage, read_write> thin: array<ThinVertex>;
 @group(1) @binding(12) var<storage, read_write> counters: Counters;
-@group(1) @binding(13) var<storage, read_write> arguments: Arguments;
 
 struct ThinVertex {
     /// Clip position, grown to at least a pixel.
@@ -43,14 +42,7 @@ struct Counters {
     unused: array<u32, 2>,
 }
 
-/// Indirect arguments, one row of four words each (an indexed draw takes two).
-struct Arguments {
-    refine: vec4<u32>,
-    mesh: vec4<u32>,
-    opaque: vec4<u32>,
-    opaque_rest: vec4<u32>,
-    thin: vec4<u32>,
-}
+const NO_PLACEMENT: u32 = 0xffffffffu;
 
 const VERTEX_PLAIN: f32 = 0.0;
 const VERTEX_ON_AXIS: f32 = 1.0;

@@ -14,13 +14,14 @@ fn opaque_fragment(in: Surface) -> @location(0) vec4<f32> {
     return vec4<f32>(shaded(in), 1.0);
 }
 
+/// For comparing pictures: object id, image order, travel time and g.
 @fragment
-fn opaque_layers(in: Surface) -> Layers {
+fn layers_fragment(in: Surface) -> @location(0) vec4<f32> {
     if hidden(in) {
         discard;
     }
     let ids = placements[in.which.x].ids;
-    return Layers(vec4<f32>(shaded(in), 1.0), vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w));
+    return vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w);
 }
 
 @vertex

@@ -12,30 +12,25 @@ struct Sight {
 }
 
 /// The ray of `order` from the point `offset` away from the camera (rain axes). `side` is the unit vector across the axis towards the
-/// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis.
-fn sight(offset: vec3<f32>, along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
+/// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it.
+fn sight(along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
     let ray = lens_lookup(along, across, order);
     let turn = select(1.0, -1.0, order == 2u);
     let n = frame.radial.xyz;
     // The direction, at the camera, in which the ray sweeps backwards round the hole; even orders go the other way.
-    let sweep = side * turn;
-    let look = n * ray.cos_psi + sweep * ray.sin_psi;
+    let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
 
     var result: Sight;
-    result.valid = ray.valid;
+    result.valid = ray.valid && ray.delay > 0.0;
     result.delay = ray.delay;
-    let null_vector = vec4<f32>(look * ray.delay, -ray.delay);
-    result.apparent = (frame.camera_from_rain * null_vector).xyz;
-    result.arriving = vec4<f32>(-look * ray.frequency, ray.frequency);
+    result.apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
+    result.arriving = vec4<f32>(-seen_at * ray.frequency, ray.frequency);
 
-    // At the point: radial m, and the direction of the sweep there.
-    let position = n * frame.radial.w + offset;
-    let r = max(length(position), 1e-6);
-    let m = position / r;
-    let sin_phi = across / r;
-    let cos_phi = dot(m, n);
-    // d(side)/dΦ-wise: the sweep's tangent at the point is side·cosφ − n·sinφ, times the sense.
-    let tangent = (side * cos_phi - n * sin_phi) * turn;
+    // At the point: radial m, and the sweep's tangent side·cosφ − n·sinφ, times its sense.
+    let height = frame.radial.w + along;
+    let c = inverseSqrt(max(height * height + across * across, 1e-12));
+    let m = n * (height * c) + side * (across * c);
+    let tangent = (side * (height * c) - n * (across * c)) * turn;
     result.leaving = vec4<f32>(m * ray.emission_radial - tangent * ray.emission_tangential, ray.emission_frequency);
     return result;
 }
@@ -61,11 +56,6 @@ fn split_offset(offset: vec3<f32>) -> Split {
     return result;
 }
 
-fn sight_at(offset: vec3<f32>, order: u32) -> Sight {
-    let parts = split_offset(offset);
-    return sight(offset, parts.along, parts.across, parts.side, order);
-}
-
 /// ν_observed/ν_emitted for an emitter of rain-frame momentum `momentum` (xyz, γ).
 fn frequency_ratio(arriving: vec4<f32>, leaving: vec4<f32>, momentum: vec4<f32>) -> f32 {
     // Time row of the Lorentz matrix: the photon (k, ω) has frequency Λ_t·(k, ω) in the camera's frame.
@@ -88,39 +78,64 @@ fn offset_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     return placement.offset.xyz + still + (placement.velocity.xyz + turning) * s;
 }
 
-/// The emission time of a body point, after T₀: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s, since no
-/// emitter outruns light, so Newton with its slope held above a floor converges from any start.
-fn emission_shift(placement: Placement, body: vec3<f32>, order: u32) -> f32 {
-    if placement.velocity.w == 0.0 {
-        return 0.0;
-    }
+/// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
+struct Query {
+    body: vec3<f32>,
+    fixed: bool,
+    along: f32,
+    across: f32,
+    side: vec3<f32>,
+}
+
+struct Answer {
+    ray: Sight,
+    /// Offset from the camera at emission.
+    offset: vec3<f32>,
+}
+
+fn query_body(body: vec3<f32>) -> Query {
+    return Query(body, false, 0.0, 0.0, vec3<f32>(0.0));
+}
+
+/// Steps of Newton on the emission time: each squares the error, which starts as the part of c at which the object turns or accelerates
+/// while light crosses it.
+const EMISSION_STEPS: u32 = 3u;
+
+/// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀; the left side increases strictly with s, since no emitter
+/// outruns light, so Newton with its slope held above a floor converges from any start. There is one call of the lookup here, and a pass
+/// should call this from one place: shader compilers copy functions into every call.
+fn answer(placement: Placement, query: Query, order: u32) -> Answer {
+    var result: Answer;
     var s = 0.0;
-    for (var i = 0; i < 3; i++) {
-        let ray = sight_at(offset_at(placement, body, s), order);
-        let missing = placement.offset.w - (s + ray.delay);
+    for (var i = 0u; i <= EMISSION_STEPS; i++) {
+        var along = query.along;
+        var across = query.across;
+        var side = query.side;
+        if query.fixed {
+            result.offset = frame.radial.xyz * along + side * across;
+        } else {
+            result.offset = offset_at(placement, query.body, s);
+            let parts = split_offset(result.offset);
+            along = parts.along;
+            across = parts.across;
+            side = parts.side;
+        }
+        result.ray = sight(along, across, side, order);
+        if query.fixed || placement.velocity.w == 0.0 || i == EMISSION_STEPS {
+            break;
+        }
+        let missing = placement.offset.w - (s + result.ray.delay);
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
-        let energy = ray.leaving.w - river_at(placement, body, s, ray.leaving.xyz);
-        let slope = 1.0 - dot(placement.velocity.xyz, ray.leaving.xyz) / energy;
+        let energy = result.ray.leaving.w - river_at(result.offset, result.ray.leaving.xyz);
+        let slope = 1.0 - dot(placement.velocity.xyz, result.ray.leaving.xyz) / energy;
         s += missing / max(slope, 0.05);
     }
-    return s;
+    return result;
 }
 
-/// β n·k at the point: what turns the rain frame's frequency into the conserved energy E = ω − β n·k.
-fn river_at(placement: Placement, body: vec3<f32>, s: f32, k: vec3<f32>) -> f32 {
-    let position = frame.radial.xyz * frame.radial.w + offset_at(placement, body, s);
+/// β n·k at an offset from the camera: what turns the rain frame's frequency into the conserved energy E = ω − β n·k.
+fn river_at(offset: vec3<f32>, k: vec3<f32>) -> f32 {
+    let position = frame.radial.xyz * frame.radial.w + offset;
     let r = max(length(position), 1e-6);
     return dot(position, k) / (r * sqrt(r));
-}
-
-fn finite(v: vec3<f32>) -> bool {
-    // NaN fails every comparison; infinities fail this one.
-    return all(abs(v) < vec3<f32>(1e30));
-}
-
-/// Clip position of an apparent point. Depth is near over light path, so that it orders points along one line of sight.
-fn clip_position(apparent: vec3<f32>) -> vec4<f32> {
-    let distance = max(length(apparent), 1e-9);
-    let forward = -apparent.z;
-    return vec4<f32>(apparent.xy * frame.projection.xy, frame.projection.z * forward / distance, forward);
 }

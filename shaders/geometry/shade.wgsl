@@ -21,12 +21,6 @@ struct Surface {
     @location(4) @interpolate(flat) which: vec2<u32>,
 }
 
-struct Layers {
-    @location(0) colour: vec4<f32>,
-    /// Object id, image order, travel time, g.
-    @location(1) layers: vec4<f32>,
-}
-
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage,
         vec2<u32>(bitcast<u32>(vertex.surface.z), bitcast<u32>(vertex.surface.w)));
@@ -37,8 +31,11 @@ fn shaded(in: Surface) -> vec3<f32> {
     let material = materials[in.which.y];
     var base = material.base.rgb;
     var emitted = material.emissive.rgb;
+    // Derivatives are taken where all pixels pass.
+    let dx = dpdx(in.uv.xy);
+    let dy = dpdy(in.uv.xy);
     if material.surface.y >= 0.0 {
-        let texel = textureSample(surface_textures, surface_sampler, in.uv.xy, i32(material.surface.y)).rgb;
+        let texel = textureSampleGrad(surface_textures, surface_sampler, in.uv.xy, i32(material.surface.y), dx, dy).rgb;
         base *= texel;
         emitted *= texel;
     }

@@ -4,10 +4,10 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    if index >= arrayLength(&chunks) {
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let chunk = chunks[index];
     let placement = placements[chunk.placement];
     let local = chunk.first + lane;
     if local >= placement.triangles.y {
@@ -81,26 +81,18 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if off_screen(v0, v1, v2, max(e0.w, max(e1.w, e2.w))) {
         return;
     }
-    set_material(slots, triangle.vertices.w + placement.triangles.z);
     if most <= 1u {
-        emit_triangle(slots.x, slots.y, slots.z, placement.triangles.w == 1u);
+        emit_triangle(slots.x, slots.y, slots.z, placement);
         return;
     }
     if most <= BLOCK {
         let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
         if !emit_work(piece, vec4<u32>(levels, 1u), most, 1u) {
-            emit_triangle(slots.x, slots.y, slots.z, placement.triangles.w == 1u);
+            emit_triangle(slots.x, slots.y, slots.z, placement);
         }
         return;
     }
     emit_piece(0u, chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
-}
-
-/// The material belongs to the triangle; the vertices that it draws as they are carry it. Models keep vertices of different materials apart.
-fn set_material(slots: vec3<u32>, material: u32) {
-    seen[slots.x].surface.w = bitcast<f32>(material);
-    seen[slots.y].surface.w = bitcast<f32>(material);
-    seen[slots.z].surface.w = bitcast<f32>(material);
 }
 
 /// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge or inside, over the other edges too.

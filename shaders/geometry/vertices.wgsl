@@ -3,10 +3,10 @@
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
-    if index >= arrayLength(&chunks) {
+    let chunk = chunks[index];
+    if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let chunk = chunks[index];
     let placement = placements[chunk.placement];
     let local = chunk.first + lane;
     if local >= placement.vertices.y {
@@ -14,21 +14,17 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let vertex = model_vertices[placement.vertices.x + local];
     let order = placement.ids.x;
-    let s = emission_shift(placement, vertex.position.xyz, order);
-    let offset = offset_at(placement, vertex.position.xyz, s);
     let slot = placement.ids.z + local;
-
-    var parts = split_offset(offset);
+    let found = answer(placement, query_body(vertex.position.xyz), order);
+    let offset = found.offset;
+    let parts = split_offset(offset);
     let on_axis = parts.across < axis_tolerance(offset) && axis_matters(parts.along, order);
-    if on_axis {
-        parts.across = 0.0;
-    }
-    let ray = sight(offset, parts.along, parts.across, parts.side, order);
-    let ok = ray.valid && finite(ray.apparent);
+    let ray = found.ray;
+    let ok = ray.valid && finite_vector(ray.apparent);
     if ray.valid && !ok {
         atomicAdd(&counters.caught, 1u);
     }
     seen[slot] = seen_vertex(placement, chunk.placement, ray, offset, normal_of(placement, vertex.normal.xyz),
-        vec2<f32>(vertex.position.w, vertex.normal.w), 0u);
+        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
     emitted[slot] = vec4<f32>(offset, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

@@ -1,6 +1,6 @@
 // Stars drawn as spots of constant shape and exact total light, so that they neither blink nor stretch as they move across pixels.
 
-@group(1) @binding(1) var<storage, read> seen_stars: array<SeenStar>;
+@group(1) @binding(0) var<storage, read> seen_stars: array<SeenStar>;
 
 struct Spot {
     @builtin(position) position: vec4<f32>,

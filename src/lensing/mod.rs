@@ -1,1 +1,58 @@
-//! See the map of the house in docs/architecture.md.
+//! The tables: from (r, Φ, L) to the direction in which a point is seen and the time its light takes.
+//!
+//! `formulas` holds closed forms that are right near the camera and where the field is weak; the table holds what is left, over
+//! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
+//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does. `paper` is the
+//! method of paper 1, for comparison, and `score` measures the error of either.
+
+pub mod bake;
+pub mod command;
+pub mod grid;
+pub mod lookup;
+pub mod paper;
+pub mod score;
+pub mod slice;
+pub mod spline;
+pub mod table;
+
+/// The formulas in f64, for the bake.
+#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
+pub mod double {
+    /// The precision of this copy.
+    pub type Real = f64;
+    include!("formulas.rs");
+}
+
+/// The formulas in f32, the twins of the shader's.
+#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
+pub mod single {
+    /// The precision of this copy.
+    pub type Real = f32;
+    include!("formulas.rs");
+}
+
+pub use lookup::{LensRay, lens_lookup, lens_lookup_at};
+pub use slice::Slice;
+pub use table::{Scheme, Table, TableError, load_or_bake};
+
+/// The camera radii of a full-size bake (`bake::size`).
+pub const FULL_NODES: usize = 112;
+/// The camera radii of the small committed table.
+pub const SMALL_NODES: usize = 78;
+
+/// Bakes a table of `scheme` with `nodes` (at least 5) along each axis; `done` is called with finished shares that add up to 1.
+pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
+    match scheme {
+        Scheme::Residual => bake::residual_table(nodes, done),
+        Scheme::Paper | Scheme::PaperUniform => paper::bake(scheme, nodes, done),
+    }
+}
+
+/// Where the small committed table lies, from the folder that the program is started in.
+pub const DEFAULT_PATH: &str = "tables/default.lut";
+
+/// The committed table; where its file cannot be used, says why on stderr and bakes it again.
+pub fn default_table() -> Table {
+    let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
+    load_or_bake(std::path::Path::new(DEFAULT_PATH), Scheme::Residual, SMALL_NODES, complain, |_| ())
+}

@@ -1,1 +1,17 @@
-//! See the map of the house in docs/architecture.md.
+//! The judge of light: null geodesics integrated step by step in f64, sharing no code with the closed form of
+//! `spacetime::light` nor with the tables of `lensing`.
+//!
+//! - [`geodesic`]: one step of the equations of motion, a Taylor series with error control that is its own dense output.
+//! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
+//! - [`shoot`]: the look direction at which a given point is seen (boundary value).
+//! - [`trace`]: what a pixel shows of a scene of triangles.
+//!
+//! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
+
+pub mod geodesic;
+pub mod ray;
+pub mod shoot;
+pub mod trace;
+
+pub use ray::{End, Fate, Ray, RaySample, Stop, fate};
+pub use shoot::{Branch, Sighting, shoot, shoot_sky};

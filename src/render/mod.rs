@@ -1,1 +1,25 @@
-//! See the map of the house in docs/architecture.md.
+//! The relativistic renderer: everything is rasterised through the lensing table, tessellated in compute.
+//!
+//! [`renderer::Renderer`] is the whole of it on plain wgpu, used alike by the window, by `shot` and by the tests. The way of a frame, file by
+//! file: [`placements`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
+//! (Milky Way, stars) → [`develop`] (bloom, exposure, tone curve).
+
+pub mod develop;
+pub mod device;
+pub mod frame;
+pub mod geometry;
+pub mod layout;
+pub mod models;
+pub mod placements;
+pub mod readback;
+pub mod renderer;
+pub mod shaders;
+pub mod shot;
+pub mod sky;
+pub mod stage;
+pub mod targets;
+pub mod timing;
+pub mod types;
+
+pub use device::{DeviceError, Gpu};
+pub use renderer::Renderer;

@@ -1,4 +1,34 @@
-//! What exists: ships and the rules of the chase, as scene files describe them.
+//! What exists: scene files and `game.toml`, models, stars, Milky Way, black-body colours.
+//!
+//! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
+pub mod assembly;
+pub mod blackbody;
+pub mod camera;
+pub mod config;
+mod config_fields;
+mod document;
+pub mod error;
+pub mod import;
+mod load;
+pub mod milky_way;
+pub mod model;
+pub mod planet;
+pub mod prop;
 pub mod rules;
+mod setting;
+pub mod shapes;
 pub mod ship;
+pub mod stars;
+pub mod texture;
+
+pub use assembly::{Assembly, Body, Object};
+pub use camera::{Camera, Mount};
+pub use config::GameConfig;
+pub use error::{Complaint, ConfigError, SceneError};
+pub use load::{Scene, assets_folder, load, names};
+pub use model::{Image, Material, Model, Vertex};
+pub use planet::{Planet, SkySwitches};
+pub use prop::Prop;
+pub use rules::Rules;
+pub use ship::ShipSpec;

@@ -12,9 +12,9 @@
 //! ai = "none"                      # or "flee", "pursue"
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
 //! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
-//! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); without end if absent
+//! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
-//! player = true                    # flown from the keyboard when there is one
+//! player = true                    # flown from the keyboard when there is one, else by its AI
 //! model = "ships/quarry.glb"
 //! ```
 //! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos χ),
@@ -28,6 +28,7 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::setting::range_text;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
@@ -218,7 +219,7 @@ fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
                     format!("position = {x:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.length()),
                 );
             }
-            if !(p.length() <= MAX_START_MOMENTUM) {
+            if !(0.0..=MAX_START_MOMENTUM).contains(&p.length()) {
                 return fault(momentum, format!("momentum = {p:?} must be finite and at most {MAX_START_MOMENTUM:e} c"));
             }
             Ok(ShipState::new(x, p))
@@ -273,7 +274,7 @@ fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
             return fault(&entry.until, format!("until = {until} must be later than from = {from}"));
         }
         let acceleration = DVec3::from_array(*entry.acceleration.get_ref());
-        if !(acceleration.length() <= MAX_ACCELERATION) {
+        if !(0.0..=MAX_ACCELERATION).contains(&acceleration.length()) {
             return fault(
                 &entry.acceleration,
                 format!("acceleration = {acceleration:?} must be finite and at most {MAX_ACCELERATION} c²/r_s"),
@@ -300,15 +301,13 @@ pub(crate) fn in_range(value: &Spanned<f64>, key: &str, range: std::ops::RangeIn
     if range.contains(&x) && x.is_finite() {
         return Ok(x);
     }
-    let (low, high) = (range.start(), range.end());
-    let unit = if unit.is_empty() { String::new() } else { format!(" {unit}") };
-    fault(value, format!("{key} = {x} must be from {low} to {high:e}{unit}"))
+    fault(value, format!("{key} = {x} must be from {}", range_text(*range.start(), *range.end(), unit)))
 }
 
 fn optional(value: &Option<Spanned<f64>>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<Option<f64>, Fault> {
     value.as_ref().map(|value| in_range(value, key, range, unit)).transpose()
 }
 
-fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
+pub(crate) fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
     Err(Fault { span: place.span(), message })
 }

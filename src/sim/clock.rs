@@ -2,12 +2,6 @@
 
 use bevy::prelude::Resource;
 
-/// Fixed steps per wall second (Bevy's default rate).
-pub const STEPS_PER_SECOND: f64 = 64.0;
-
-/// How much T passes per wall second unless configured otherwise, in r_s/c. A power of two makes step and ticks exact in binary.
-pub const DEFAULT_PACE: f64 = 2.0;
-
 /// The common clock of all ships. It counts steps and never looks at a wall clock.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
@@ -20,20 +14,25 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// A clock at T = 0 that advances `pace` r_s/c of T per wall second.
-    pub fn with_pace(pace: f64) -> Self {
-        Clock { time: 0.0, step: pace / STEPS_PER_SECOND, tick: 0 }
+    /// A clock at T = 0 with steps of `step` r_s/c.
+    pub fn new(step: f64) -> Self {
+        Clock { time: 0.0, step, tick: 0 }
+    }
+
+    /// T after one more step: counted, not summed, so that rounding does not add up.
+    pub fn next(&self) -> f64 {
+        (self.tick + 1) as f64 * self.step
     }
 
     /// Advances by one step.
     pub fn advance(&mut self) {
-        self.time += self.step;
+        self.time = self.next();
         self.tick += 1;
     }
 }
 
 impl Default for Clock {
     fn default() -> Self {
-        Clock::with_pace(DEFAULT_PACE)
+        Clock::new(crate::scene::GameConfig::default().clock.step)
     }
 }

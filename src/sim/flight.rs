@@ -76,10 +76,10 @@ pub fn fly(flight: &Flight, from: f64, to: f64, command: Command, programme: &[B
     (now, time)
 }
 
-/// How much T it takes until `burn_time` of proper time has passed; two Newton steps from `guess` (dτ/dT hardly changes in a step).
+/// How much T it takes until `burn_time` of proper time has passed; four Newton steps from `guess`, enough for any step in use.
 fn dry_after(state: &ShipState, guess: f64, burn_time: f64, order: &Command) -> f64 {
     let mut span = guess;
-    for _ in 0..2 {
+    for _ in 0..4 {
         let end = step(state, span, order.thrust, order.rates);
         let rate = 1.0 / crate::spacetime::matter::gamma(end.momentum);
         span += (burn_time - (end.proper_time - state.proper_time)) / rate;

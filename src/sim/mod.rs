@@ -4,11 +4,15 @@
 //! One fixed step is the schedule `FixedUpdate` with the sets [`SimSet`] in their order. The same scene, seed and inputs give the same
 //! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
 
+pub mod assist;
 pub mod clock;
 pub mod flight;
 pub mod hash;
 pub mod history;
 pub mod physics;
+pub mod pilot;
+pub mod rules;
+pub mod setup;
 pub mod ship;
 pub mod simulate;
 
@@ -19,6 +23,9 @@ pub use clock::Clock;
 pub use flight::Command;
 pub use history::{History, Sample};
 pub use physics::ShipPhysicsPlugin;
+pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
+pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
+pub use setup::{outcome, set_manual, start};
 pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion, muster};
 
 /// The order of a fixed step.
@@ -46,7 +53,7 @@ pub enum SimEvent {
         /// T in r_s/c.
         time: f64,
     },
-    /// A ship is inside r = 1 since the step that ended at `time`.
+    /// A ship went through r = 1.
     CrossedHorizon {
         /// The ship's name.
         ship: String,
@@ -64,13 +71,33 @@ pub enum SimEvent {
         /// Why.
         reason: ship::EndReason,
     },
+    /// The chase is decided.
+    Decided {
+        /// How.
+        outcome: Outcome,
+        /// T in r_s/c.
+        time: f64,
+    },
+}
+
+impl SimEvent {
+    /// When it happened, T in r_s/c.
+    pub fn time(&self) -> f64 {
+        match self {
+            SimEvent::FuelSpent { time, .. }
+            | SimEvent::CrossedHorizon { time, .. }
+            | SimEvent::Ended { time, .. }
+            | SimEvent::Decided { time, .. } => *time,
+        }
+    }
 }
 
 impl std::fmt::Display for SimEvent {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             SimEvent::FuelSpent { ship, time } => write!(f, "{ship}: out of fuel at T = {time}"),
-            SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon by T = {time}"),
+            SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon at T = {time}"),
+            SimEvent::Decided { outcome, time } => write!(f, "{outcome} at T = {time}"),
             SimEvent::Ended { ship, time, proper_time, reason } => {
                 write!(f, "{ship}: {reason} at T = {time}, tau = {proper_time}")
             }
@@ -95,6 +122,6 @@ pub struct SimulationPlugins;
 
 impl PluginGroup for SimulationPlugins {
     fn build(self) -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(ShipPhysicsPlugin)
+        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(EnemyAiPlugin).add(ShipPhysicsPlugin).add(ChaseRulesPlugin)
     }
 }

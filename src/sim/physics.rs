@@ -2,10 +2,11 @@
 
 use bevy::prelude::*;
 
+use crate::scene::ship::Burn;
 use crate::spacetime::matter::has_ended;
 
 use super::clock::Clock;
-use super::flight::{Flight, fly};
+use super::flight::{Command, Flight, fly};
 use super::history::History;
 use super::ship::{Controls, CrossedHorizon, EndReason, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
 use super::{SimEvent, SimSet};
@@ -41,7 +42,7 @@ pub fn integrate_ships(
     mut events: MessageWriter<SimEvent>,
     mut commands: Commands,
 ) {
-    let (from, to) = (clock.time, clock.time + clock.step);
+    let (from, to) = (clock.time, clock.next());
     for &entity in &fleet.0 {
         let Ok((ship, mut motion, mut fuel, mut history, controls, engine, programme, crossed)) = ships.get_mut(entity) else {
             continue;
@@ -57,9 +58,10 @@ pub fn integrate_ships(
         }
         fuel.left = end.fuel;
         if !crossed && motion.0.position.length() < 1.0 {
-            commands.entity(entity).insert(CrossedHorizon(reached));
+            let time = crossing_time(&flight, from, reached, order, &programme.0);
+            commands.entity(entity).insert(CrossedHorizon(time));
             if flight.state.position.length() >= 1.0 {
-                events.write(SimEvent::CrossedHorizon { ship: ship.name.clone(), time: reached });
+                events.write(SimEvent::CrossedHorizon { ship: ship.name.clone(), time });
             }
         }
         if has_ended(&end.state) {
@@ -68,6 +70,20 @@ pub fn integrate_ships(
             events.write(SimEvent::Ended { ship: ship.name.clone(), time: reached, proper_time: motion.0.proper_time, reason });
         }
     }
+}
+
+/// The T between `from` and `to` at which the ship goes through r = 1, by halving; `from` if it was inside already.
+fn crossing_time(flight: &Flight, from: f64, to: f64, order: Command, programme: &[Burn]) -> f64 {
+    let (mut outside, mut inside) = (from, to);
+    for _ in 0..50 {
+        let middle = 0.5 * (outside + inside);
+        if fly(flight, from, middle, order, programme, |_| ()).0.state.position.length() < 1.0 {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    inside
 }
 
 fn advance_clock(mut clock: ResMut<Clock>) {

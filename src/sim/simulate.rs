@@ -1,22 +1,18 @@
 //! `lensrunner simulate`: the game without graphics, as fast as it goes, written as CSV.
 
 use std::io::{self, Write};
-use std::path::Path;
 use std::time::Instant;
 
 use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::scene::rules::{Rules, RulesEntry};
-use crate::scene::ship::{Ai, Fault, ShipEntry, ShipSpec, check_ships};
+use crate::scene::ship::Ai;
+use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
-use super::ship::{Controls, Ended, Engine, EngineDefaults, Fleet, Fuel, Programme, Ship, ShipMotion, muster};
-use super::{Clock, SimEvent, SimulationPlugins};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
+use super::{Clock, History, SimEvent, SimulationPlugins, outcome, start};
 
 /// The header row.
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
@@ -27,6 +23,9 @@ pub const DEFAULT_UNTIL: f64 = 100.0;
 pub const DEFAULT_EVERY: f64 = 1.0;
 /// The most rows of T one run writes.
 pub const MAX_ROWS: f64 = 1e8;
+
+/// How much of the ships' histories a run keeps, in r_s/c: more than the longest reaction delay.
+const KEEP: f64 = 100.0;
 
 /// What is asked of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,13 +44,38 @@ impl Default for Request {
     }
 }
 
+impl Request {
+    /// Whether it can be run on `scene`, and its last T.
+    pub fn check(&self, scene: &Scene, config: &GameConfig) -> Result<f64, SimulateError> {
+        if scene.ships.is_empty() {
+            return Err(SimulateError::Input(format!("scene {}: a simulation needs at least one [[ship]]", scene.name)));
+        }
+        let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
+        let until = self.until.unwrap_or(if chase { scene.rules(config).time_limit } else { DEFAULT_UNTIL });
+        let every = self.every;
+        if !(0.0..=1e9).contains(&until) {
+            return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
+        }
+        if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
+            return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
+        }
+        Ok(until)
+    }
+}
+
 /// Why a run failed.
 #[derive(Debug, thiserror::Error)]
 pub enum SimulateError {
     /// The input is wrong: exit code 2.
     #[error("{0}")]
     Input(String),
-    /// Reading or writing failed: exit code 1.
+    /// The scene is wrong: exit code 2.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The configuration is wrong: exit code 2.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// Writing failed: exit code 1.
     #[error("{0}")]
     Io(#[from] io::Error),
 }
@@ -67,94 +91,54 @@ pub struct Summary {
     pub hash: StateHash,
 }
 
-/// What `simulate` needs of a scene file.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SimScene {
-    /// The ships in the file's order.
-    pub ships: Vec<ShipSpec>,
-    /// The rules of the chase.
-    pub rules: Rules,
-}
-
-#[derive(Deserialize)]
-struct SimSceneEntry {
-    #[serde(default)]
-    ship: Vec<Spanned<ShipEntry>>,
-    #[serde(default)]
-    rules: RulesEntry,
-}
-
-/// Reads the ships and the rules of the scene file `name` from its text.
-pub fn parse(name: &str, text: &str) -> Result<SimScene, SimulateError> {
-    let at = |span: std::ops::Range<usize>, message: String| {
-        let line = 1 + text[..span.start.min(text.len())].matches('\n').count();
-        SimulateError::Input(format!("{name}:{line}: {message}"))
-    };
-    let entry: SimSceneEntry =
-        toml::from_str(text).map_err(|error| at(error.span().unwrap_or(0..0), error.message().to_owned()))?;
-    let fault = |fault: Fault| at(fault.span, fault.message);
-    let ships = check_ships(&entry.ship).map_err(fault)?;
-    if ships.is_empty() {
-        return Err(SimulateError::Input(format!("{name}: a simulation needs at least one [[ship]]")));
-    }
-    Ok(SimScene { ships, rules: entry.rules.check(Rules::default()).map_err(fault)? })
-}
-
-/// A world with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step.
-pub fn world_of(scene: &SimScene, seed: u64) -> App {
+/// An app with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step: run that schedule to go on.
+pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
     let mut app = App::new();
     app.add_plugins(SimulationPlugins);
     app.edit_schedule(FixedUpdate, |schedule| {
         schedule.set_executor(SingleThreadedExecutor::new());
     });
-    let _ = seed;
-    muster(app.world_mut(), &scene.ships, &EngineDefaults::default(), 0.0);
     app.finish();
     app.cleanup();
+    start(app.world_mut(), scene, config, seed);
     app
 }
 
-/// Runs the scene file at `path`, rows to `out`, events and the last line to `log`.
-pub fn run(path: &Path, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
-    let name = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| SimulateError::Input(format!("{name}: {error}")))?;
-    simulate(&parse(&name, &text)?, request, out, log)
-}
-
 /// Runs `scene`; rows by T, then in scene order.
-pub fn simulate(scene: &SimScene, request: &Request, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
-    let chase = scene.ships.iter().any(|ship| ship.ai != Ai::None);
-    let until = request.until.unwrap_or(if chase { scene.rules.time_limit } else { DEFAULT_UNTIL });
-    check(until, request.every)?;
-    let mut app = world_of(scene, request.seed);
+pub fn simulate(
+    scene: &Scene,
+    config: &GameConfig,
+    request: &Request,
+    out: &mut dyn Write,
+    log: &mut dyn Write,
+) -> Result<Summary, SimulateError> {
+    let mut until = request.check(scene, config)?;
+    let mut app = app_of(scene, config, request.seed);
+    for mut history in app.world_mut().query::<&mut History>().iter_mut(app.world_mut()) {
+        history.forget_beyond(KEEP);
+    }
     let started = Instant::now();
     writeln!(out, "{COLUMNS}")?;
     let mut row = 0u64;
+    let mut before = departures(app.world());
     loop {
-        let clock = *app.world().resource::<Clock>();
-        let next = clock.time + clock.step;
+        // Rows inside the step just flown, its end included; at first, T = 0 alone.
         while let due = due_time(row, request.every, until)
-            && due < next
+            && due <= app.world().resource::<Clock>().time
         {
-            write_rows(app.world(), due, out)?;
+            write_rows(app.world(), &before, due, out)?;
             if due >= until {
-                return finish(app.world(), until, started, out, log);
+                return finish(app.world(), &before, until, started, out, log);
             }
             row += 1;
         }
+        before = departures(app.world());
         app.world_mut().run_schedule(FixedUpdate);
-        tell(app.world_mut(), log)?;
+        tell(app.world_mut(), until, log)?;
+        if let Some((_, decided)) = outcome(app.world()) {
+            until = until.min(decided);
+        }
     }
-}
-
-fn check(until: f64, every: f64) -> Result<(), SimulateError> {
-    if !(until >= 0.0 && until <= 1e9) {
-        return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
-    }
-    if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
-        return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
-    }
-    Ok(())
 }
 
 /// T of row `row`: `row`·`every`, freed of the rounding that shows when `every` is a short decimal (3 · 0.1 = 0.30000000000000004); the
@@ -166,32 +150,39 @@ fn due_time(row: u64, every: f64, until: f64) -> f64 {
     due.min(until)
 }
 
-/// The ships at T = `time`, within one step of the clock: a partial step from a copy, so that looking never changes the flight.
-fn ships_at(world: &World, time: f64) -> impl Iterator<Item = (&Ship, ShipState)> {
-    let clock = world.resource::<Clock>();
-    world.resource::<Fleet>().0.iter().filter_map(move |&entity| {
-        let ship = world.get::<Ship>(entity)?;
-        let state = world.get::<ShipMotion>(entity)?.0;
-        if world.get::<Ended>(entity).is_some() {
-            return None;
-        }
-        if time <= clock.time {
-            return Some((ship, state));
-        }
-        let flight = Flight { state, fuel: world.get::<Fuel>(entity)?.left };
-        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
-        let (end, _) = fly(&flight, clock.time, time, command, &world.get::<Programme>(entity)?.0, |_| ());
-        (!has_ended(&end.state)).then_some((ship, end.state))
-    })
+/// T and the flights of all ships, in scene order, before a step.
+type Departures = (f64, Vec<Flight>);
+
+fn departures(world: &World) -> Departures {
+    let flight = |&entity: &Entity| {
+        Some(Flight { state: world.get::<ShipMotion>(entity)?.0, fuel: world.get::<Fuel>(entity)?.left })
+    };
+    (world.resource::<Clock>().time, world.resource::<Fleet>().0.iter().filter_map(flight).collect())
 }
 
-fn write_rows(world: &World, time: f64, out: &mut dyn Write) -> io::Result<()> {
-    for (ship, state) in ships_at(world, time) {
+/// The ships at T = `time` in the step just flown, and whether each has ended (its state is then the last). Inside the step it is flown
+/// again from its beginning with the same commands, so that looking never changes the flight.
+fn ships_at(world: &World, before: &Departures, time: f64) -> Vec<(String, ShipState, bool)> {
+    let at_end = time >= world.resource::<Clock>().time;
+    let one = |(&entity, departure): (&Entity, &Flight)| {
+        let name = world.get::<Ship>(entity)?.name.clone();
+        let state = world.get::<ShipMotion>(entity)?.0;
+        let ended = world.get::<Ended>(entity);
+        if at_end || ended.is_some_and(|ended| ended.time <= time) {
+            return Some((name, state, ended.is_some()));
+        }
+        let command = world.get::<Engine>(entity)?.limit(&world.get::<Controls>(entity)?.0);
+        let (end, _) = fly(departure, before.0, time, command, &world.get::<Programme>(entity)?.0, |_| ());
+        Some((name, end.state, has_ended(&end.state)))
+    };
+    world.resource::<Fleet>().0.iter().zip(&before.1).filter_map(one).collect()
+}
+
+fn write_rows(world: &World, before: &Departures, time: f64, out: &mut dyn Write) -> io::Result<()> {
+    for (name, state, _) in ships_at(world, before, time).into_iter().filter(|&(_, _, ended)| !ended) {
         let (x, p, q, l) = (state.position, state.momentum, state.attitude, angular_momentum(&state));
-        write!(out, "{}", ship.name)?;
-        for number in
-            [time, state.proper_time, x.x, x.y, x.z, p.x, p.y, p.z, q.w, q.x, q.y, q.z, energy(&state), l.x, l.y, l.z]
-        {
+        write!(out, "{name}")?;
+        for number in [time, state.proper_time, x.x, x.y, x.z, p.x, p.y, p.z, q.w, q.x, q.y, q.z, energy(&state), l.x, l.y, l.z] {
             write!(out, ",{number:.16e}")?;
         }
         writeln!(out)?;
@@ -199,25 +190,25 @@ fn write_rows(world: &World, time: f64, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-fn tell(world: &mut World, log: &mut dyn Write) -> io::Result<()> {
-    for event in world.resource_mut::<Messages<SimEvent>>().drain() {
+fn tell(world: &mut World, until: f64, log: &mut dyn Write) -> io::Result<()> {
+    for event in world.resource_mut::<Messages<SimEvent>>().drain().filter(|event| event.time() <= until) {
         writeln!(log, "{event}")?;
     }
     Ok(())
 }
 
-fn finish(world: &World, time: f64, started: Instant, out: &mut dyn Write, log: &mut dyn Write) -> Result<Summary, SimulateError> {
+fn finish(
+    world: &World,
+    before: &Departures,
+    time: f64,
+    started: Instant,
+    out: &mut dyn Write,
+    log: &mut dyn Write,
+) -> Result<Summary, SimulateError> {
     out.flush()?;
     let mut hash = StateHash::default();
-    for &entity in &world.resource::<Fleet>().0 {
-        if let (Some(ship), Some(motion), true) =
-            (world.get::<Ship>(entity), world.get::<ShipMotion>(entity), world.get::<Ended>(entity).is_some())
-        {
-            hash.ship(&ship.name, &motion.0);
-        }
-    }
-    for (ship, state) in ships_at(world, time) {
-        hash.ship(&ship.name, &state);
+    for (name, state, _) in ships_at(world, before, time) {
+        hash.ship(&name, &state);
     }
     let summary = Summary { steps: world.resource::<Clock>().tick, seconds: started.elapsed().as_secs_f64(), hash };
     let rate = summary.steps as f64 / summary.seconds.max(1e-9);

@@ -1,0 +1,332 @@
+// The lookup: from a point's place to the direction in which it is seen and the time its light takes.
+//
+// Glossary (r_s = c = 1, radians; DESIGN section 2)
+//   a = 1/L, c = 1/r       inverse radii of camera and point         room     1 − 1/r (or 1 − 1/L), free of cancellation
+//   sweep, Φ               the angle the ray sweeps: φ, 2π − φ, 2π + φ
+//   w, w_e                 du/dΦ at the camera and at the point      e        1/b: e² = w² + a² − a³ = w_e² + c² − c³
+//   ψ                      the look direction in the rain frame from the outward radial
+//   T                      Painlevé–Gullstrand time
+//   beta                   √a, the river's speed                     bent     Φ as the closed forms see it
+//
+// The twin of src/lensing/formulas.rs and src/lensing/lookup.rs, function for function. No bindings here: the shader that includes
+// this file supplies
+//   fn lens_texel(index: u32) -> vec4<f32>
+// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
+// delay, turn of w_e, unused), r fastest.
+
+const BEND_START: f32 = 3.6;
+const BEND_RANGE: f32 = 0.5;
+const SMALLEST_SWEEP: f32 = 1e-9;
+const HALF_TURN: f32 = 3.14159265358979;
+const LARGEST_SWEEP: f32 = 9.42477796076938;
+
+/// Texels before the coefficients.
+const HEADER: u32 = 4u;
+
+struct LensCamera {
+    l: f32,      // L
+    room: f32,   // 1 − 1/L
+    a: f32,      // 1/L
+    beta: f32,   // √a
+    fade: f32,   // share of the weak-field terms
+    bend: f32,   // n of K″ = 1 + nK
+    rate: f32,   // √|n|
+    force: f32,  // 3/2 a² − a
+    soft: f32,   // softening, start and 1/length of the axis of points
+    start: f32,
+    scale: f32,
+    nx: u32,     // nodes along r and Φ; two more coefficients than nodes each way
+    ny: u32,
+}
+
+struct Place {
+    r: f32,
+    room: f32,
+    dr: f32,
+    phi: f32,
+}
+
+/// What the lookup returns: directions in the rain frame, momenta per angular momentum (in 1/r_s).
+struct LensRay {
+    cos_psi: f32,              // the look direction from the outward radial
+    sin_psi: f32,
+    delay: f32,                // T_arrival − T_emission, r_s/c
+    frequency: f32,            // of the photon in the rain frame at the camera
+    emission_radial: f32,      // of the photon's rain-frame momentum at the point: outward,
+    emission_tangential: f32,  // against the sweep,
+    emission_frequency: f32,   // and its frequency
+    slope: f32,                // w
+    emission_slope: f32,       // w_e
+    energy: f32,               // e
+    valid: bool,
+}
+
+fn log1p(x: f32) -> f32 {
+    let z = x / (2.0 + x);
+    if abs(z) < 0.1 {
+        let y = z * z;
+        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y / 9.0))));
+    }
+    return log(1.0 + x);
+}
+
+fn arsinh(x: f32) -> f32 {
+    let y = abs(x);
+    let v = log1p(y + y * y / (1.0 + sqrt(1.0 + y * y)));
+    return select(v, -v, x < 0.0);
+}
+
+fn point_axis(cam: LensCamera, c: f32, room: f32) -> f32 {
+    return (log(c + cam.soft) - 2.0 * sqrt(max(room, 0.0)) - cam.start) * cam.scale;
+}
+
+fn sweep_raw(sweep: f32, s: f32) -> f32 {
+    return sweep + 0.3 * arsinh((sweep - HALF_TURN) / s) + arsinh(sweep * 10.0);
+}
+
+fn sweep_axis(cam: LensCamera, c: f32, sweep: f32) -> f32 {
+    let s = 2.8 * sqrt(cam.a / (1.0 + cam.a) + c);
+    let first = sweep_raw(0.0, s);
+    return (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first);
+}
+
+fn bent_sweep(sweep: f32) -> f32 {
+    if sweep <= BEND_START {
+        return sweep;
+    }
+    let x = (sweep - BEND_START) / BEND_RANGE;
+    let x2 = x * x;
+    return BEND_START + (sweep - BEND_START) / sqrt(sqrt(1.0 + x2 * x2));
+}
+
+fn basis(cam: LensCamera, sweep: f32) -> vec2<f32> {
+    let x = cam.rate * sweep;
+    if x < 0.3 {
+        let y = cam.bend * sweep * sweep;
+        let s = sweep * (1.0 + y / 6.0 * (1.0 + y / 20.0 * (1.0 + y / 42.0)));
+        let k = 0.5 * sweep * sweep * (1.0 + y / 12.0 * (1.0 + y / 30.0 * (1.0 + y / 56.0)));
+        return vec2<f32>(s, k);
+    }
+    if cam.bend < 0.0 {
+        let h = sin(0.5 * x) / cam.rate;
+        return vec2<f32>(sin(x) / cam.rate, 2.0 * h * h);
+    }
+    let up = exp(x);
+    let down = 1.0 / up;
+    return vec2<f32>(0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate));
+}
+
+fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
+    let sk = basis(cam, bent);
+    let s = sk.x;
+    let k = sk.y;
+    // What is right only in weak fields, held down where K grows.
+    let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
+    let am = cam.a * m;
+    let f = cam.force;
+    let b = s * (1.0 + am * k);
+    let c = rise - f * k - 0.5 * am * f * k * k;
+    let q = m * k * k;
+    let root = sqrt(max(b * b + 2.0 * q * c, 0.05 * b * b + 1e-4 * q));
+    var w = 0.0;
+    if b > 0.0 {
+        w = 2.0 * c / (b + root);
+    } else {
+        w = (root - b) / q;
+    }
+    let turn = 1.0 + cam.bend * k;
+    if cam.bend > 0.0 {
+        // The same derivative with the growing terms that cancel taken out by the equation for w.
+        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
+        return vec2<f32>(w, (turn * rise + f * k + rest) / s + w * am * s * s);
+    }
+    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w);
+}
+
+fn energy(w: f32, u: f32, room: f32) -> f32 {
+    return sqrt(max(w * w + u * u * room, 0.0));
+}
+
+fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
+    if w > 0.0 {
+        return (w + beta * e) / room;
+    }
+    return (u * u - e * e) / (beta * e - w);
+}
+
+fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
+    let n = 1.0 / sqrt(u * u + guess * guess);
+    let c0 = -guess * n;
+    let s0 = u * n;
+    let ct = cos(turn);
+    let st = sin(turn);
+    let sine = max(s0 * ct + c0 * st, 1e-12);
+    return -u * (c0 * ct - s0 * st) / sine;
+}
+
+fn emission_scale(cam: LensCamera, c: f32) -> f32 {
+    return c + cam.a / (1.0 + 4.0 * cam.a);
+}
+
+fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e: f32, w_e: f32) -> vec3<f32> {
+    let l = cam.l;
+    let a = cam.a;
+    let c = 1.0 / r;
+    let root_r = sqrt(r);
+    let root_l = sqrt(l);
+    let x = 2.0 * sin(0.5 * bent);
+    let k = 0.5 * x * x;
+    let y = 2.0 * cos(0.5 * bent);
+    let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
+    let reach = sqrt(y * y + soft);
+    var h = 0.0;
+    var excess = 0.0;
+    if y > 0.0 {
+        h = 0.5 * (y + reach);
+        excess = 0.5 * soft / (reach + y);
+    } else {
+        h = 0.5 * soft / (reach - y);
+        excess = 0.5 * (reach - y);
+    }
+    let q = x * x - excess * (h + y);
+    let fall = dr / (root_r + root_l);
+    var rate_in = 1.0 / (root_l * (1.0 + root_l));
+    var rate_log = 2.0 / l;
+    if abs(dr) > 1e-6 * l {
+        rate_in = 2.0 * log1p(fall / (1.0 + root_l)) / dr;
+        rate_log = 2.0 * log1p(dr / l) / dr;
+    }
+    let mean = 1.0 + 1.5 * rate_log;
+    let rain = (2.0 / (root_r + root_l) + 0.5 * rate_log - rate_in) * dr;
+    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
+    let chord = sqrt(mean * mean * dr * dr + across);
+    var out = 0.0;
+    if w_e > 0.0 {
+        out = (w_e + e) / (room * c);
+    } else {
+        out = c / (e - w_e);
+    }
+    var back = 0.0;
+    if w > 0.0 {
+        back = a * cam.room / (e + w);
+    } else {
+        back = (e - w) / a;
+    }
+    let a4 = a * a * a * a;
+    let c4 = c * c * c * c;
+    let factor = e / sqrt(e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4));
+    return vec3<f32>(2.0 * log(out * back) - rain, chord - 2.0 * log(0.5 * h), factor);
+}
+
+fn angle(sine: f32, cosine: f32) -> f32 {
+    if sine < 0.25 {
+        let y = sine * sine;
+        let x = sine * (1.0 + y * (1.0 / 6.0 + y * (3.0 / 40.0 + y * (15.0 / 336.0 + y * (105.0 / 3456.0)))));
+        return select(x, HALF_TURN - x, cosine < 0.0);
+    }
+    return atan2(sine, cosine);
+}
+
+fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
+    let square = along * along + across * across;
+    let r = sqrt(height * height + across * across);
+    let phi = angle(across / r, height / r);
+    if square < 0.25 * cam.l * cam.l {
+        let dr = (2.0 * cam.l * along + square) / (r + cam.l);
+        return Place(r, cam.room + dr / (r * cam.l), dr, phi);
+    }
+    return Place(r, (r - 1.0) / r, r - cam.l, phi);
+}
+
+fn spline_weights(t: f32) -> vec4<f32> {
+    let s = 1.0 - t;
+    return vec4<f32>(s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0);
+}
+
+fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32> {
+    let px = clamp(x, 0.0, 1.0) * f32(cam.nx - 1u);
+    let py = clamp(y, 0.0, 1.0) * f32(cam.ny - 1u);
+    let i = min(u32(px), cam.nx - 2u);
+    let j = min(u32(py), cam.ny - 2u);
+    let wx = spline_weights(px - f32(i));
+    let wy = spline_weights(py - f32(j));
+    var sum = vec3<f32>(0.0);
+    for (var b = 0u; b < 4u; b++) {
+        let at = HEADER + (j + b) * (cam.nx + 2u) + i;
+        let row = wx.x * lens_texel(at).xyz + wx.y * lens_texel(at + 1u).xyz + wx.z * lens_texel(at + 2u).xyz + wx.w * lens_texel(at + 3u).xyz;
+        sum += wy[b] * row;
+    }
+    return sum;
+}
+
+fn finite(x: f32) -> bool {
+    return abs(x) < 3e38;
+}
+
+fn lens_camera() -> LensCamera {
+    let t0 = lens_texel(0u);
+    let t1 = lens_texel(1u);
+    let t2 = lens_texel(2u);
+    let t3 = lens_texel(3u);
+    return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y));
+}
+
+fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
+    if cam.room <= 0.0 {
+        // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
+        let e = energy(w_e, c, room);
+        return vec3<f32>(-sqrt(e * e - cam.a * cam.a * cam.room), e, w_e);
+    }
+    let e = energy(w, cam.a, cam.room);
+    // Away from a turning point the energy gives the magnitude more precisely.
+    let square = e * e - c * c * room;
+    if square > 0.3 * e * e {
+        return vec3<f32>(w, e, select(sqrt(square), -sqrt(square), w_e < 0.0));
+    }
+    return vec3<f32>(w, e, w_e);
+}
+
+fn lookup(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
+    let nothing = LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
+    if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
+        return nothing;
+    }
+    let swept = max(sweep, SMALLEST_SWEEP);
+    let c = 1.0 / at.r;
+    let room = max(at.room, 1e-4);
+    let bent = bent_sweep(swept);
+    let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
+    let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
+    let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
+    let w = ray.x;
+    let e = ray.y;
+    let w_e = ray.z;
+    let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
+    let delay = parts.x + parts.z * (parts.y + table.y);
+    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
+    let frequency = sqrt(radial * radial + cam.a * cam.a);
+    let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
+    let emission_frequency = sqrt(leaving * leaving + c * c);
+    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
+        return nothing;
+    }
+    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, at.room > 0.0);
+}
+
+/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along.
+fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {
+    let cam = lens_camera();
+    let at = place(cam, along, across, height);
+    var sweep = at.phi;
+    if order == 2u {
+        sweep = 2.0 * HALF_TURN - at.phi;
+    } else if order == 3u {
+        sweep = 2.0 * HALF_TURN + at.phi;
+    }
+    return lookup(cam, at, sweep);
+}
+
+/// The same where only the offset is at hand.
+fn lens_lookup(along: f32, across: f32, order: u32) -> LensRay {
+    return lens_lookup_at(along, across, lens_texel(0u).x + along, order);
+}

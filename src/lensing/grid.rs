@@ -1,0 +1,46 @@
+//! The coordinates of the residual table: which (r, Φ, L) its nodes stand for.
+
+use super::double::{Camera, LARGEST_SWEEP, POINT_RANGE, camera, point_axis, sweep_axis};
+
+/// The range of camera radii, in r_s.
+pub const CAMERA_RANGE: [f64; 2] = [0.05, 5000.0];
+
+/// ln L, stretched around the horizon and around L = 2.5, where the closed form goes from strong to weak fields.
+fn camera_raw(l: f64) -> f64 {
+    0.5 * l.ln() + 0.7 * (l.ln() / 0.2).asinh() + 1.2 * ((l.ln() - 0.9) / 0.4).asinh()
+}
+
+/// The third coordinate, 0 to 1 over `CAMERA_RANGE`.
+pub fn camera_axis(l: f64) -> f64 {
+    let (first, last) = (camera_raw(CAMERA_RANGE[0]), camera_raw(CAMERA_RANGE[1]));
+    (camera_raw(l) - first) / (last - first)
+}
+
+/// The place in lo..=hi where the increasing `f` is `value`.
+fn invert(f: impl Fn(f64) -> f64, value: f64, [mut lo, mut hi]: [f64; 2]) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (lo + hi);
+        if f(middle) < value { lo = middle } else { hi = middle }
+    }
+    0.5 * (lo + hi)
+}
+
+/// The camera radius at the third coordinate `z`.
+pub fn camera_radius(z: f64) -> f64 {
+    invert(|l| camera_axis(l.exp()), z, CAMERA_RANGE.map(f64::ln)).exp()
+}
+
+/// 1/r at the first coordinate `x`.
+pub fn point(cam: &Camera, x: f64) -> f64 {
+    invert(|c| point_axis(cam, c, 1.0 - c), x, POINT_RANGE)
+}
+
+/// Φ at the second coordinate `y`.
+pub fn sweep(cam: &Camera, c: f64, y: f64) -> f64 {
+    invert(|p| sweep_axis(cam, c, p), y, [0.0, LARGEST_SWEEP])
+}
+
+/// The camera at the third coordinate `z`.
+pub fn camera_at(z: f64) -> Camera {
+    camera(camera_radius(z))
+}

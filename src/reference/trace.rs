@@ -1,0 +1,219 @@
+//! What a pixel shows: the dense ray against triangles, the curve itself intersected.
+//!
+//! Brute force over the triangles for now, and triangles at rest.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::geodesic::{Segment, root};
+use super::ray::{End, Ray, Stop, sky_radius};
+
+/// A pinhole camera on a ship.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// Position in r_s from the hole.
+    pub position: DVec3,
+    /// Rain-frame momentum per mass.
+    pub momentum: DVec3,
+    /// Body axes to rain axes through the pure boost of `momentum`; the camera looks along −z, y is up.
+    pub attitude: DQuat,
+    /// Horizontal field of view, radians, below π.
+    pub field_of_view: f64,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+impl Camera {
+    /// The direction, in the rain frame, of the light seen at (x, y) in pixels from the upper left corner, and how much bluer than
+    /// for a rain observer it is seen: ν_camera/ν_rain.
+    pub fn look(&self, x: f64, y: f64) -> (DVec3, f64) {
+        let [width, height] = self.size.map(f64::from);
+        let half = (0.5 * self.field_of_view).tan();
+        let across = (2.0 * x / width - 1.0) * half;
+        let up = (1.0 - 2.0 * y / height) * half * height / width;
+        // The photon moves against the look; its momentum with frequency 1 goes from the ship's frame to the rain frame by the boost of p.
+        let photon = -(self.attitude * DVec3::new(across, up, -1.0).normalize());
+        let gamma = (1.0 + self.momentum.length_squared()).sqrt();
+        let along = self.momentum.dot(photon);
+        let rain = photon + self.momentum * (along / (1.0 + gamma) + 1.0);
+        let frequency = gamma + along;
+        (-rain / frequency, 1.0 / frequency)
+    }
+}
+
+/// A set of triangles at rest in Painlevé–Gullstrand coordinates.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    /// Vertices in r_s from the hole.
+    pub vertices: Vec<DVec3>,
+    /// Three indices a triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The index of the mesh.
+    pub object: usize,
+    /// The index of the triangle in it.
+    pub triangle: usize,
+    /// Weights of its three vertices; they sum to 1.
+    pub barycentrics: [f64; 3],
+    /// The image order: half turns swept, plus one.
+    pub order: u32,
+    /// The angle swept from the camera, radians.
+    pub swept: f64,
+    /// T_camera − T, r_s/c.
+    pub delay: f64,
+    /// Where, in r_s.
+    pub position: DVec3,
+    /// Rain-frame momentum of the light where it left, in units of the frequency that a rain observer at the camera sees.
+    pub momentum: DVec3,
+}
+
+/// What is seen in one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Seen {
+    /// The shadow.
+    Captured,
+    /// The sky in this direction from the hole, unit vector.
+    Sky(DVec3),
+    /// A triangle.
+    Hit(Hit),
+}
+
+/// Follows the light seen from `position` in direction `look` (rain frame) back to the first thing it meets.
+pub fn trace(meshes: &[Mesh], position: DVec3, look: DVec3, tolerance: f64) -> Seen {
+    let radius = meshes
+        .iter()
+        .flat_map(|m| &m.vertices)
+        .map(|v| v.length())
+        .fold(sky_radius(position.length()), f64::max);
+    let ray = Ray::trace(
+        position,
+        look,
+        tolerance,
+        &Stop {
+            radius,
+            ..Stop::default()
+        },
+    );
+    if let Some(hit) = first_hit(meshes, &ray) {
+        return Seen::Hit(hit);
+    }
+    match ray.sky_swept() {
+        Some(swept) if ray.end == End::Escaped => Seen::Sky(ray.embed(DVec2::from_angle(swept))),
+        _ => Seen::Captured,
+    }
+}
+
+/// The first triangle that a ray, followed backwards, meets.
+pub fn first_hit(meshes: &[Mesh], ray: &Ray) -> Option<Hit> {
+    let normal = ray.axes[0].cross(ray.axes[1]);
+    let mut first: Option<Hit> = None;
+    for (object, mesh) in meshes.iter().enumerate() {
+        let height: Vec<f64> = mesh.vertices.iter().map(|v| normal.dot(*v)).collect();
+        for (triangle, indices) in mesh.triangles.iter().enumerate() {
+            // A ray stays in its plane, so a triangle on one side of that plane cannot be met.
+            let side = indices.map(|i| height[i as usize]);
+            if side.iter().all(|&s| s > 0.0) || side.iter().all(|&s| s < 0.0) {
+                continue;
+            }
+            let corners = indices.map(|i| mesh.vertices[i as usize]);
+            let until = first.map_or(f64::INFINITY, |hit| hit.delay);
+            if let Some((sample, barycentrics)) = meet(ray, corners, until) {
+                let order = (sample.swept / std::f64::consts::PI) as u32 + 1;
+                let super::ray::RaySample {
+                    position,
+                    momentum,
+                    swept,
+                    delay,
+                } = sample;
+                first = Some(Hit {
+                    object,
+                    triangle,
+                    barycentrics,
+                    order,
+                    swept,
+                    delay,
+                    position,
+                    momentum,
+                });
+            }
+        }
+    }
+    first
+}
+
+/// The first crossing of the ray with one triangle before the delay `until`.
+fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(super::ray::RaySample, [f64; 3])> {
+    let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    // The triangle's plane cuts the ray's plane in the line a·x = c.
+    let a = DVec2::new(normal.dot(ray.axes[0]), normal.dot(ray.axes[1]));
+    let c = normal.dot(corners[0]);
+    let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+    let centre_in_plane = DVec2::new(centre.dot(ray.axes[0]), centre.dot(ray.axes[1]));
+    let size = corners
+        .iter()
+        .map(|v| v.distance(centre))
+        .fold(0.0, f64::max);
+    for (i, segment) in ray
+        .segments
+        .iter()
+        .enumerate()
+        .take_while(|(_, s)| s.start < until)
+    {
+        if segment.position(0.0).distance(centre_in_plane) > size + segment.reach() {
+            continue;
+        }
+        for elapsed in crossings(segment, a, c).into_iter().flatten() {
+            let sample = ray.sample(i, elapsed);
+            if sample.delay >= until {
+                return None;
+            }
+            if let Some(barycentrics) = inside(corners, normal, sample.position) {
+                return Some((sample, barycentrics));
+            }
+        }
+    }
+    None
+}
+
+/// Where a segment crosses the line a·x = c, in order. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and turns by less than half
+/// a turn in one segment, so there are at most two crossings, one on each side of the place where it runs parallel to the line.
+fn crossings(segment: &Segment, a: DVec2, c: f64) -> [Option<f64>; 2] {
+    let height = |s: f64| a.dot(segment.position(s)) - c;
+    let rate = |s: f64| a.dot(segment.velocity(s));
+    let end = segment.length;
+    let (h0, h1) = (height(0.0), height(end));
+    if h0 == 0.0 && h1 == 0.0 {
+        return [None; 2];
+    }
+    if h0 * h1 <= 0.0 {
+        return [Some(segment.cross_line(a, c, 0.0, end)), None];
+    }
+    // Both ends on one side: only a segment that first approaches the line and then recedes can touch it in between.
+    if h0 * rate(0.0) >= 0.0 || h1 * rate(end) <= 0.0 {
+        return [None; 2];
+    }
+    let step = 1e-3 * end;
+    let middle = root(0.0, end, |s| {
+        (rate(s), (rate(s + step) - rate(s - step)) / (2.0 * step))
+    });
+    if h0 * height(middle) > 0.0 {
+        return [None; 2];
+    }
+    [
+        Some(segment.cross_line(a, c, 0.0, middle)),
+        Some(segment.cross_line(a, c, middle, end)),
+    ]
+}
+
+/// The weights of the corners at a point of the triangle's plane, or None outside.
+fn inside(corners: [DVec3; 3], normal: DVec3, point: DVec3) -> Option<[f64; 3]> {
+    let area = normal.length_squared();
+    let [a, b, c] = corners.map(|v| v - point);
+    let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|part| part.dot(normal) / area);
+    // Rounding of the crossing must not open a gap between neighbours; a point on a shared edge may belong to both.
+    const SLACK: f64 = 1e-12;
+    weights.iter().all(|&w| w >= -SLACK).then_some(weights)
+}

@@ -1,0 +1,144 @@
+//! Development: thin triangles laid over, bloom, exposure, tone curve.
+
+use wgpu::ShaderStages;
+
+use super::Gpu;
+use super::layout::{HDR_FORMAT, Raster, Slot, bind, compute, layout, module, raster};
+use super::shaders::Pass;
+use super::targets::Targets;
+
+/// The passes after the picture is drawn.
+#[derive(Debug)]
+pub struct Develop {
+    texture_layout: wgpu::BindGroupLayout,
+    sampled_layout: wgpu::BindGroupLayout,
+    meter_layout: wgpu::BindGroupLayout,
+    develop_layout: wgpu::BindGroupLayout,
+    compose: wgpu::RenderPipeline,
+    down: wgpu::RenderPipeline,
+    up: wgpu::RenderPipeline,
+    meter: wgpu::ComputePipeline,
+    develop: wgpu::RenderPipeline,
+    sampler: wgpu::Sampler,
+    groups: Option<Groups>,
+}
+
+#[derive(Debug)]
+struct Groups {
+    thin: wgpu::BindGroup,
+    /// Sampling the picture, then each level of the bloom.
+    sampled: Vec<wgpu::BindGroup>,
+    meter: wgpu::BindGroup,
+    develop: wgpu::BindGroup,
+}
+
+impl Develop {
+    /// Compiles the passes for an output of this format, which is to encode sRGB by itself.
+    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, output: wgpu::TextureFormat) -> Self {
+        let fragment = ShaderStages::FRAGMENT;
+        let texture_layout = layout(device, "texture", fragment, &[Slot::Texture]);
+        let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
+        let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture]);
+        let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture]);
+        let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
+            let shader = module(device, label, pass);
+            let stage = Raster { vertex: "vertex", fragment, targets: &[(format, blend)], depth: None };
+            raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(layout)])
+        };
+        let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+        let one = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let add = wgpu::BlendState { color: one, alpha: one };
+        Develop {
+            compose: pass("compose", Pass::Compose, "fragment", &texture_layout, HDR_FORMAT, Some(over)),
+            down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
+            up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(add)),
+            meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
+            develop: pass("develop", Pass::Develop, "fragment", &develop_layout, output, None),
+            sampler: device.create_sampler(&wgpu::SamplerDescriptor {
+                label: Some("linear"),
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
+            texture_layout,
+            sampled_layout,
+            meter_layout,
+            develop_layout,
+            groups: None,
+        }
+    }
+
+    /// Takes up targets of a new size.
+    pub fn resize(&mut self, gpu: &Gpu, targets: &Targets) {
+        use wgpu::BindingResource::{Sampler, TextureView};
+        let device = &gpu.device;
+        let views = std::iter::once(&targets.picture).chain(&targets.bloom);
+        self.groups = Some(Groups {
+            thin: bind(device, "thin", &self.texture_layout, &[TextureView(&targets.thin)]),
+            sampled: views.map(|view| bind(device, "sampled", &self.sampled_layout, &[TextureView(view), Sampler(&self.sampler)])).collect(),
+            meter: bind(device, "meter", &self.meter_layout, &[TextureView(&targets.bloom[targets.meter_level()])]),
+            develop: bind(
+                device,
+                "develop",
+                &self.develop_layout,
+                &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0])],
+            ),
+        });
+    }
+
+    /// Lays the thin triangles over the picture.
+    pub fn compose(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup, targets: &Targets) {
+        let Some(groups) = &self.groups else { return };
+        screen(encoder, "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
+    }
+
+    /// Bloom, exposure, and the picture into `output`.
+    pub fn run(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup, targets: &Targets, output: &wgpu::TextureView) {
+        let Some(groups) = &self.groups else { return };
+        for (level, view) in targets.bloom.iter().enumerate() {
+            screen(encoder, "bloom down", view, true, &self.down, frame, &groups.sampled[level]);
+        }
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: None });
+            pass.set_pipeline(&self.meter);
+            pass.set_bind_group(0, frame, &[]);
+            pass.set_bind_group(2, &groups.meter, &[]);
+            pass.dispatch_workgroups(1, 1, 1);
+        }
+        for level in (1..targets.bloom.len()).rev() {
+            screen(encoder, "bloom up", &targets.bloom[level - 1], false, &self.up, frame, &groups.sampled[level + 1]);
+        }
+        screen(encoder, "develop", output, true, &self.develop, frame, &groups.develop);
+    }
+}
+
+/// One triangle over the whole of `view`.
+fn screen(
+    encoder: &mut wgpu::CommandEncoder,
+    label: &str,
+    view: &wgpu::TextureView,
+    fresh: bool,
+    pipeline: &wgpu::RenderPipeline,
+    frame: &wgpu::BindGroup,
+    group: &wgpu::BindGroup,
+) {
+    let load = if fresh { wgpu::LoadOp::Clear(wgpu::Color::BLACK) } else { wgpu::LoadOp::Load };
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+        })],
+        ..Default::default()
+    });
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(0, frame, &[]);
+    pass.set_bind_group(2, group, &[]);
+    pass.draw(0..3, 0..1);
+}

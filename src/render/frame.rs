@@ -1,0 +1,202 @@
+//! What one frame needs from below: a camera, things to see, settings. Plain data, made by `extract` in the game and by hand in tests.
+
+use glam::{DMat4, DQuat, DVec3};
+
+use crate::scene::{blackbody, milky_way};
+use crate::spacetime::{frames, light};
+
+use super::placements::Placed;
+use super::types::{self, flags};
+
+/// A camera: where it is, how it moves, which way it looks, how wide.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Position on the slice T = const, in r_s.
+    pub position: DVec3,
+    /// Rain-frame momentum per mass, in c.
+    pub momentum: DVec3,
+    /// Attitude: camera axes (+x right, +y up, −z forward) to rain axes through the pure boost of `momentum`.
+    pub attitude: DQuat,
+    /// Horizontal field of view in radians.
+    pub field_of_view: f64,
+}
+
+impl Camera {
+    /// The camera's radius L, in r_s.
+    pub fn radius(&self) -> f64 {
+        self.position.length()
+    }
+
+    /// The unit vectors (n, a, b): outward, and two across, which make a right-handed frame.
+    pub fn axis_frame(&self) -> [DVec3; 3] {
+        let n = self.position.normalize();
+        let (a, b) = n.any_orthonormal_pair();
+        // a × b = n for glam's pair.
+        [n, a, b]
+    }
+
+    /// Lorentz matrix from rain components to camera components.
+    pub fn camera_from_rain(&self) -> DMat4 {
+        frames::rain_to_ship(self.momentum, self.attitude)
+    }
+
+    /// Its inverse.
+    pub fn rain_from_camera(&self) -> DMat4 {
+        frames::ship_to_rain(self.momentum, self.attitude)
+    }
+
+    /// The direction in rain axes of the light seen in the camera's direction `seen` (camera axes, −z forward).
+    pub fn rain_direction(&self, seen: DVec3) -> DVec3 {
+        (self.rain_from_camera() * seen.normalize().extend(-1.0)).truncate().normalize()
+    }
+
+    /// Where the camera sees light that comes, in rain axes, from `look`: a unit vector in camera axes.
+    pub fn seen_direction(&self, look: DVec3) -> DVec3 {
+        (self.camera_from_rain() * look.normalize().extend(-1.0)).truncate().normalize()
+    }
+
+    /// Pixel coordinates (x right, y down, origin at the upper left corner) of a direction in camera axes, or None behind the camera.
+    pub fn pixel(&self, seen: DVec3, size: [u32; 2]) -> Option<[f64; 2]> {
+        if seen.z >= 0.0 {
+            return None;
+        }
+        let [width, height] = size.map(f64::from);
+        let focal = 0.5 * width / (0.5 * self.field_of_view).tan();
+        Some([0.5 * width - focal * seen.x / seen.z, 0.5 * height + focal * seen.y / seen.z])
+    }
+}
+
+/// How the picture is made; the numbers come from `game.toml`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Greatest error of any drawn point, in pixels.
+    pub pixel_error: f32,
+    /// Image orders drawn, 1 to 3.
+    pub orders: u32,
+    /// Light changes its colour with g.
+    pub doppler: bool,
+    /// Light changes its strength with g.
+    pub beaming: bool,
+    /// Stars are drawn.
+    pub stars: bool,
+    /// The Milky Way is drawn.
+    pub milky_way: bool,
+    /// Factor on the light of stars.
+    pub star_brightness: f32,
+    /// Factor on the light of the Milky Way.
+    pub sky_brightness: f32,
+    /// Share of the blurred picture that is added.
+    pub bloom: f32,
+    /// Least and greatest exposure.
+    pub exposure_range: [f32; 2],
+    /// Factor on the exposure that was found.
+    pub exposure_bias: f32,
+    /// How far the exposure moves in this frame towards what it should be, (0, 1]; 1 at once.
+    pub adaptation: f32,
+    /// The exposure stays as it is.
+    pub hold_exposure: bool,
+    /// Nearest drawn distance, in r_s.
+    pub near: f32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            pixel_error: 0.25,
+            orders: 3,
+            doppler: true,
+            beaming: true,
+            stars: true,
+            milky_way: true,
+            star_brightness: 1.0,
+            sky_brightness: 1.0,
+            bloom: 0.08,
+            exposure_range: [1e-4, 40.0],
+            exposure_bias: 1.0,
+            adaptation: 1.0,
+            hold_exposure: false,
+            near: 1e-3,
+        }
+    }
+}
+
+/// All that a frame shows.
+#[derive(Clone, Debug)]
+pub struct FrameInput {
+    /// The camera.
+    pub camera: Camera,
+    /// The clock T, in r_s/c.
+    pub time: f64,
+    /// Objects in each order they are seen in.
+    pub placed: Vec<Placed>,
+    /// How to draw.
+    pub settings: Settings,
+}
+
+/// Room in the buffers of geometry: past it patches are drawn coarser, and counted.
+#[derive(Clone, Copy, Debug)]
+pub struct Capacity {
+    /// Seen vertices.
+    pub vertices: u32,
+    /// Indices of opaque triangles.
+    pub indices: u32,
+    /// Pieces and work items.
+    pub work: u32,
+    /// Vertices of thin triangles.
+    pub thin: u32,
+}
+
+/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
+/// stars down to magnitude 6 show beside a lit ship.
+pub const SKY_UNIT: f32 = 4e-4;
+
+/// The uniform of a frame of `size` pixels.
+pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacity) -> types::Frame {
+    let camera = &input.camera;
+    let settings = &input.settings;
+    let [n, a, b] = camera.axis_frame();
+    let radius = camera.radius();
+    let cot = 1.0 / (0.5 * camera.field_of_view).tan();
+    let pixel = 2.0 / (cot * f64::from(size[0]));
+    let mut switches = 0;
+    for (on, bit) in [
+        (settings.doppler, flags::DOPPLER),
+        (settings.beaming, flags::BEAMING),
+        (settings.stars, flags::STARS),
+        (settings.milky_way, flags::MILKY_WAY),
+        (radius < 1.0, flags::INSIDE),
+        (settings.hold_exposure, flags::HOLD_EXPOSURE),
+    ] {
+        if on {
+            switches |= bit;
+        }
+    }
+    let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
+    types::Frame {
+        camera_from_rain: camera.camera_from_rain().as_mat4().to_cols_array_2d(),
+        rain_from_camera: camera.rain_from_camera().as_mat4().to_cols_array_2d(),
+        radial: row(n, radius),
+        side_a: row(a, 1.0 / radius),
+        side_b: row(b, (1.0 / radius).sqrt()),
+        projection: [cot as f32, (cot * f64::from(size[0]) / f64::from(size[1])) as f32, settings.near, input.time as f32],
+        size: [size[0] as f32, size[1] as f32, pixel as f32, (pixel * f64::from(settings.pixel_error)) as f32],
+        light: [
+            settings.exposure_bias,
+            // A spot spreads a star's light over pixels of this solid angle.
+            settings.star_brightness * SKY_UNIT / (pixel * pixel) as f32,
+            if settings.milky_way { settings.sky_brightness * SKY_UNIT * milky_way::PEAK } else { 0.0 },
+            settings.bloom,
+        ],
+        exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, light::shadow_angle(1.0 / radius) as f32],
+        switches: [switches, 64, if settings.stars { stars } else { 0 }, settings.orders],
+        sky_x: [1.0, 0.0, 0.0, 0.0],
+        sky_y: [0.0, 1.0, 0.0, 0.0],
+        sky_z: [0.0, 0.0, 1.0, 0.0],
+        capacity: [capacity.vertices, capacity.indices, capacity.work, capacity.thin],
+    }
+}
+
+/// The table of black bodies: ln of linear sRGB radiance over ln T, relative to the luminance at 5,772 K. Ends as in functions/colour.wgsl.
+pub fn blackbody_table() -> Vec<[f32; 4]> {
+    blackbody::table(512, 200.0, 2.0e6)
+}

@@ -1,0 +1,347 @@
+//! Geometry: models projected through the table, tessellated in two stages of compute in the manner of mesh shaders, and drawn.
+//!
+//! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other through
+//! the buffers of group 1; the processor only says which objects there are.
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use super::Gpu;
+use super::frame::Capacity;
+use super::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use super::models::Models;
+use super::placements::Placed;
+use super::shaders::Pass;
+use super::types::{self, Chunk, Counters, Placement, SeenVertex};
+
+/// Threads of a workgroup; `@workgroup_size` of the stages.
+const LANES: u32 = 64;
+/// Groups along the first dimension of a dispatch (65,535 is the limit).
+const GROUPS: u32 = 32_768;
+/// Passes of splitting: one for each depth, and one for those at the last depth.
+const REFINE_PASSES: u32 = 11;
+/// Format of the layers of a picture.
+pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// Spare room past the model vertices, for what the mesh stage makes.
+const SPARE: Capacity = Capacity { vertices: 600_000, indices: 3_000_000, work: 60_000, thin: 600_000 };
+
+/// The stages of geometry and the buffers between them.
+#[derive(Debug)]
+pub struct Geometry {
+    group_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
+    stages: Stages,
+    draws: Draws,
+    placements: Growing,
+    chunks: [Growing; 3],
+    /// Groups to dispatch over vertices, edges, triangles.
+    dispatch: [[u32; 2]; 3],
+    seen: Growing,
+    emitted: Growing,
+    edge_states: Growing,
+    pieces: wgpu::Buffer,
+    work: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    thin: wgpu::Buffer,
+    counters: wgpu::Buffer,
+    arguments: wgpu::Buffer,
+    arguments_group: wgpu::BindGroup,
+    sampler: wgpu::Sampler,
+    groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
+    base_vertices: u32,
+    capacity: Capacity,
+}
+
+#[derive(Debug)]
+struct Stages {
+    vertices: wgpu::ComputePipeline,
+    edges: wgpu::ComputePipeline,
+    triangles: wgpu::ComputePipeline,
+    refine: wgpu::ComputePipeline,
+    next_pieces: wgpu::ComputePipeline,
+    finish: wgpu::ComputePipeline,
+    finish_thin: wgpu::ComputePipeline,
+    mesh: wgpu::ComputePipeline,
+}
+
+#[derive(Debug)]
+struct Draws {
+    opaque: wgpu::RenderPipeline,
+    thin: wgpu::RenderPipeline,
+    layers: wgpu::RenderPipeline,
+    layers_thin: wgpu::RenderPipeline,
+}
+
+impl Geometry {
+    /// Compiles the stages.
+    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
+        use Slot::{Read, Write};
+        let group_layout = layout(
+            device,
+            "geometry",
+            ShaderStages::COMPUTE,
+            &[Read, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
+        );
+        let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
+        let draw_layout = layout(
+            device,
+            "draw",
+            ShaderStages::VERTEX_FRAGMENT,
+            &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read],
+        );
+        let groups = [Some(frame_layout), Some(&group_layout)];
+        let stage = |label, pass| compute(device, label, pass, "main", &groups);
+        let with_arguments = [Some(frame_layout), Some(&group_layout), Some(&arguments_layout)];
+        let argument = |entry| compute(device, entry, Pass::Arguments, entry, &with_arguments);
+        let stages = Stages {
+            vertices: stage("vertices", Pass::Vertices),
+            edges: stage("edges", Pass::Edges),
+            triangles: stage("triangles", Pass::Triangles),
+            refine: stage("refine", Pass::Refine),
+            next_pieces: argument("next_pieces"),
+            finish: argument("finish"),
+            finish_thin: argument("finish_thin"),
+            mesh: stage("mesh", Pass::Mesh),
+        };
+        let shader = module(device, "draw", Pass::Draw);
+        let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
+        let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
+        let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
+        let draw = |label, vertex, fragment, format, blend, write| {
+            let stage = Raster { vertex, fragment, targets: &[(format, blend)], depth: Some(write) };
+            raster(device, label, &shader, stage, &draw_groups)
+        };
+        let draws = Draws {
+            opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
+            thin: draw("thin", "thin_vertex", "thin_fragment", HDR_FORMAT, Some(sum), false),
+            layers: draw("layers", "opaque_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
+            layers_thin: draw("layers thin", "thin_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
+        };
+        let storage = BufferUsages::STORAGE;
+        let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
+        let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
+        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("surface"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
+        Geometry {
+            group_layout,
+            draw_layout,
+            stages,
+            draws,
+            placements: Growing::new(device, "placements", storage),
+            chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| Growing::new(device, label, storage)),
+            dispatch: [[0; 2]; 3],
+            seen: Growing::new(device, "seen vertices", storage),
+            emitted: Growing::new(device, "emitted", storage),
+            edge_states: Growing::new(device, "edge states", storage),
+            pieces: buffer(device, "pieces", 2 * types::PIECE_BYTES * u64::from(SPARE.work), storage),
+            work: buffer(device, "work", types::WORK_BYTES * u64::from(SPARE.work), storage),
+            indices: buffer(device, "indices", 4 * u64::from(SPARE.indices), storage | BufferUsages::INDEX),
+            thin: buffer(device, "thin", types::THIN_BYTES * u64::from(SPARE.thin), storage),
+            counters: buffer(device, "counters", size_of::<Counters>() as u64, storage),
+            arguments,
+            arguments_group,
+            sampler,
+            groups: None,
+            base_vertices: 0,
+            capacity: SPARE,
+        }
+    }
+
+    /// Room in the buffers, as the shaders are told.
+    pub fn capacity(&self) -> Capacity {
+        self.capacity
+    }
+
+    /// Bind groups are made anew at the next [`Geometry::prepare`]: call after models changed.
+    pub fn models_changed(&mut self) {
+        self.groups = None;
+    }
+
+    /// Writes what is to be drawn in this frame.
+    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed]) {
+        let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
+        let mut chunks: [Vec<Chunk>; 3] = Default::default();
+        let (mut vertices, mut edges) = (0, 0);
+        for item in placed {
+            let model = item.model;
+            let mut placement = item.placement;
+            placement.ids[2] = vertices;
+            placement.ids[3] = edges;
+            placement.vertices = [model.vertices[0], model.vertices[1], model.edges[0], model.edges[1]];
+            placement.triangles = [model.triangles[0], model.triangles[1], model.material, item.placement.triangles[3]];
+            let number = placements.len() as u32;
+            for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
+                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { placement: number, first: chunk * LANES }));
+            }
+            vertices += model.vertices[1];
+            edges += model.edges[1];
+            placements.push(placement);
+        }
+        self.base_vertices = vertices;
+        self.capacity = Capacity { vertices: vertices + SPARE.vertices, ..SPARE };
+        let device = &gpu.device;
+        let mut replaced = self.placements.write(gpu, &placements);
+        for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
+            let count = list.len() as u32;
+            *dispatch = [count.min(GROUPS), count.div_ceil(GROUPS)];
+            list.resize((dispatch[0] * dispatch[1]) as usize, Chunk { placement: u32::MAX, first: 0 });
+            replaced |= buffer.write(gpu, list);
+        }
+        replaced |= self.seen.reserve(device, u64::from(self.capacity.vertices) * size_of::<SeenVertex>() as u64);
+        replaced |= self.emitted.reserve(device, u64::from(vertices) * 16);
+        replaced |= self.edge_states.reserve(device, u64::from(edges) * 16);
+        if replaced || self.groups.is_none() {
+            self.make_groups(gpu, models);
+        }
+        // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
+        let counters = Counters { vertices, turn: 1, ..Counters::default() };
+        gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
+    }
+
+    fn make_groups(&mut self, gpu: &Gpu, models: &Models) {
+        let device = &gpu.device;
+        let compute = std::array::from_fn(|kind| {
+            let all = [
+                &self.placements.buffer,
+                &models.vertex_buffer.buffer,
+                &models.edge_buffer.buffer,
+                &models.triangle_buffer.buffer,
+                &self.chunks[kind].buffer,
+                &self.seen.buffer,
+                &self.emitted.buffer,
+                &self.edge_states.buffer,
+                &self.pieces,
+                &self.work,
+                &self.indices,
+                &self.thin,
+                &self.counters,
+            ];
+            let resources: Vec<_> = all.iter().map(|buffer| buffer.as_entire_binding()).collect();
+            bind(device, "geometry", &self.group_layout, &resources)
+        });
+        let textures = models.texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2Array),
+            ..Default::default()
+        });
+        let draw = bind(
+            device,
+            "draw",
+            &self.draw_layout,
+            &[
+                self.placements.buffer.as_entire_binding(),
+                self.seen.buffer.as_entire_binding(),
+                models.material_buffer.buffer.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&textures),
+                wgpu::BindingResource::Sampler(&self.sampler),
+                self.thin.as_entire_binding(),
+            ],
+        );
+        self.groups = Some((compute, draw));
+    }
+
+    fn stage(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline, kind: usize) {
+        let [x, y] = self.dispatch[kind];
+        let Some((groups, _)) = &self.groups else { return };
+        if x > 0 {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(1, &groups[kind], &[]);
+            pass.dispatch_workgroups(x, y, 1);
+        }
+    }
+
+    fn single(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline) {
+        let Some((groups, _)) = &self.groups else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(1, &groups[0], &[]);
+        pass.set_bind_group(2, &self.arguments_group, &[]);
+        pass.dispatch_workgroups(1, 1, 1);
+    }
+
+    fn indirect(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline, offset: u64) {
+        let Some((groups, _)) = &self.groups else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(1, &groups[0], &[]);
+        pass.dispatch_workgroups_indirect(&self.arguments, offset);
+    }
+
+    /// Stage 1: model vertices.
+    pub fn vertices(&self, pass: &mut wgpu::ComputePass) {
+        self.stage(pass, &self.stages.vertices, 0);
+    }
+
+    /// Stage 2: model edges.
+    pub fn edges(&self, pass: &mut wgpu::ComputePass) {
+        self.stage(pass, &self.stages.edges, 1);
+    }
+
+    /// Stage 3: the object stage.
+    pub fn triangles(&self, pass: &mut wgpu::ComputePass) {
+        self.stage(pass, &self.stages.triangles, 2);
+    }
+
+    /// Stage 4: splitting.
+    pub fn refine(&self, pass: &mut wgpu::ComputePass) {
+        for _ in 0..REFINE_PASSES {
+            self.single(pass, &self.stages.next_pieces);
+            self.indirect(pass, &self.stages.refine, types::ARGUMENTS_REFINE);
+        }
+        self.single(pass, &self.stages.finish);
+    }
+
+    /// Stage 5: the mesh stage.
+    pub fn mesh(&self, pass: &mut wgpu::ComputePass) {
+        self.indirect(pass, &self.stages.mesh, types::ARGUMENTS_MESH);
+        self.single(pass, &self.stages.finish_thin);
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline, thin: bool) {
+        let Some((_, group)) = &self.groups else { return };
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(2, group, &[]);
+        if thin {
+            pass.draw_indirect(&self.arguments, types::ARGUMENTS_THIN);
+        } else {
+            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_OPAQUE);
+        }
+    }
+
+    /// Opaque triangles, with depth.
+    pub fn draw_opaque(&self, pass: &mut wgpu::RenderPass) {
+        self.draw(pass, &self.draws.opaque, false);
+    }
+
+    /// Thin triangles, summed.
+    pub fn draw_thin(&self, pass: &mut wgpu::RenderPass) {
+        self.draw(pass, &self.draws.thin, true);
+    }
+
+    /// The layers of both.
+    pub fn draw_layers(&self, pass: &mut wgpu::RenderPass) {
+        self.draw(pass, &self.draws.layers, false);
+        self.draw(pass, &self.draws.layers_thin, true);
+    }
+
+    /// What was counted, for reading back.
+    pub fn counters(&self) -> &wgpu::Buffer {
+        &self.counters
+    }
+
+    /// Seen vertices: first those of the models, object by object and order by order, then those of the mesh stage.
+    pub fn seen(&self) -> &wgpu::Buffer {
+        &self.seen.buffer
+    }
+
+    /// Indices of opaque triangles.
+    pub fn indices(&self) -> &wgpu::Buffer {
+        &self.indices
+    }
+}
+

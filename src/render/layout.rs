@@ -1,0 +1,199 @@
+//! Short forms for bind groups and pipelines: what each pass would otherwise repeat.
+
+use wgpu::{
+    BindGroupLayoutEntry, BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, SamplerBindingType, ShaderStages,
+    TextureSampleType, TextureViewDimension,
+};
+
+/// One entry of a layout: its kind, and who sees it.
+#[derive(Clone, Copy, Debug)]
+pub enum Slot {
+    /// A uniform buffer.
+    Uniform,
+    /// A storage buffer that is only read.
+    Read,
+    /// A storage buffer that is written.
+    Write,
+    /// A 2-D texture of floats that can be filtered.
+    Texture,
+    /// An array of them.
+    TextureArray,
+    /// A filtering sampler.
+    Sampler,
+}
+
+/// A layout with the slots at bindings 0, 1, 2, …, seen by `stages`.
+pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &[Slot]) -> wgpu::BindGroupLayout {
+    let entries: Vec<BindGroupLayoutEntry> = slots
+        .iter()
+        .enumerate()
+        .map(|(binding, slot)| {
+            let buffer = |ty| BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+            let texture = |view_dimension| BindingType::Texture {
+                sample_type: TextureSampleType::Float { filterable: true },
+                view_dimension,
+                multisampled: false,
+            };
+            // A vertex stage may not see what it could write.
+            let visibility = if matches!(slot, Slot::Write) { stages & !ShaderStages::VERTEX } else { stages };
+            BindGroupLayoutEntry {
+                binding: binding as u32,
+                visibility,
+                ty: match slot {
+                    Slot::Uniform => buffer(BufferBindingType::Uniform),
+                    Slot::Read => buffer(BufferBindingType::Storage { read_only: true }),
+                    Slot::Write => buffer(BufferBindingType::Storage { read_only: false }),
+                    Slot::Texture => texture(TextureViewDimension::D2),
+                    Slot::TextureArray => texture(TextureViewDimension::D2Array),
+                    Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
+                },
+                count: None,
+            }
+        })
+        .collect();
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+}
+
+/// A bind group with the resources at bindings 0, 1, 2, …
+pub fn bind(device: &wgpu::Device, label: &str, layout: &wgpu::BindGroupLayout, resources: &[BindingResource]) -> wgpu::BindGroup {
+    let entries: Vec<wgpu::BindGroupEntry> = resources
+        .iter()
+        .enumerate()
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding: binding as u32, resource: resource.clone() })
+        .collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+}
+
+/// A buffer of `size` bytes, at least one row of 16.
+pub fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: BufferUsages) -> Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size.max(16).next_multiple_of(16),
+        usage: usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
+        mapped_at_creation: false,
+    })
+}
+
+/// A storage buffer filled with `data`.
+pub fn storage<T: bytemuck::Pod>(gpu: &super::Gpu, label: &str, data: &[T]) -> Buffer {
+    let bytes: &[u8] = bytemuck::cast_slice(data);
+    let result = buffer(&gpu.device, label, bytes.len() as u64, BufferUsages::STORAGE);
+    gpu.queue.write_buffer(&result, 0, bytes);
+    result
+}
+
+/// A storage buffer that grows when more is written to it than it holds.
+#[derive(Debug)]
+pub struct Growing {
+    label: &'static str,
+    usage: BufferUsages,
+    /// The buffer as it is now; replaced when it grows.
+    pub buffer: Buffer,
+}
+
+impl Growing {
+    /// An empty one.
+    pub fn new(device: &wgpu::Device, label: &'static str, usage: BufferUsages) -> Self {
+        Growing { label, usage, buffer: buffer(device, label, 16, usage) }
+    }
+
+    /// Holds at least `size` bytes afterwards. True if the buffer was replaced, so that bind groups must be made anew.
+    pub fn reserve(&mut self, device: &wgpu::Device, size: u64) -> bool {
+        if size <= self.buffer.size() {
+            return false;
+        }
+        // A quarter more than asked, so that a slow growth does not make a new buffer each frame.
+        self.buffer = buffer(device, self.label, size + size / 4, self.usage);
+        true
+    }
+
+    /// Writes the data, growing if it must. True if the buffer was replaced.
+    pub fn write<T: bytemuck::Pod>(&mut self, gpu: &super::Gpu, data: &[T]) -> bool {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let replaced = self.reserve(&gpu.device, bytes.len() as u64);
+        if !bytes.is_empty() {
+            gpu.queue.write_buffer(&self.buffer, 0, bytes);
+        }
+        replaced
+    }
+}
+
+/// A compute pipeline of one entry point.
+pub fn compute(
+    device: &wgpu::Device,
+    label: &str,
+    pass: super::shaders::Pass,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::ComputePipeline {
+    let module = module(device, label, pass);
+    let layout = pipeline_layout(device, label, layouts);
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(label),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some(entry),
+        compilation_options: Default::default(),
+        cache: None,
+    })
+}
+
+/// The shader module of a pass.
+pub fn module(device: &wgpu::Device, label: &str, pass: super::shaders::Pass) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(pass.source().into()) })
+}
+
+/// A pipeline layout of these groups.
+pub fn pipeline_layout(device: &wgpu::Device, label: &str, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor { label: Some(label), bind_group_layouts: layouts, immediate_size: 0 })
+}
+
+/// How a render pipeline meets depth and colour.
+#[derive(Clone, Copy, Debug)]
+pub struct Raster<'a> {
+    /// Entry points.
+    pub vertex: &'a str,
+    /// Of the fragment stage.
+    pub fragment: &'a str,
+    /// Colour targets with their blending.
+    pub targets: &'a [(wgpu::TextureFormat, Option<wgpu::BlendState>)],
+    /// Whether depth is tested, and whether it is written too. None: no depth attachment.
+    pub depth: Option<bool>,
+}
+
+/// The format of the picture before it is developed: linear light.
+pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// The format of depth, reversed: 1 at the near distance, 0 at infinity.
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// A render pipeline of triangles without vertex buffers.
+pub fn raster(device: &wgpu::Device, label: &str, module: &wgpu::ShaderModule, raster: Raster, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::RenderPipeline {
+    let layout = pipeline_layout(device, label, layouts);
+    let targets: Vec<Option<wgpu::ColorTargetState>> = raster
+        .targets
+        .iter()
+        .map(|&(format, blend)| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL }))
+        .collect();
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState { module, entry_point: Some(raster.vertex), compilation_options: Default::default(), buffers: &[] },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: raster.depth.map(|write| wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(write),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(raster.fragment),
+            compilation_options: Default::default(),
+            targets: &targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,278 @@
+//! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it alike.
+
+use std::sync::Arc;
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::lensing::{Slice, Table};
+use crate::scene::model::Model;
+
+use super::Gpu;
+use super::develop::Develop;
+use super::frame::{FrameInput, blackbody_table, uniform};
+use super::geometry::Geometry;
+use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::models::{ModelRange, Models};
+use super::readback::{self, Picture, PictureError};
+use super::sky::table::{NODES, sky_table};
+use super::sky::{Background, Stars};
+use super::targets::Targets;
+use super::timing::Timing;
+use super::types::{self, Counters, Star};
+
+/// What does not change from frame to frame.
+#[derive(Clone, Debug)]
+pub struct Surroundings {
+    /// The baked table of lensing.
+    pub table: Arc<Table>,
+    /// The catalogue.
+    pub stars: Vec<Star>,
+    /// The Milky Way.
+    pub milky_way: super::sky::Panorama,
+}
+
+/// All passes and their buffers.
+#[derive(Debug)]
+pub struct Renderer {
+    gpu: Gpu,
+    table: Arc<Table>,
+    frame: wgpu::Buffer,
+    lens_slice: Growing,
+    sky_slice: wgpu::Buffer,
+    blackbody: wgpu::Buffer,
+    adaptation: wgpu::Buffer,
+    frame_layout: wgpu::BindGroupLayout,
+    frame_group: wgpu::BindGroup,
+    /// The radius that the slices are for.
+    sliced: f64,
+    models: Models,
+    geometry: Geometry,
+    background: Background,
+    stars: Stars,
+    develop: Develop,
+    targets: Targets,
+    timing: Timing,
+}
+
+impl Renderer {
+    /// Compiles all passes for an output of `format` and `size`.
+    pub fn new(gpu: &Gpu, surroundings: &Surroundings, format: wgpu::TextureFormat, size: [u32; 2]) -> Self {
+        let device = &gpu.device;
+        let frame_layout = layout(
+            device,
+            "frame",
+            ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
+            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+        );
+        let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
+        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
+        let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
+        let blackbody = storage(gpu, "black body", &blackbody_table());
+        // Until the first frame is metered, a middling exposure.
+        let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
+        let mut develop = Develop::new(device, &frame_layout, format);
+        let targets = Targets::new(device, size);
+        develop.resize(gpu, &targets);
+        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        Renderer {
+            geometry: Geometry::new(device, &frame_layout),
+            background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
+            stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            models: Models::new(device),
+            timing: Timing::new(gpu),
+            gpu: gpu.clone(),
+            table: surroundings.table.clone(),
+            frame,
+            lens_slice,
+            sky_slice,
+            blackbody,
+            adaptation,
+            frame_layout,
+            frame_group,
+            sliced: f64::NAN,
+            develop,
+            targets,
+        }
+    }
+
+    /// The device this renderer draws with.
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// The baked table.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// Adds a model.
+    pub fn add_model(&mut self, model: &Model) -> ModelRange {
+        self.geometry.models_changed();
+        self.models.add(&self.gpu, model)
+    }
+
+    /// Forgets all models.
+    pub fn clear_models(&mut self) {
+        self.geometry.models_changed();
+        self.models.clear();
+    }
+
+    /// The size of the output, in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.targets.size
+    }
+
+    /// Makes targets of another size.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        if size != self.targets.size {
+            self.targets = Targets::new(&self.gpu.device, size);
+            self.develop.resize(&self.gpu, &self.targets);
+        }
+    }
+
+    /// Uploads what the frame needs. The camera must be finite and away from r = 0; else the frame stays as it was, and false is returned.
+    pub fn prepare(&mut self, input: &FrameInput) -> bool {
+        let camera = &input.camera;
+        if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
+            return false;
+        }
+        let l = camera.radius();
+        // The slices depend on the radius alone.
+        if self.sliced != l {
+            self.sliced = l;
+            let slice = Slice::new(&self.table, l);
+            if self.lens_slice.write(&self.gpu, slice.texels()) {
+                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+            }
+            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky_table(l)));
+        }
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        let uniform = uniform(input, self.targets.size, self.stars.count(), self.geometry.capacity());
+        self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        self.stars.reset(&self.gpu);
+        true
+    }
+
+    /// Records all passes of a prepared frame.
+    pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
+        self.timing.begin();
+        let geometry = &self.geometry;
+        let timing = &mut self.timing;
+        let group = &self.frame_group;
+        let mut compute = |encoder: &mut wgpu::CommandEncoder, label: &'static str, run: &dyn Fn(&mut wgpu::ComputePass)| {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: timing.compute(label) });
+            pass.set_bind_group(0, group, &[]);
+            run(&mut pass);
+        };
+        compute(encoder, "vertices", &|pass| geometry.vertices(pass));
+        compute(encoder, "edges", &|pass| geometry.edges(pass));
+        compute(encoder, "triangles", &|pass| geometry.triangles(pass));
+        compute(encoder, "refine", &|pass| geometry.refine(pass));
+        compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        compute(encoder, "stars", &|pass| self.stars.project(pass));
+
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("draw"),
+                color_attachments: &[Some(colour(&self.targets.picture, true))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, true)),
+                timestamp_writes: self.timing.render("draw"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            geometry.draw_opaque(&mut pass);
+            self.background.draw(&mut pass);
+            self.stars.draw(&mut pass);
+        }
+        {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("thin"),
+                color_attachments: &[Some(colour(&self.targets.thin, true))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                timestamp_writes: self.timing.render("thin"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            geometry.draw_thin(&mut pass);
+        }
+        self.develop.compose(encoder, group, &self.targets);
+        self.develop.run(encoder, group, &self.targets, output);
+        self.timing.end(encoder);
+    }
+
+    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice.
+    pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
+        let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+        let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
+        for _ in 0..2 {
+            self.prepare(input);
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            self.encode(&mut encoder, &view);
+            if layers {
+                self.encode_layers(&mut encoder);
+            }
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        let developed = readback::texture(&self.gpu, &texture, 4)?;
+        let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
+        let linear = halves
+            .chunks_exact(8)
+            .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
+            .collect();
+        let layers = match &self.targets.layers {
+            Some((texture, _, _)) if layers => {
+                let bytes = readback::texture(&self.gpu, texture, 16)?;
+                bytes
+                    .chunks_exact(16)
+                    .map(|texel| std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]])))
+                    .collect()
+            }
+            _ => Vec::new(),
+        };
+        Ok(Picture { size: self.targets.size, developed, linear, layers })
+    }
+
+    fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let (_, view, depth_view) = self.targets.layers(&self.gpu.device);
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("layers"),
+            color_attachments: &[Some(colour(view, true))],
+            depth_stencil_attachment: Some(depth(depth_view, true)),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, &self.frame_group, &[]);
+        self.geometry.draw_layers(&mut pass);
+    }
+
+    /// What the stages of geometry counted in the last frame.
+    pub fn counters(&self) -> Result<Counters, PictureError> {
+        let bytes = readback::buffer(&self.gpu, self.geometry.counters())?;
+        Ok(*bytemuck::from_bytes(&bytes[..size_of::<Counters>()]))
+    }
+
+    /// The geometry stages, for tests that read their buffers.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Durations of the passes of an earlier frame.
+    pub fn timing(&mut self) -> &mut Timing {
+        &mut self.timing
+    }
+}
+
+fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
+    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+}
+
+fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {
+    let load = if fresh { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
+    wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops: wgpu::Operations { load, store: wgpu::StoreOp::Store } }
+}
+
+fn depth(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    // Reversed depth: infinity is 0.
+    let load = if fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }), stencil_ops: None }
+}

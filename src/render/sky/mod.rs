@@ -1,0 +1,8 @@
+//! The sky: the Milky Way behind everything, and the stars, both by the one-dimensional table of light from infinity.
+
+mod background;
+mod stars;
+pub mod table;
+
+pub use background::{Background, Panorama};
+pub use stars::Stars;

@@ -1,0 +1,82 @@
+//! The textures that a frame is drawn into, all of the size of the output.
+
+use super::geometry::LAYERS_FORMAT;
+use super::layout::{DEPTH_FORMAT, HDR_FORMAT};
+
+/// Halvings of the picture for bloom and metering.
+const BLOOM_LEVELS: usize = 6;
+
+/// Targets of one size.
+#[derive(Debug)]
+pub struct Targets {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The picture in linear light, as a texture to copy from.
+    pub picture_texture: wgpu::Texture,
+    /// The picture in linear light.
+    pub picture: wgpu::TextureView,
+    /// Depth, reversed.
+    pub depth: wgpu::TextureView,
+    /// Sum of thin triangles.
+    pub thin: wgpu::TextureView,
+    /// The picture halved, halved again, and so on.
+    pub bloom: Vec<wgpu::TextureView>,
+    /// Object id, order, travel time, g; made when first asked for.
+    pub layers: Option<(wgpu::Texture, wgpu::TextureView, wgpu::TextureView)>,
+}
+
+impl Targets {
+    /// Makes them; no side is smaller than a pixel.
+    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let size = size.map(|side| side.max(1));
+        let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
+        let mut bloom = Vec::new();
+        let mut level = size;
+        while bloom.len() < BLOOM_LEVELS {
+            level = level.map(|side| side.div_ceil(2));
+            bloom.push(target(device, "bloom", level, HDR_FORMAT).1);
+            if level[0].min(level[1]) <= 4 {
+                break;
+            }
+        }
+        Targets {
+            size,
+            picture_texture,
+            picture,
+            depth: target(device, "depth", size, DEPTH_FORMAT).1,
+            thin: target(device, "thin", size, HDR_FORMAT).1,
+            bloom,
+            layers: None,
+        }
+    }
+
+    /// The level of the bloom that is metered: an eighth of the picture, or the smallest there is.
+    pub fn meter_level(&self) -> usize {
+        2.min(self.bloom.len() - 1)
+    }
+
+    /// The target of the layers and its depth.
+    pub fn layers(&mut self, device: &wgpu::Device) -> &(wgpu::Texture, wgpu::TextureView, wgpu::TextureView) {
+        let size = self.size;
+        self.layers.get_or_insert_with(|| {
+            let (texture, view) = target(device, "layers", size, LAYERS_FORMAT);
+            (texture, view, target(device, "layers depth", size, DEPTH_FORMAT).1)
+        })
+    }
+}
+
+/// A texture that is drawn into, sampled and copied from.
+pub fn target(device: &wgpu::Device, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> (wgpu::Texture, wgpu::TextureView) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    (texture, view)
+}

@@ -1,0 +1,149 @@
+//! The types that Rust and WGSL share, `shaders/types.wgsl` being the other half. A test holds sizes and offsets equal.
+
+use bytemuck::{Pod, Zeroable};
+
+/// What the whole frame shares: camera, size, switches. Field by field as `Frame` in WGSL, where the meaning of each is written.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct Frame {
+    pub camera_from_rain: [[f32; 4]; 4],
+    pub rain_from_camera: [[f32; 4]; 4],
+    pub radial: [f32; 4],
+    pub side_a: [f32; 4],
+    pub side_b: [f32; 4],
+    pub projection: [f32; 4],
+    pub size: [f32; 4],
+    pub light: [f32; 4],
+    pub exposure: [f32; 4],
+    pub switches: [u32; 4],
+    pub sky_x: [f32; 4],
+    pub sky_y: [f32; 4],
+    pub sky_z: [f32; 4],
+    pub capacity: [u32; 4],
+}
+
+/// Bits of `Frame::switches[0]`, the `FLAG_*` of WGSL.
+pub mod flags {
+    /// Light changes its colour.
+    pub const DOPPLER: u32 = 1;
+    /// Light changes its strength.
+    pub const BEAMING: u32 = 2;
+    /// Stars are drawn.
+    pub const STARS: u32 = 4;
+    /// The Milky Way is drawn.
+    pub const MILKY_WAY: u32 = 8;
+    /// The camera is inside the horizon.
+    pub const INSIDE: u32 = 16;
+    /// The exposure stays as it is.
+    pub const HOLD_EXPOSURE: u32 = 32;
+}
+
+/// One object seen in one image order; `Placement` in WGSL.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct Placement {
+    pub offset: [f32; 4],
+    pub velocity: [f32; 4],
+    pub momentum: [f32; 4],
+    pub shape: [[f32; 4]; 3],
+    pub shape_rate: [[f32; 4]; 3],
+    pub turn: [[f32; 4]; 3],
+    pub light: [[f32; 4]; 3],
+    pub ids: [u32; 4],
+    pub vertices: [u32; 4],
+    pub triangles: [u32; 4],
+}
+
+/// `ModelVertex` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct ModelVertex {
+    pub position: [f32; 4],
+    pub normal: [f32; 4],
+    pub info: [u32; 4],
+}
+
+/// `ModelTriangle` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct ModelTriangle {
+    pub vertices: [u32; 4],
+    pub edges: [u32; 4],
+}
+
+/// `Chunk` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct Chunk {
+    pub placement: u32,
+    pub first: u32,
+}
+
+/// `SeenVertex` in WGSL, read back by tests.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct SeenVertex {
+    pub apparent: [f32; 4],
+    pub normal: [f32; 4],
+    pub leaving: [f32; 4],
+    pub surface: [f32; 4],
+}
+
+/// `Material` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct Material {
+    pub base: [f32; 4],
+    pub emissive: [f32; 4],
+    pub surface: [f32; 4],
+}
+
+/// `Star` in WGSL.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+pub struct Star {
+    pub direction: [f32; 4],
+    pub colour: [f32; 4],
+}
+
+/// `Counters` in WGSL: what the stages of geometry counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/geometry/bindings.wgsl")]
+pub struct Counters {
+    pub vertices: u32,
+    pub indices: u32,
+    pub work: u32,
+    pub thin: u32,
+    pub pieces: [u32; 2],
+    pub turn: u32,
+    pub coarse: u32,
+    pub cut: u32,
+    pub caught: u32,
+    pub unused: [u32; 2],
+}
+
+/// Bytes of `Piece` in WGSL.
+pub const PIECE_BYTES: u64 = 64;
+/// Bytes of `WorkItem` in WGSL.
+pub const WORK_BYTES: u64 = 112;
+/// Bytes of `ThinVertex` in WGSL.
+pub const THIN_BYTES: u64 = 32;
+/// Bytes of `Arguments` in WGSL, and where each part of it lies.
+pub const ARGUMENTS_BYTES: u64 = 80;
+/// Offset of the dispatch of the refine stage.
+pub const ARGUMENTS_REFINE: u64 = 0;
+/// Offset of the dispatch of the mesh stage.
+pub const ARGUMENTS_MESH: u64 = 16;
+/// Offset of the indexed draw of opaque triangles.
+pub const ARGUMENTS_OPAQUE: u64 = 32;
+/// Offset of the draw of thin triangles.
+pub const ARGUMENTS_THIN: u64 = 64;

@@ -1,0 +1,226 @@
+//! The fields of [`GameConfig`]: each said once, with type, default, allowed range, unit and a line of help. The macro makes of
+//! this the structs, their defaults and the table that the file reader and the dev overlay work from.
+
+use super::setting::{Allowed, Setting, Value};
+
+const fn number(min: f64, max: f64) -> Allowed {
+    Allowed::Number { min, max }
+}
+
+const fn integer(min: u32, max: u32) -> Allowed {
+    Allowed::Integer { min, max }
+}
+
+impl From<f64> for Value {
+    fn from(number: f64) -> Self {
+        Value::Number(number)
+    }
+}
+
+impl From<u32> for Value {
+    fn from(number: u32) -> Self {
+        Value::Integer(number)
+    }
+}
+
+impl From<bool> for Value {
+    fn from(on: bool) -> Self {
+        Value::Switch(on)
+    }
+}
+
+impl From<String> for Value {
+    fn from(word: String) -> Self {
+        Value::Word(word)
+    }
+}
+
+/// Takes a checked value into a field; one of another type cannot come here and changes nothing.
+trait Take {
+    fn take(&mut self, value: Value);
+}
+
+macro_rules! take {
+    ($type:ty, $variant:ident) => {
+        impl Take for $type {
+            fn take(&mut self, value: Value) {
+                if let Value::$variant(value) = value {
+                    *self = value;
+                }
+            }
+        }
+    };
+}
+take!(f64, Number);
+take!(u32, Integer);
+take!(bool, Switch);
+take!(String, Word);
+
+macro_rules! config {
+    ($($(#[$about:meta])* $section:ident: $struct:ident {
+        $($key:ident: $type:ty = $default:expr, $allowed:expr, $unit:literal, $help:literal;)*
+    })*) => {
+        /// Every tunable value of the game, by section of `game.toml`.
+        #[derive(Debug, Clone, PartialEq, Default)]
+        pub struct GameConfig {
+            $($(#[$about])* pub $section: $struct,)*
+        }
+
+        $(
+            $(#[$about])*
+            #[derive(Debug, Clone, PartialEq)]
+            pub struct $struct {
+                $(#[doc = concat!($help, " [", $unit, "]")] pub $key: $type,)*
+            }
+
+            impl Default for $struct {
+                fn default() -> Self {
+                    Self { $($key: $default.into(),)* }
+                }
+            }
+        )*
+
+        /// Every setting, in the order of the file.
+        pub fn settings() -> &'static [Setting] {
+            const SETTINGS: &[Setting] = &[$($(
+                Setting {
+                    section: stringify!($section),
+                    key: stringify!($key),
+                    unit: $unit,
+                    help: $help,
+                    allowed: $allowed,
+                    get: |config| config.$section.$key.clone().into(),
+                    set: |config, value| config.$section.$key.take(value),
+                },
+            )*)*];
+            SETTINGS
+        }
+    };
+}
+
+use Allowed::{Choice, Key, Switch};
+
+config! {
+    /// The hole.
+    hole: Hole {
+        mass_solar: f64 = 1e10, number(1.0, 1e12), "solar masses", "mass of the hole: what the HUD and the disk's temperature convert by";
+    }
+    /// How time runs.
+    clock: Clock {
+        pace: f64 = 1.5, number(0.01, 50.0), "r_s/c per second", "game time T that passes in a second before the screen";
+        step: f64 = 0.03125, number(0.0005, 0.5), "r_s/c", "fixed step of the simulation";
+        max_steps: u32 = 200u32, integer(1, 10000), "steps", "most steps in one frame; beyond it the game slows down";
+    }
+    /// The picture.
+    render: Render {
+        pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
+        orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
+        method: String = "table", Choice(&["table", "newton", "flat", "paper1"]), "", "how a vertex is projected";
+        tessellation_max_level: u32 = 6u32, integer(0, 8), "halvings", "finest subdivision of a triangle";
+        vertex_budget: u32 = 2_000_000u32, integer(10_000, 50_000_000), "vertices", "room for tessellated vertices in a frame";
+        min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner images are drawn this wide, with their coverage as alpha";
+        doppler: bool = true, Switch, "", "frequency shift of all light";
+        beaming: bool = true, Switch, "", "brightness change that goes with the shift";
+        lensing: bool = true, Switch, "", "bending of light; off draws flat space";
+        light_delay: bool = true, Switch, "", "moving things are seen at their emission time";
+        exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
+        exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
+        exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
+        exposure_key: f64 = 0.16, number(0.01, 1.0), "", "grey that the mean of the picture is brought to";
+        bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
+        ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
+    }
+    /// Stars and Milky Way.
+    sky: Sky {
+        star_brightness: f64 = 1.0, number(0.0, 1000.0), "", "factor on the flux of every star";
+        star_size: f64 = 1.1, number(0.5, 6.0), "pixels", "radius of a star's spot on the screen";
+        faintest_magnitude: f64 = 12.0, number(0.0, 16.0), "magnitudes", "fainter stars are left out";
+        milky_way_brightness: f64 = 1.0, number(0.0, 1000.0), "", "factor on the Milky Way";
+    }
+    /// The accretion disk.
+    disk: Disk {
+        representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
+        inner: f64 = 3.0, number(1.05, 50.0), "r_s", "inner edge; 3 is the last stable orbit";
+        outer: f64 = 12.0, number(2.0, 200.0), "r_s", "outer edge";
+        accretion_rate: f64 = 0.1, number(1e-6, 10.0), "Eddington rates", "matter falling in; sets the temperature";
+        efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
+        arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
+        sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";
+        polygons: u32 = 960u32, integer(24, 200_000), "triangles", "triangles in the polygon disk";
+        error_budget: f64 = 0.002, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
+        width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit";
+        gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
+        thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius";
+        opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
+        turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
+        seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
+    }
+    /// The player's ship.
+    ship: ShipConfig {
+        thrust: f64 = 0.06, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
+        fuel: f64 = 7.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
+        turn_rate: f64 = 1.2, number(0.05, 20.0), "rad per second", "fastest turn, by the second before the screen";
+        size: f64 = 0.25, number(0.001, 10.0), "r_s", "length of the ship";
+    }
+    /// The ship that is chased.
+    enemy: Enemy {
+        thrust: f64 = 0.035, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
+        fuel: f64 = 4.0, number(0.0, 1000.0), "c", "velocity change in the tanks";
+        replan_period: f64 = 2.5, number(0.05, 100.0), "r_s/c", "time between two plans";
+        horizon: f64 = 40.0, number(1.0, 500.0), "r_s/c", "how far a plan looks ahead";
+        reaction_delay: f64 = 1.0, number(0.0, 50.0), "r_s/c", "age of what it knows of the hunter";
+        size: f64 = 0.25, number(0.001, 10.0), "r_s", "length of the ship";
+    }
+    /// What ends the chase.
+    rules: RulesConfig {
+        capture_radius: f64 = 0.5, number(0.01, 100.0), "r_s", "a catch needs the target this close";
+        hold_time: f64 = 2.0, number(0.0, 1000.0), "r_s/c", "for this long without a break";
+        time_limit: f64 = 400.0, number(1.0, 1e9), "r_s/c", "the hunter loses after this time";
+        arena_radius: f64 = 20.0, number(5.0, 1e6), "r_s", "the quarry turns back before this radius";
+        start_distance: f64 = 8.0, number(0.5, 1000.0), "r_s", "distance between the ships when a chase is drawn by seed";
+    }
+    /// Flight assistance.
+    assist: Assist {
+        enabled: bool = true, Switch, "", "damps drift and turning; off is pure free flight";
+        damping_time: f64 = 3.0, number(0.1, 100.0), "r_s/c", "time in which unwanted drift fades";
+        avoid_hole: bool = true, Switch, "", "pushes away from orbits that end in the hole";
+        avoid_radius: f64 = 2.0, number(1.05, 50.0), "r_s", "closest approach the assistance allows";
+    }
+    /// Keys and mouse.
+    controls: Controls {
+        mouse_sensitivity: f64 = 0.002, number(0.0, 0.05), "rad per pixel", "turn for a movement of the mouse";
+        invert_y: bool = false, Switch, "", "mouse forward pitches down";
+        thrust_forward: String = "KeyW", Key, "", "accelerate";
+        thrust_back: String = "KeyS", Key, "", "brake";
+        thrust_left: String = "KeyA", Key, "", "accelerate to the left";
+        thrust_right: String = "KeyD", Key, "", "accelerate to the right";
+        thrust_up: String = "Space", Key, "", "accelerate upwards";
+        thrust_down: String = "ControlLeft", Key, "", "accelerate downwards";
+        boost: String = "ShiftLeft", Key, "", "full thrust while held";
+        pitch_up: String = "ArrowDown", Key, "", "nose up";
+        pitch_down: String = "ArrowUp", Key, "", "nose down";
+        yaw_left: String = "ArrowLeft", Key, "", "nose left";
+        yaw_right: String = "ArrowRight", Key, "", "nose right";
+        roll_left: String = "KeyQ", Key, "", "roll left";
+        roll_right: String = "KeyE", Key, "", "roll right";
+        toggle_assist: String = "KeyZ", Key, "", "flight assistance on or off";
+        toggle_autopilot: String = "KeyP", Key, "", "autopilot on or off";
+        toggle_camera: String = "KeyC", Key, "", "cockpit or third person";
+        toggle_hud: String = "KeyH", Key, "", "HUD on or off";
+        toggle_overlay: String = "F3", Key, "", "dev overlay on or off";
+        screenshot: String = "F12", Key, "", "write a picture";
+        slower: String = "Comma", Key, "", "halve the pace";
+        faster: String = "Period", Key, "", "double the pace";
+        pause: String = "Escape", Key, "", "pause and menu";
+        restart: String = "KeyR", Key, "", "start the chase again";
+    }
+    /// The window.
+    video: Video {
+        width: u32 = 1280u32, integer(160, 16384), "pixels", "width of the window at the start";
+        height: u32 = 720u32, integer(90, 16384), "pixels", "height of the window at the start";
+        fullscreen: bool = false, Switch, "", "fill the screen";
+        vsync: bool = true, Switch, "", "wait for the screen";
+        fov: f64 = 60.0, number(20.0, 150.0), "degrees", "horizontal field of view";
+        reduced_motion: bool = false, Switch, "", "no camera shake, no flashes";
+    }
+}

@@ -1,0 +1,72 @@
+//! What can be wrong with a file a person wrote, said so that the person can mend it.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// One wrong entry of a TOML file: `game.toml:12: render.orders: 7 is out of range, allowed 1 to 3`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Complaint {
+    /// The file, as the caller named it.
+    pub file: PathBuf,
+    /// The line, from 1; `None` where the file as a whole is meant (a missing section).
+    pub line: Option<usize>,
+    /// The dotted key, arrays by index from 0: `ship[1].position`. Empty where the text is no TOML at all.
+    pub key: String,
+    /// What is wrong, with the value and what is allowed.
+    pub problem: String,
+}
+
+impl fmt::Display for Complaint {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, " {}:", self.key)?;
+        }
+        write!(f, " {}", self.problem)
+    }
+}
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// Neither a scene of that name nor a file.
+    #[error("no scene {name:?}: {} does not exist; known scenes: {known}", tried.display())]
+    NotFound {
+        /// What was asked for.
+        name: String,
+        /// The file that was looked for.
+        tried: PathBuf,
+        /// The names that would have worked, separated by commas.
+        known: String,
+    },
+    /// The file exists and cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// An entry is wrong.
+    #[error("{0}")]
+    Invalid(Complaint),
+}
+
+/// Why `game.toml` could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The operating system's reason.
+        source: std::io::Error,
+    },
+    /// An entry is wrong.
+    #[error("{0}")]
+    Invalid(Complaint),
+}

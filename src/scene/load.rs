@@ -1,0 +1,202 @@
+//! Scene files: name or path to a checked [`Scene`].
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::camera::{Camera, CameraEntry, check_camera};
+use super::config::{self, GameConfig, RulesConfig};
+use super::document::{complain, parse, syntax};
+use super::error::{Complaint, SceneError};
+use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
+use super::prop::{Prop, PropEntry, check_props};
+use super::rules::{Rules, RulesEntry};
+use super::ship::{Fault, ShipEntry, ShipSpec, check_ships};
+
+/// Everything a scene file says.
+#[derive(Debug, Clone)]
+pub struct Scene {
+    /// The file's name without its ending.
+    pub name: String,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// The ships, in the order of the file.
+    pub ships: Vec<ShipSpec>,
+    /// The things held in place.
+    pub props: Vec<Prop>,
+    /// The planet, if there is one.
+    pub planet: Option<Planet>,
+    /// What shines at infinity.
+    pub sky: SkySwitches,
+    /// `[disk]`: present if the scene has a disk. Its keys are those of `[disk]` in `game.toml` and go before them.
+    disk: Option<DiskKeys>,
+    rules: RulesEntry,
+}
+
+/// The text of a `[disk]` section, checked once, applied to a configuration that may change while the game runs.
+#[derive(Debug, Clone, PartialEq)]
+struct DiskKeys(Vec<(String, config::Value)>);
+
+/// A scene file as it stands, before any check.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SceneFile {
+    camera: Option<Spanned<CameraEntry>>,
+    #[serde(default)]
+    ship: Vec<Spanned<ShipEntry>>,
+    #[serde(default)]
+    prop: Vec<Spanned<PropEntry>>,
+    disk: Option<toml::Table>,
+    planet: Option<PlanetEntry>,
+    #[serde(default)]
+    sky: SkyEntry,
+    #[serde(default)]
+    rules: RulesEntry,
+}
+
+impl Scene {
+    /// The disk of this scene: the scene's own keys over those of `game.toml`; `None` for a scene without a disk.
+    pub fn disk(&self, config: &GameConfig) -> Option<config::Disk> {
+        let keys = self.disk.as_ref()?;
+        let mut config = config.clone();
+        for (path, value) in &keys.0 {
+            if let Some(setting) = config::setting(path) {
+                // Checked when the scene was loaded.
+                let _ = setting.set(&mut config, value.clone());
+            }
+        }
+        Some(config.disk)
+    }
+
+    /// The rules of this scene: the scene's own keys over those of `game.toml`.
+    pub fn rules(&self, config: &GameConfig) -> Rules {
+        let base = Rules::from(&config.rules);
+        // Checked when the scene was loaded.
+        self.rules.check(base).unwrap_or(base)
+    }
+
+    /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.
+    pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaint> {
+        let entry: SceneFile = parse(file, text)?;
+        let scene = check(&entry).map_err(|fault| complain(file, text, fault))?;
+        let name = file
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        let disk = entry
+            .disk
+            .is_some()
+            .then(|| disk_keys(file, text))
+            .transpose()?;
+        Ok(Scene {
+            name,
+            disk,
+            ..scene
+        })
+    }
+}
+
+impl From<&RulesConfig> for Rules {
+    fn from(config: &RulesConfig) -> Self {
+        Rules {
+            capture_radius: config.capture_radius,
+            hold_time: config.hold_time,
+            time_limit: config.time_limit,
+            arena_radius: config.arena_radius,
+        }
+    }
+}
+
+fn check(entry: &SceneFile) -> Result<Scene, Fault> {
+    let ships = check_ships(&entry.ship)?;
+    entry.rules.check(Rules::default())?;
+    Ok(Scene {
+        name: String::new(),
+        camera: entry
+            .camera
+            .as_ref()
+            .map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships))?,
+        props: check_props(&entry.prop)?,
+        planet: entry.planet.as_ref().map(check_planet).transpose()?,
+        sky: check_sky(&entry.sky)?,
+        disk: None,
+        rules: entry.rules.clone(),
+        ships,
+    })
+}
+
+/// The keys of `[disk]`, checked by the table of `game.toml`.
+fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
+    let document = DeTable::parse(text).map_err(|error| syntax(file, text, &error))?;
+    let Some(DeValue::Table(table)) = document.get_ref().get("disk").map(Spanned::get_ref) else {
+        return Ok(DiskKeys(Vec::new()));
+    };
+    let mut checked = GameConfig::default();
+    config::apply_table(&mut checked, "disk", table)
+        .map_err(|fault| complain(file, text, fault))?;
+    let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
+    Ok(DiskKeys(
+        config::settings()
+            .iter()
+            .filter(|setting| setting.section == "disk" && given(setting.key))
+            .map(|setting| (setting.path(), setting.get(&checked)))
+            .collect(),
+    ))
+}
+
+/// Loads a scene by name (`chase`: from `assets/scenes/`) or by path (anything that ends in `.toml` or holds a separator).
+pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
+    let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
+    let path = if by_path {
+        PathBuf::from(name_or_path)
+    } else {
+        scenes_folder().join(format!("{name_or_path}.toml"))
+    };
+    if !path.is_file() {
+        return Err(SceneError::NotFound {
+            name: name_or_path.into(),
+            tried: path,
+            known: names().join(", "),
+        });
+    }
+    let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read {
+        path: path.clone(),
+        source,
+    })?;
+    Scene::from_toml(&path, &text).map_err(SceneError::Invalid)
+}
+
+/// The names of the scenes in `assets/scenes/`, sorted.
+pub fn names() -> Vec<String> {
+    let files = std::fs::read_dir(scenes_folder())
+        .into_iter()
+        .flatten()
+        .flatten();
+    let mut names: Vec<String> = files
+        .map(|entry| entry.path())
+        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
+        .filter_map(|path| {
+            path.file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned())
+        })
+        .collect();
+    names.sort();
+    names
+}
+
+fn scenes_folder() -> PathBuf {
+    assets_folder().join("scenes")
+}
+
+/// The folder `assets/`: in the current folder, beside or above the program, or where the program was built.
+pub fn assets_folder() -> PathBuf {
+    let program = std::env::current_exe().unwrap_or_default();
+    std::iter::once(PathBuf::from("."))
+        .chain(program.ancestors().skip(1).map(Path::to_path_buf))
+        .chain(std::iter::once(PathBuf::from(env!("CARGO_MANIFEST_DIR"))))
+        .map(|folder| folder.join("assets"))
+        .find(|folder| folder.join("scenes").is_dir())
+        .unwrap_or_else(|| PathBuf::from("assets"))
+}

@@ -1,0 +1,127 @@
+//! `[planet]` and `[sky]` in a scene file.
+//!
+//! ```toml
+//! [planet]
+//! orbit_radius = 25.0    # r_s: a circular geodesic
+//! inclination = 0.2      # radians, of the orbit against z = 0
+//! node = 0.0             # radians, azimuth of the ascending node
+//! phase = 0.0            # radians from the node to the planet at T = 0
+//! radius = 0.8           # r_s
+//! day = 40.0             # r_s/c: one turn about its axis
+//! axis_tilt = 0.3        # radians between axis and z
+//! dipole_tilt = 0.2      # radians between magnetic and rotation axis
+//! seed = 1               # which clouds and continents
+//!
+//! [sky]
+//! stars = true
+//! milky_way = true
+//! brightness = 1.0       # factor on both
+//! ```
+
+use std::f64::consts::PI;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::ship::{Fault, in_range};
+use crate::spacetime::orbit::Elements;
+
+/// A planet on a circular orbit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Planet {
+    /// Its orbit.
+    pub orbit: Elements,
+    /// In r_s.
+    pub radius: f64,
+    /// One turn about its axis, in r_s/c.
+    pub day: f64,
+    /// Between the rotation axis and z, in radians.
+    pub axis_tilt: f64,
+    /// Between the magnetic and the rotation axis, in radians.
+    pub dipole_tilt: f64,
+    /// Which clouds and continents.
+    pub seed: u32,
+}
+
+/// `[planet]` as the file has it, before any check.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlanetEntry {
+    orbit_radius: Spanned<f64>,
+    inclination: Option<Spanned<f64>>,
+    node: Option<Spanned<f64>>,
+    phase: Option<Spanned<f64>>,
+    radius: Spanned<f64>,
+    day: Option<Spanned<f64>>,
+    axis_tilt: Option<Spanned<f64>>,
+    dipole_tilt: Option<Spanned<f64>>,
+    #[serde(default)]
+    seed: u32,
+}
+
+/// Checks the planet against its ranges.
+pub fn check_planet(entry: &PlanetEntry) -> Result<Planet, Fault> {
+    let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
+        value
+            .as_ref()
+            .map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
+    };
+    let orbit_radius = in_range(&entry.orbit_radius, "orbit_radius", 3.0..=1e4, "r_s")?;
+    Ok(Planet {
+        orbit: Elements {
+            inclination: or(&entry.inclination, "inclination", 0.0, PI, "rad", 0.0)?,
+            node: or(&entry.node, "node", -1e6, 1e6, "rad", 0.0)?,
+            ..Elements::circle(
+                orbit_radius,
+                or(&entry.phase, "phase", -1e6, 1e6, "rad", 0.0)?,
+            )
+        },
+        radius: in_range(&entry.radius, "radius", 1e-3..=0.5 * orbit_radius, "r_s")?,
+        day: or(&entry.day, "day", 0.1, 1e9, "r_s/c", 40.0)?,
+        axis_tilt: or(&entry.axis_tilt, "axis_tilt", 0.0, PI, "rad", 0.0)?,
+        dipole_tilt: or(&entry.dipole_tilt, "dipole_tilt", 0.0, PI, "rad", 0.0)?,
+        seed: entry.seed,
+    })
+}
+
+/// What shines at infinity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SkySwitches {
+    /// The stars of the catalogue.
+    pub stars: bool,
+    /// The Milky Way.
+    pub milky_way: bool,
+    /// A factor on both.
+    pub brightness: f64,
+}
+
+impl Default for SkySwitches {
+    fn default() -> Self {
+        SkySwitches {
+            stars: true,
+            milky_way: true,
+            brightness: 1.0,
+        }
+    }
+}
+
+/// `[sky]` as the file has it, before any check.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SkyEntry {
+    stars: Option<bool>,
+    milky_way: Option<bool>,
+    brightness: Option<Spanned<f64>>,
+}
+
+/// Checks the sky against its ranges.
+pub fn check_sky(entry: &SkyEntry) -> Result<SkySwitches, Fault> {
+    let brightness = entry.brightness.as_ref().map_or(Ok(1.0), |value| {
+        in_range(value, "brightness", 0.0..=1e4, "")
+    })?;
+    Ok(SkySwitches {
+        stars: entry.stars.unwrap_or(true),
+        milky_way: entry.milky_way.unwrap_or(true),
+        brightness,
+    })
+}

@@ -1,0 +1,292 @@
+//! `[[prop]]` in a scene file: things held in place, at rest in Schwarzschild's coordinates (x fixed while T runs).
+//!
+//! ```toml
+//! [[prop]]
+//! name = "target"
+//! model = "sphere"               # "sphere", "icosphere", "square", "lattice" or a .glb file under assets/models/
+//! position = [0.0, 0.0, -12.0]   # r_s; outside r = 1, where alone a thing can be held
+//! attitude = [1.0, 0.0, 0.0, 0.0] # w, x, y, z: model axes to coordinate axes
+//! size = 4.0                     # r_s: diameter of a sphere, edge of a square, length of the model's unit
+//! triangles = 1200               # of the whole sphere or square; of one sphere of a lattice
+//! anchor = "centre"              # "square" only: "centre", or the point of the grid at position: "inside" a triangle, "edge", "vertex"
+//! texture = "checker"            # or "galaxy"; none if absent
+//! colour = [0.8, 0.8, 0.8]       # linear, multiplied by the texture
+//! emissive = [0.0, 0.0, 0.0]     # light given off (times the texture)
+//! temperature = 0.0              # K: glows as a black body; 0 does not
+//! count = [14, 14, 14]           # "lattice" only: spheres along x, y, z, centred on position
+//! spacing = 2.0                  # "lattice" only: r_s between neighbours
+//! clearance = 1.2                # "lattice" only: spheres that come nearer to the hole than this are left out, r_s
+//! ```
+
+use glam::{DQuat, DVec3};
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::model::{Material, Model};
+use super::shapes::{self, Anchor};
+use super::ship::{Fault, fault, in_range};
+use super::texture;
+
+/// The most spheres in one lattice.
+pub const MAX_LATTICE: u64 = 200_000;
+
+/// Something held in place.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prop {
+    /// Its name; `prop 3` if the file has none (counted from 0).
+    pub name: String,
+    /// What it looks like.
+    pub shape: Shape,
+    /// Where, in r_s; each entry is one copy (one for all but a lattice).
+    pub positions: Vec<DVec3>,
+    /// Model axes to coordinate axes.
+    pub attitude: DQuat,
+    /// Length of the model's unit, in r_s.
+    pub size: f64,
+    /// Surface of a procedural shape.
+    pub material: Material,
+}
+
+/// What a prop looks like.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// A sphere of meridians and parallels, of about so many triangles.
+    Sphere(u32),
+    /// A subdivided icosahedron, of at least so many triangles.
+    Icosphere(u32),
+    /// A square grid.
+    Square(u32, Anchor),
+    /// A glTF file, relative to `assets/models/` unless it exists as given.
+    File(String),
+}
+
+impl Prop {
+    /// The model of a procedural shape, `None` for a file.
+    pub fn model(&self) -> Option<Model> {
+        match self.shape {
+            Shape::Sphere(triangles) => Some(shapes::uv_sphere(triangles, self.material.clone())),
+            Shape::Icosphere(triangles) => {
+                Some(shapes::icosphere(triangles, self.material.clone()))
+            }
+            Shape::Square(triangles, anchor) => {
+                Some(shapes::square(triangles, anchor, self.material.clone()))
+            }
+            Shape::File(_) => None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum TextureName {
+    Checker,
+    Galaxy,
+}
+
+/// `[[prop]]` as the file has it, before any check.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PropEntry {
+    name: Option<String>,
+    model: Spanned<String>,
+    position: Option<Spanned<[f64; 3]>>,
+    attitude: Option<Spanned<[f64; 4]>>,
+    size: Option<Spanned<f64>>,
+    triangles: Option<Spanned<u32>>,
+    anchor: Option<Spanned<Anchor>>,
+    texture: Option<TextureName>,
+    colour: Option<Spanned<[f64; 3]>>,
+    emissive: Option<Spanned<[f64; 3]>>,
+    temperature: Option<Spanned<f64>>,
+    count: Option<Spanned<[u32; 3]>>,
+    spacing: Option<Spanned<f64>>,
+    clearance: Option<Spanned<f64>>,
+}
+
+/// Checks all props of a scene.
+pub fn check_props(entries: &[Spanned<PropEntry>]) -> Result<Vec<Prop>, Fault> {
+    entries
+        .iter()
+        .enumerate()
+        .map(|(index, entry)| check_prop(index, entry.get_ref()))
+        .collect()
+}
+
+fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
+    let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
+        value
+            .as_ref()
+            .map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
+    };
+    let triangles = match &entry.triangles {
+        Some(place) if !(2..=1_000_000).contains(place.get_ref()) => {
+            return fault(
+                place,
+                format!("triangles = {} must be from 2 to 1000000", place.get_ref()),
+            );
+        }
+        Some(place) => Some(*place.get_ref()),
+        None => None,
+    };
+    let model = entry.model.get_ref().as_str();
+    let shape = match model {
+        "sphere" => Shape::Sphere(triangles.unwrap_or(480)),
+        "icosphere" => Shape::Icosphere(triangles.unwrap_or(320)),
+        "lattice" => Shape::Icosphere(triangles.unwrap_or(20)),
+        "square" => Shape::Square(
+            triangles.unwrap_or(200),
+            entry
+                .anchor
+                .as_ref()
+                .map(|place| *place.get_ref())
+                .unwrap_or_default(),
+        ),
+        file if file.ends_with(".glb") || file.ends_with(".gltf") => Shape::File(file.to_owned()),
+        _ => {
+            return fault(
+                &entry.model,
+                format!(
+                    "model = {model:?} must be \"sphere\", \"icosphere\", \"square\", \"lattice\" or a .glb file"
+                ),
+            );
+        }
+    };
+    if let (Some(place), false) = (&entry.anchor, model == "square") {
+        return fault(place, "anchor goes with model = \"square\" only".into());
+    }
+    let size = or(&entry.size, "size", 1e-4, 1e4, "r_s", 1.0)?;
+    let attitude = match &entry.attitude {
+        None => DQuat::IDENTITY,
+        Some(place) => {
+            let [w, x, y, z] = *place.get_ref();
+            let attitude = DQuat::from_xyzw(x, y, z, w);
+            if !(1e-6..1e6).contains(&attitude.length()) {
+                return fault(
+                    place,
+                    "attitude must be a quaternion [w, x, y, z] of finite length, not zero".into(),
+                );
+            }
+            attitude.normalize()
+        }
+    };
+    let material = Material {
+        base_colour: {
+            let [r, g, b] = colour(&entry.colour, "colour", 1.0, [0.8; 3])?;
+            [r, g, b, 1.0]
+        },
+        emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
+        temperature: or(&entry.temperature, "temperature", 0.0, 1e9, "K", 0.0)? as f32,
+        texture: entry.texture.map(|name| match name {
+            TextureName::Checker => texture::checker(),
+            TextureName::Galaxy => texture::galaxy(),
+        }),
+        ..Material::default()
+    };
+    Ok(Prop {
+        name: entry
+            .name
+            .clone()
+            .unwrap_or_else(|| format!("prop {index}")),
+        shape,
+        positions: positions(entry, size)?,
+        attitude,
+        size,
+        material,
+    })
+}
+
+fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
+    let centre = DVec3::from_array(
+        entry
+            .position
+            .as_ref()
+            .map_or([0.0; 3], |place| *place.get_ref()),
+    );
+    let lattice = entry.model.get_ref() == "lattice";
+    let radius = centre.length();
+    let nearest = if lattice { 0.0 } else { 1.001 };
+    if !(nearest..=1e4).contains(&radius) {
+        let message = format!(
+            "position is {radius} r_s from the hole, allowed {nearest} to 10000 r_s: inside r = 1 nothing can be held"
+        );
+        return match &entry.position {
+            Some(place) => fault(place, message),
+            None => fault(&entry.model, message),
+        };
+    }
+    if !lattice {
+        let count = entry.count.as_ref().map(Spanned::span);
+        let misplaced = [
+            count,
+            entry.spacing.as_ref().map(Spanned::span),
+            entry.clearance.as_ref().map(Spanned::span),
+        ];
+        return match misplaced.into_iter().flatten().next() {
+            Some(span) => Err(Fault {
+                span,
+                message: "count, spacing and clearance go with model = \"lattice\" only".into(),
+            }),
+            None => Ok(vec![centre]),
+        };
+    }
+    let Some(place) = &entry.count else {
+        return fault(&entry.model, "a lattice needs count = [nx, ny, nz]".into());
+    };
+    let count = *place.get_ref();
+    let total: u64 = count
+        .iter()
+        .map(|&n| u64::from(n).min(MAX_LATTICE + 1))
+        .fold(1, u64::saturating_mul);
+    if !(1..=MAX_LATTICE).contains(&total) {
+        return fault(
+            place,
+            format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"),
+        );
+    }
+    let spacing = entry.spacing.as_ref().map_or(Ok(2.0), |place| {
+        in_range(place, "spacing", 1e-3..=1e3, "r_s")
+    })?;
+    let clearance = entry.clearance.as_ref().map_or(Ok(1.2), |place| {
+        in_range(place, "clearance", 1.0..=1e4, "r_s")
+    })?;
+    let along =
+        |index: u32, axis: usize| (f64::from(index) - 0.5 * f64::from(count[axis] - 1)) * spacing;
+    let mut positions = Vec::with_capacity(total as usize);
+    for x in 0..count[0] {
+        for y in 0..count[1] {
+            for z in 0..count[2] {
+                let position = centre + DVec3::new(along(x, 0), along(y, 1), along(z, 2));
+                if position.length() - 0.5 * size >= clearance {
+                    positions.push(position);
+                }
+            }
+        }
+    }
+    Ok(positions)
+}
+
+fn colour(
+    value: &Option<Spanned<[f64; 3]>>,
+    key: &str,
+    most: f64,
+    default: [f32; 3],
+) -> Result<[f32; 3], Fault> {
+    match value {
+        None => Ok(default),
+        Some(place)
+            if place
+                .get_ref()
+                .iter()
+                .all(|channel| (0.0..=most).contains(channel)) =>
+        {
+            Ok(place.get_ref().map(|channel| channel as f32))
+        }
+        Some(place) => fault(
+            place,
+            format!(
+                "{key} = {:?} must be three numbers from 0 to {most}",
+                place.get_ref()
+            ),
+        ),
+    }
+}

@@ -1,0 +1,204 @@
+//! Sampling model-predictive control: try many burns, fly each a while ahead, keep the best.
+//!
+//! Laws that steer along the line of sight fly into the hole, because the line of sight crosses it. Here the hole is part of every
+//! flight that is judged.
+
+use glam::DVec3;
+use rand::{RngExt, rngs::StdRng};
+
+use super::rollout::{Point, Span, advance, track};
+
+/// A ship that comes under this radius (r_s) in a plan is judged as nearly lost: twice the horizon, above the photon sphere.
+pub const SAFE_RADIUS: f64 = 2.0;
+
+/// What a pilot wants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aim {
+    /// To be where the target is, soon.
+    Catch,
+    /// To stay away from it.
+    Escape,
+}
+
+impl Burn {
+    /// The proper acceleration (rest-frame axes) at `at`, in the middle of a step of `h` that begins `time` after the burn did.
+    pub fn acceleration(&self, at: &Point, time: f64, h: f64) -> DVec3 {
+        if time + 0.5 * h < self.duration { at.from_local(self.thrust) } else { DVec3::ZERO }
+    }
+}
+
+/// A burn: constant thrust on local axes, then coasting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burn {
+    /// Proper acceleration on local axes (outward, along the motion around the hole, along the orbit's axis), c²/r_s.
+    pub thrust: DVec3,
+    /// For this long, in r_s/c.
+    pub duration: f64,
+}
+
+impl Burn {
+    /// No thrust at all.
+    pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
+}
+
+/// What an orbit that falls in costs, in r_s of distance per unit of E² over the barrier.
+const FALL: f64 = 20.0;
+/// The fuel, in c, with which a pilot stops risking such orbits.
+pub const RESERVE: f64 = 1.0;
+/// What leaving the arena costs, in r_s of distance per unit of energy.
+const UNBOUND: f64 = 200.0;
+
+impl Task {
+    /// The energy of the circular orbit at half the arena's radius. Less than this, and the apoapsis lies in the arena.
+    fn arena_energy(&self) -> f64 {
+        let r = 0.5 * self.arena_radius;
+        (1.0 - 1.0 / r) / (1.0 - 1.5 / r).sqrt()
+    }
+}
+
+/// What a plan is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct Task {
+    /// What for.
+    pub aim: Aim,
+    /// The ship now.
+    pub own: Point,
+    /// The other ship now, as far as the pilot knows.
+    pub other: Point,
+    /// What the other is thought to burn next, from what it was seen to do.
+    pub other_burn: Burn,
+    /// The most proper acceleration, c²/r_s.
+    pub max_thrust: f64,
+    /// Δv left, in c.
+    pub fuel: f64,
+    /// The other's engine as the pilot reckons it, c²/r_s: one who flees expects to be followed with it.
+    pub other_thrust: f64,
+    /// How far ahead, in r_s/c.
+    pub horizon: f64,
+    /// Keep within this radius, in r_s.
+    pub arena_radius: f64,
+}
+
+/// T per planning step, in r_s/c.
+const STEP: f64 = 1.0;
+/// How long a burn may be, in r_s/c.
+const DURATIONS: [f64; 3] = [4.0, 12.0, 30.0];
+/// Directions drawn by chance for each plan, besides the six axes.
+const DIRECTIONS: usize = 18;
+/// Variations of the best burn tried at the end.
+const REFINEMENTS: usize = 24;
+
+/// The best burn found, and its cost.
+pub fn plan(task: &Task, previous: &Burn, chance: &mut StdRng) -> (Burn, f64) {
+    let span = Span { step: STEP, count: (task.horizon / STEP) as usize };
+    let other = track(task.other, &task.other_burn, span);
+    let mut best = (Burn::COAST, f64::INFINITY);
+    let mut consider = |burn: Burn| {
+        let endurance = if burn.thrust == DVec3::ZERO { 0.0 } else { task.fuel / burn.thrust.length() };
+        let burn = Burn { duration: burn.duration.min(endurance), ..burn };
+        let cost = cost(task, &burn, &other, span);
+        if cost < best.1 {
+            best = (burn, cost);
+        }
+        best
+    };
+    consider(Burn::COAST);
+    consider(*previous);
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+    let directions: Vec<DVec3> = axes.chain((0..DIRECTIONS).map(|_| unit_vector(chance))).collect();
+    for direction in directions {
+        for duration in DURATIONS {
+            consider(Burn { thrust: direction * task.max_thrust, duration });
+        }
+    }
+    let mut found = consider(Burn::COAST);
+    for _ in 0..REFINEMENTS {
+        let base = found.0;
+        let thrust = (base.thrust + unit_vector(chance) * (0.4 * task.max_thrust)).clamp_length_max(task.max_thrust);
+        let duration = (base.duration * chance.random_range(0.6..1.5)).max(STEP);
+        found = consider(Burn { thrust, duration });
+    }
+    found
+}
+
+/// The smaller the better; distances in r_s, times in r_s/c.
+fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
+    let mut own = task.own;
+    let mut hunter = task.other;
+    let mut nearest = f64::INFINITY;
+    let mut mean = 0.0;
+    let mut penalty = 0.0;
+    let mut lowest = f64::INFINITY;
+    let mut end = 0.0;
+    for (index, seen) in other.iter().enumerate() {
+        let time = index as f64 * span.step;
+        if index > 0 {
+            own = advance(&own, span.step, |at| burn.acceleration(at, time - span.step, span.step));
+            if task.aim == Aim::Escape {
+                hunter = follow(&hunter, &own, task.other_thrust, span.step);
+            }
+        }
+        let target = if task.aim == Aim::Escape { &hunter } else { seen };
+        let distance = own.x.distance(target.x);
+        let r = own.x.length();
+        lowest = lowest.min(r);
+        penalty += (r - task.arena_radius).max(0.0);
+        mean += distance.min(12.0);
+        end = distance;
+        let weighted = match task.aim {
+            // Later is worse; a fast fly-by cannot be held, so the speed at the meeting counts.
+            Aim::Catch => distance + 0.03 * time + 2.0 * (own.velocity() - target.velocity()).length() / (1.0 + distance),
+            Aim::Escape => distance,
+        };
+        nearest = nearest.min(weighted);
+    }
+    mean /= other.len() as f64;
+    let spent = burn.thrust.length() * burn.duration.min(task.horizon);
+    let danger = if lowest < SAFE_RADIUS { 1000.0 + 100.0 * (SAFE_RADIUS - lowest) } else { 0.0 };
+    // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
+    let unbound = if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
+    danger
+        + unbound
+        + fall_risk(&own, task.fuel - spent)
+        + match task.aim {
+            Aim::Catch => nearest + 0.15 * end + 0.1 * spent + penalty,
+            Aim::Escape => -nearest - 0.3 * mean - 0.3 * end.min(12.0) + 0.05 * spent + penalty,
+        }
+}
+
+/// What it costs to be on an orbit that leads down to [`SAFE_RADIUS`]: some while there is fuel to leave it, nearly all when there is not.
+pub fn fall_risk(own: &Point, fuel_left: f64) -> f64 {
+    let energy = own.energy();
+    let barrier = (1.0 - 1.0 / SAFE_RADIUS) * (1.0 + own.x.cross(own.p).length_squared() / (SAFE_RADIUS * SAFE_RADIUS));
+    let leaves = energy >= 1.0 && own.x.dot(own.velocity()) > 0.0;
+    let lacking = energy * energy - barrier;
+    if leaves || lacking < 0.0 {
+        0.0
+    } else {
+        lacking * FALL + if fuel_left < RESERVE { 500.0 } else { 0.0 }
+    }
+}
+
+/// How one who flees reckons the hunter: it thrusts towards the prey and brakes its sideways drift, but not into the hole.
+fn follow(hunter: &Point, prey: &Point, thrust: f64, h: f64) -> Point {
+    advance(hunter, h, |at| {
+        let gap = prey.x - at.x;
+        let drift = prey.velocity() - at.velocity();
+        let wish = gap * 0.05 + drift * 0.5;
+        let outward = at.x / at.x.length();
+        let wish = if at.x.length_squared() < 9.0 { wish - outward * wish.dot(outward).min(0.0) } else { wish };
+        wish.clamp_length_max(thrust)
+    })
+}
+
+/// A direction drawn evenly from the sphere: a point of the ball, by rejection from the cube (no trigonometry).
+fn unit_vector(chance: &mut StdRng) -> DVec3 {
+    loop {
+        let mut draw = || chance.random_range(-1.0..1.0);
+        let v = DVec3::new(draw(), draw(), draw());
+        let length_squared = v.length_squared();
+        if length_squared > 1e-4 && length_squared <= 1.0 {
+            return v / length_squared.sqrt();
+        }
+    }
+}
