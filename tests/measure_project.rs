@@ -5,11 +5,7 @@ use lensrunner::spacetime::light::{Branch, Order};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-const PRIMARY: Request = Request {
-    order: Order::ALL[0],
-    frame: Frame::Static,
-    branch: Branch::Plus,
-};
+const PRIMARY: Request = Request { order: Order::ALL[0], frame: Frame::Static, branch: Branch::Plus };
 
 /// The answer's rows, split into fields.
 fn rows(input: &str, request: Request) -> Vec<Vec<String>> {
@@ -17,16 +13,12 @@ fn rows(input: &str, request: Request) -> Vec<Vec<String>> {
     let output = project(input, exact.as_ref(), request).expect("good input");
     let mut lines = output.lines();
     assert_eq!(lines.next(), Some("r,phi,L,psi,delay,redshift"));
-    lines
-        .map(|line| line.split(',').map(str::to_owned).collect())
-        .collect()
+    lines.map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
 
 fn complaint(input: &str) -> String {
     let exact = method("exact").expect("it exists");
-    project(input, exact.as_ref(), PRIMARY)
-        .expect_err("wrong input")
-        .to_string()
+    project(input, exact.as_ref(), PRIMARY).expect_err("wrong input").to_string()
 }
 
 #[test]
@@ -48,55 +40,20 @@ fn order_of_rows_and_spelling_of_fields_are_kept() {
 
 #[test]
 fn fields_that_do_not_exist_are_empty() {
-    let at =
-        |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();
-    let rain = Request {
-        frame: Frame::Rain,
-        ..PRIMARY
-    };
-    let filled = |fields: &[String]| {
-        fields
-            .iter()
-            .map(|field| !field.is_empty())
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(
-        filled(&at("0.5,1,5", PRIMARY)),
-        [false, false, false],
-        "inside from outside"
-    );
-    assert_eq!(
-        filled(&at("0.3,1,0.5", rain)),
-        [false, false, false],
-        "deeper than the camera"
-    );
-    assert_eq!(
-        filled(&at("5,1,0.5", PRIMARY)),
-        [false, true, false],
-        "no static camera inside"
-    );
-    assert_eq!(
-        filled(&at("5,1,0.5", rain)),
-        [true, true, false],
-        "no static redshift inside"
-    );
-    assert_eq!(
-        filled(&at("5,1,1", PRIMARY)),
-        [false, true, false],
-        "on the horizon"
-    );
+    let at = |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();
+    let rain = Request { frame: Frame::Rain, ..PRIMARY };
+    let filled = |fields: &[String]| fields.iter().map(|field| !field.is_empty()).collect::<Vec<_>>();
+    assert_eq!(filled(&at("0.5,1,5", PRIMARY)), [false, false, false], "inside from outside");
+    assert_eq!(filled(&at("0.3,1,0.5", rain)), [false, false, false], "deeper than the camera");
+    assert_eq!(filled(&at("5,1,0.5", PRIMARY)), [false, true, false], "no static camera inside");
+    assert_eq!(filled(&at("5,1,0.5", rain)), [true, true, false], "no static redshift inside");
+    assert_eq!(filled(&at("5,1,1", PRIMARY)), [false, true, false], "on the horizon");
     assert_eq!(filled(&at("5,1,2", rain)), [true, true, true]);
     // Inside, only the first order; the branch matters only with both ends inside.
-    let minus = Request {
-        branch: Branch::Minus,
-        ..rain
-    };
+    let minus = Request { branch: Branch::Minus, ..rain };
     assert_eq!(at("5,1,0.5", minus), at("5,1,0.5", rain));
     assert_ne!(at("0.8,0.2,0.5", minus), at("0.8,0.2,0.5", rain));
-    let second = Request {
-        order: Order::ALL[1],
-        ..rain
-    };
+    let second = Request { order: Order::ALL[1], ..rain };
     assert_eq!(filled(&at("0.8,0.2,0.5", second)), [false, false, false]);
 }
 
@@ -130,18 +87,9 @@ fn wrong_input_names_its_line() {
         ("", "3 fields"),
     ] {
         let message = complaint(&format!("r,phi,L\n20,1,10\n{row}\n20,1,10\n"));
-        assert!(
-            message.contains("line 3") && message.contains(what),
-            "{row:?}: {message}"
-        );
+        assert!(message.contains("line 3") && message.contains(what), "{row:?}: {message}");
     }
-    assert!(
-        method("exakt")
-            .err()
-            .expect("unknown")
-            .to_string()
-            .contains("exact")
-    );
+    assert!(method("exakt").err().expect("unknown").to_string().contains("exact"));
 }
 
 #[test]
@@ -172,12 +120,7 @@ fn command_line(arguments: &[&str], input: &[u8]) -> Output {
 #[test]
 fn the_command_line_answers_and_refuses() {
     let good = command_line(&["--frame", "rain", "--order", "2"], b"r,phi,L\n20,1,10\n");
-    assert!(
-        good.status.success()
-            && good
-                .stdout
-                .starts_with(b"r,phi,L,psi,delay,redshift\n20,1,10,")
-    );
+    assert!(good.status.success() && good.stdout.starts_with(b"r,phi,L,psi,delay,redshift\n20,1,10,"));
     for (arguments, input) in [
         (&[][..], &b"r,phi,L\n20,1,10\n20,y,10\n"[..]),
         (&[], b"r,phi,L\n20,1,10\n20,\xff,10\n"),

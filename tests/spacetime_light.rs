@@ -1,8 +1,8 @@
 //! The exact joining of points by light, judged by a plain numerical integration of the orbit, by tabulated values and by laws.
 
 use lensrunner::spacetime::light::{
-    Branch, Connection, Fate, Order, connect, follow, join, join_near, launch, rain_angle,
-    rain_momentum, shadow_angle, sky_angle, sky_slope, static_angle, static_redshift, swept_to_sky,
+    Branch, Connection, Fate, Order, connect, follow, join, join_near, launch, rain_angle, rain_momentum, shadow_angle, sky_angle,
+    sky_slope, static_angle, static_redshift, swept_to_sky,
 };
 use proptest::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -16,11 +16,7 @@ type State = [f64; 5];
 fn rate(y: &State, e: f64, rising: bool) -> State {
     let [u, w, v, v_slope, _] = *y;
     let beta = u.sqrt();
-    let time = if rising {
-        (e + beta * w) / (u * u * (1.0 - u))
-    } else {
-        (beta * u * u - e * w) / (u * u * (beta * e - w))
-    };
+    let time = if rising { (e + beta * w) / (u * u * (1.0 - u)) } else { (beta * u * u - e * w) / (u * u * (beta * e - w)) };
     [w, -u + 1.5 * u * u, v_slope, (3.0 * u - 1.0) * v, time]
 }
 
@@ -42,13 +38,11 @@ fn step(y: &State, h: f64, e: f64) -> State {
         for _ in 1..n {
             (before, now) = (now, plus(&before, &rate_at(&now), 2.0 * small));
         }
-        let mut best: State =
-            plus(&plus(&now, &before, 1.0), &rate_at(&now), small).map(|x| 0.5 * x);
+        let mut best: State = plus(&plus(&now, &before, 1.0), &rate_at(&now), small).map(|x| 0.5 * x);
         for (column, entry) in table.iter_mut().enumerate() {
             let ratio = (row + 1) as f64 / (row - column) as f64;
             let previous = std::mem::replace(entry, best);
-            best =
-                std::array::from_fn(|i| best[i] + (best[i] - previous[i]) / (ratio * ratio - 1.0));
+            best = std::array::from_fn(|i| best[i] + (best[i] - previous[i]) / (ratio * ratio - 1.0));
         }
         table.push(best);
     }
@@ -93,130 +87,27 @@ fn judge(c: &Connection, u_point: f64, swept: f64, u: f64) -> Verdict {
     let at_point = (du * near[3] - dw * near[2]) / determinant;
     // Along it e² = w² + u² − u³ changes too.
     let energy = c.energy + c.slope * at_camera / c.energy;
-    let angle =
-        (rain_angle(c.slope + at_camera, energy, u) - rain_angle(c.slope, c.energy, u)).abs();
-    Verdict {
-        angle,
-        emission: at_point.abs() / (c.emission_slope.abs() + u_point),
-        delay: ((near[4] - far[4]) / c.delay - 1.0).abs(),
-    }
+    let angle = (rain_angle(c.slope + at_camera, energy, u) - rain_angle(c.slope, c.energy, u)).abs();
+    Verdict { angle, emission: at_point.abs() / (c.emission_slope.abs() + u_point), delay: ((near[4] - far[4]) / c.delay - 1.0).abs() }
 }
 
 /// Reference values by closed form, quadrature and ODE (agreeing to 6e-11), static camera:
 /// r, φ in degrees, L, ψ, b, Schwarzschild light time. Beyond 180° is the secondary image.
 const JOINED: [(f64, f64, f64, f64, f64, f64); 14] = [
-    (
-        20.0,
-        90.0,
-        10.0,
-        1.9241487211568,
-        9.889685100016,
-        23.6791126236,
-    ),
-    (
-        20.0,
-        180.0,
-        10.0,
-        2.6989684589193,
-        4.514807429628,
-        34.90536040538,
-    ),
-    (
-        20.0,
-        270.0,
-        10.0,
-        2.8647264192865,
-        2.881283717311,
-        40.30302376183,
-    ),
-    (
-        20.0,
-        350.0,
-        10.0,
-        2.8863580836286,
-        2.66129262477,
-        44.13343428184,
-    ),
-    (
-        5.0,
-        30.0,
-        10.0,
-        2.7329544447192,
-        4.188542504969,
-        7.031459714706,
-    ),
-    (
-        5.0,
-        180.0,
-        10.0,
-        2.8021629964806,
-        3.509594247023,
-        19.5781569339,
-    ),
-    (
-        3.0,
-        60.0,
-        10.0,
-        2.8268642839852,
-        3.263029877736,
-        10.49706857298,
-    ),
-    (
-        1.3,
-        135.0,
-        10.0,
-        2.9235816212017,
-        2.279877433583,
-        15.39232460882,
-    ),
-    (
-        1000.0,
-        180.0,
-        3.0,
-        2.0624122552072,
-        3.239099451748,
-        1011.95842565,
-    ),
-    (
-        10.0,
-        120.0,
-        1.5,
-        1.1459402791648,
-        2.367102242839,
-        14.44970603008,
-    ),
-    (
-        3.0,
-        100.0,
-        1.2,
-        0.83229288501576,
-        2.173609128879,
-        6.444934658367,
-    ),
-    (
-        10.0,
-        60.0,
-        1.05,
-        0.24058577096715,
-        1.146492367274,
-        14.76415055969,
-    ),
-    (
-        10.5,
-        2.0,
-        10.0,
-        0.61271374219736,
-        6.061977295846,
-        0.6698901595236,
-    ),
-    (
-        9.5,
-        2.0,
-        10.0,
-        2.584452590807,
-        5.573629614201,
-        0.6628743254735,
-    ),
+    (20.0, 90.0, 10.0, 1.9241487211568, 9.889685100016, 23.6791126236),
+    (20.0, 180.0, 10.0, 2.6989684589193, 4.514807429628, 34.90536040538),
+    (20.0, 270.0, 10.0, 2.8647264192865, 2.881283717311, 40.30302376183),
+    (20.0, 350.0, 10.0, 2.8863580836286, 2.66129262477, 44.13343428184),
+    (5.0, 30.0, 10.0, 2.7329544447192, 4.188542504969, 7.031459714706),
+    (5.0, 180.0, 10.0, 2.8021629964806, 3.509594247023, 19.5781569339),
+    (3.0, 60.0, 10.0, 2.8268642839852, 3.263029877736, 10.49706857298),
+    (1.3, 135.0, 10.0, 2.9235816212017, 2.279877433583, 15.39232460882),
+    (1000.0, 180.0, 3.0, 2.0624122552072, 3.239099451748, 1011.95842565),
+    (10.0, 120.0, 1.5, 1.1459402791648, 2.367102242839, 14.44970603008),
+    (3.0, 100.0, 1.2, 0.83229288501576, 2.173609128879, 6.444934658367),
+    (10.0, 60.0, 1.05, 0.24058577096715, 1.146492367274, 14.76415055969),
+    (10.5, 2.0, 10.0, 0.61271374219736, 6.061977295846, 0.6698901595236),
+    (9.5, 2.0, 10.0, 2.584452590807, 5.573629614201, 0.6628743254735),
 ];
 
 /// T − t outside the horizon.
@@ -231,60 +122,27 @@ fn aberrated(psi_static: f64, l: f64) -> f64 {
 }
 
 fn near(found: f64, expected: f64, tolerance: f64, what: &str) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "{what}: {found} instead of {expected}"
-    );
+    assert!((found - expected).abs() <= tolerance, "{what}: {found} instead of {expected}");
 }
 
 #[test]
 fn tabulated_connections_are_met() {
     for (r, degrees, l, psi, b, t) in JOINED {
-        let c = connect(1.0 / r, degrees.to_radians(), 1.0 / l, Branch::Plus)
-            .expect("seen from outside");
+        let c = connect(1.0 / r, degrees.to_radians(), 1.0 / l, Branch::Plus).expect("seen from outside");
         // The last digits of the table.
-        near(
-            static_angle(c.slope, c.energy, 1.0 / l).expect("outside"),
-            psi,
-            2e-13,
-            "psi",
-        );
-        near(
-            rain_angle(c.slope, c.energy, 1.0 / l),
-            aberrated(psi, l),
-            1e-12,
-            "rain psi",
-        );
+        near(static_angle(c.slope, c.energy, 1.0 / l).expect("outside"), psi, 2e-13, "psi");
+        near(rain_angle(c.slope, c.energy, 1.0 / l), aberrated(psi, l), 1e-12, "rain psi");
         near(1.0 / c.energy, b, 1e-12 * b, "b");
-        near(
-            c.delay,
-            t + rain_time(l) - rain_time(r),
-            2e-11 * t.max(1.0),
-            "delay",
-        );
+        near(c.delay, t + rain_time(l) - rain_time(r), 2e-11 * t.max(1.0), "delay");
     }
-    near(
-        static_redshift(1.0 / 20.0, 0.1).expect("outside"),
-        1.027402334,
-        1e-9,
-        "redshift",
-    );
-    near(
-        static_redshift(1.0 / 3.0, 1.0 / 1.2).expect("outside"),
-        2.0,
-        1e-12,
-        "redshift",
-    );
+    near(static_redshift(1.0 / 20.0, 0.1).expect("outside"), 1.027402334, 1e-9, "redshift");
+    near(static_redshift(1.0 / 3.0, 1.0 / 1.2).expect("outside"), 2.0, 1e-12, "redshift");
 }
 
 /// The camera's own flash, lensed all around the hole: n = 1, 2, 3, angle from the inward direction, round trip in t.
 #[test]
 fn own_flash_rings() {
-    let rings = [
-        (14.526704331387, 34.0266545845),
-        (14.269493478688, 50.3960220724),
-        (14.269028198327, 66.7202993045),
-    ];
+    let rings = [(14.526704331387, 34.0266545845), (14.269493478688, 50.3960220724), (14.269028198327, 66.7202993045)];
     for (n, (degrees, time)) in (1..).zip(rings) {
         let c = connect(0.1, 2.0 * PI * f64::from(n), 0.1, Branch::Plus).expect("a ring");
         let psi = static_angle(c.slope, c.energy, 0.1).expect("outside");
@@ -311,18 +169,8 @@ fn darwin_deflection() {
         // Half of the symmetric ray, seen from its apsis.
         let u = 2.0 / p;
         let energy = u * f64::sqrt(1.0 - u);
-        near(
-            2.0 * swept_to_sky(0.0, energy, u).expect("escapes"),
-            PI + alpha,
-            2e-12,
-            "bending from the apsis",
-        );
-        near(
-            sky_slope(0.5 * (PI + alpha), u).expect("the sky"),
-            0.0,
-            2e-13,
-            "slope at the apsis",
-        );
+        near(2.0 * swept_to_sky(0.0, energy, u).expect("escapes"), PI + alpha, 2e-12, "bending from the apsis");
+        near(sky_slope(0.5 * (PI + alpha), u).expect("the sky"), 0.0, 2e-13, "slope at the apsis");
     }
     // Strong rings, b/M: the sky seen from far away at Φ = π + alpha.
     let rings = [(PI, 5.35695863074179), (2.0 * PI, 5.20268040281046)];
@@ -362,12 +210,7 @@ fn shadow_edges() {
         (0.01, 84.282883104),
     ];
     for (l, degrees) in falling {
-        near(
-            (PI - shadow_angle(1.0 / l)).to_degrees(),
-            degrees,
-            1e-10 * degrees.max(1.0),
-            "falling",
-        );
+        near((PI - shadow_angle(1.0 / l)).to_degrees(), degrees, 1e-10 * degrees.max(1.0), "falling");
     }
 }
 
@@ -550,27 +393,14 @@ proptest! {
 
 #[test]
 fn what_no_light_joins() {
-    let seen =
-        |r: f64, swept: f64, l: f64, branch| connect(1.0 / r, swept, 1.0 / l, branch).is_some();
-    assert!(
-        !seen(1.0, 1.0, 5.0, Branch::Plus),
-        "the horizon from outside"
-    );
-    assert!(
-        !seen(0.5, 1.0, 5.0, Branch::Plus),
-        "the inside from outside"
-    );
+    let seen = |r: f64, swept: f64, l: f64, branch| connect(1.0 / r, swept, 1.0 / l, branch).is_some();
+    assert!(!seen(1.0, 1.0, 5.0, Branch::Plus), "the horizon from outside");
+    assert!(!seen(0.5, 1.0, 5.0, Branch::Plus), "the inside from outside");
     assert!(!seen(3.0, 1.0, 5.0, Branch::Minus), "E < 0 outside");
-    assert!(
-        !seen(3.0, 1.0, 0.5, Branch::Minus),
-        "E < 0 from outside to inside"
-    );
+    assert!(!seen(3.0, 1.0, 0.5, Branch::Minus), "E < 0 from outside to inside");
     assert!(!seen(0.4, 0.1, 0.5, Branch::Plus), "deeper than the camera");
     assert!(seen(0.8, 0.1, 0.5, Branch::Plus) && seen(0.8, 0.1, 0.5, Branch::Minus));
     assert!(seen(1.0, 0.1, 0.5, Branch::Plus), "the horizon from inside");
-    assert!(
-        !seen(1.0, FRAC_PI_2 + 0.01, 0.5, Branch::Plus),
-        "the horizon, farther than any light crosses it"
-    );
+    assert!(!seen(1.0, FRAC_PI_2 + 0.01, 0.5, Branch::Plus), "the horizon, farther than any light crosses it");
     assert!(!seen(3.0, 0.0, 5.0, Branch::Plus) && !seen(3.0, f64::NAN, 5.0, Branch::Plus));
 }

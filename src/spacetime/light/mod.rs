@@ -17,9 +17,7 @@ mod orbit;
 mod sky;
 mod solve;
 
-pub use angles::{
-    Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift,
-};
+pub use angles::{Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift};
 pub use delay::delay;
 pub use orbit::{Fate, follow};
 pub use sky::{sky_angle, sky_slope, swept_to_sky};

@@ -3,9 +3,7 @@
 //! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
 //! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
 
-use super::orbit::{
-    CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot,
-};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot};
 use super::{Branch, Ray};
 use std::f64::consts::PI;
 
@@ -29,14 +27,7 @@ struct Start {
 
 impl Fan {
     fn new(u: f64) -> Fan {
-        if u < 1.0 {
-            Fan::Outside { u }
-        } else {
-            Fan::Inside {
-                u,
-                s: u * (u - 1.0).sqrt(),
-            }
-        }
+        if u < 1.0 { Fan::Outside { u } } else { Fan::Inside { u, s: u * (u - 1.0).sqrt() } }
     }
 
     fn u(self) -> f64 {
@@ -61,16 +52,8 @@ impl Fan {
 
     fn start(self, x: f64) -> Start {
         match self {
-            Fan::Outside { u } => Start {
-                slope: x,
-                d: critical_excess(u, x),
-                d_x: x / 8.0,
-            },
-            Fan::Inside { s, .. } => Start {
-                slope: x - s,
-                d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0,
-                d_x: (x - s) / 8.0,
-            },
+            Fan::Outside { u } => Start { slope: x, d: critical_excess(u, x), d_x: x / 8.0 },
+            Fan::Inside { s, .. } => Start { slope: x - s, d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0, d_x: (x - s) / 8.0 },
         }
     }
 
@@ -91,13 +74,7 @@ pub fn join(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<R
 
 /// As [`join`], starting from a guess of the slope at the camera (1/r_s), for instance a neighbour's; the result is the same
 /// whatever the guess, only faster with a good one.
-pub fn join_near(
-    u_point: f64,
-    swept: f64,
-    u_camera: f64,
-    branch: Branch,
-    guess: Option<f64>,
-) -> Option<Ray> {
+pub fn join_near(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess: Option<f64>) -> Option<Ray> {
     if !exists(u_point, swept, u_camera, branch) {
         return None;
     }
@@ -108,15 +85,7 @@ pub fn join_near(
     };
     let (x, emission_slope) = solve(fan, u_point, swept, x)?;
     let energy = fan.energy(x);
-    Some(Ray {
-        slope: fan.start(x).slope,
-        emission_slope,
-        energy: if branch == Branch::Minus {
-            -energy
-        } else {
-            energy
-        },
-    })
+    Some(Ray { slope: fan.start(x).slope, emission_slope, energy: if branch == Branch::Minus { -energy } else { energy } })
 }
 
 /// Φ in radians up to which rays are joined: beyond, neighbouring numbers w are rays that part before they get there.
@@ -130,9 +99,7 @@ pub(super) fn in_range(u: f64) -> bool {
 
 /// Whether such a ray exists.
 fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
-    let sound = (u_point == 0.0 || in_range(u_point))
-        && in_range(u_camera)
-        && (1e-30..=MOST_SWEPT).contains(&swept);
+    let sound = (u_point == 0.0 || in_range(u_point)) && in_range(u_camera) && (1e-30..=MOST_SWEPT).contains(&swept);
     if !sound || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
         return false;
     }
@@ -151,9 +118,7 @@ fn first_guess(fan: Fan, u_point: f64, swept: f64) -> f64 {
     }
     match fan {
         Fan::Outside { u } => (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt(),
-        Fan::Inside { s, .. } => {
-            -CRITICAL_ENERGY_SQUARED / (s + s.hypot(CRITICAL_ENERGY_SQUARED.sqrt()))
-        }
+        Fan::Inside { s, .. } => -CRITICAL_ENERGY_SQUARED / (s + s.hypot(CRITICAL_ENERGY_SQUARED.sqrt())),
     }
 }
 
@@ -223,11 +188,7 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
 /// A parameter between two: their geometric mean where both are known and far apart, else halfway in the angle θ of x = −u cot θ, as
 /// seen from the camera, else a step towards the ray of zero energy.
 fn middle(low: f64, high: f64, u: f64) -> f64 {
-    if low * high > 0.0
-        && low.is_finite()
-        && high.is_finite()
-        && !(0.1..10.0).contains(&(low / high))
-    {
+    if low * high > 0.0 && low.is_finite() && high.is_finite() && !(0.1..10.0).contains(&(low / high)) {
         return (low * high).sqrt().copysign(low);
     }
     if high == 0.0 && low > -0.1 * u {
