@@ -1,10 +1,10 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
 
-<<<<<<< HEAD
 mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_project;
 mod reference_oracles;
 mod reference_trace;
 #[cfg(feature = "game")]
@@ -20,12 +20,3 @@ mod sim_simulate;
 mod spacetime_light;
 mod spacetime_matter;
 mod support;
-=======
-mod reference_oracles;
-mod reference_trace;
-mod light_against_judge;
-
-mod lensing_integrator;
-mod lensing_tables;
-mod spacetime_light;
->>>>>>> lensing

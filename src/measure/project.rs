@@ -64,11 +64,7 @@ pub struct Exact;
 impl Projector for Exact {
     fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
         let (u_point, u_camera) = (1.0 / query.r, 1.0 / query.camera);
-        let branch = if u_point > 1.0 && u_camera > 1.0 {
-            branch
-        } else {
-            Branch::Plus
-        };
+        let branch = if u_point > 1.0 && u_camera > 1.0 { branch } else { Branch::Plus };
         let ray = light::connect(u_point, order.swept(query.phi), u_camera, branch)?;
         Some(Sight {
             psi_rain: light::rain_angle(ray.slope, ray.energy, u_camera),
@@ -107,9 +103,7 @@ pub fn method(name: &str) -> Result<Box<dyn Projector>, ProjectError> {
     match name {
         "exact" => Ok(Box::new(Exact)),
         "table" => Ok(Box::new(Table(lensing::default_table()))),
-        _ => Err(ProjectError::UnknownMethod {
-            name: name.to_owned(),
-        }),
+        _ => Err(ProjectError::UnknownMethod { name: name.to_owned() }),
     }
 }
 
@@ -181,19 +175,11 @@ pub struct Request {
 }
 
 /// [`project`] from `input` to `output`; nothing is written if any line is wrong.
-pub fn run(
-    input: &mut dyn Read,
-    output: &mut dyn Write,
-    method: &dyn Projector,
-    request: Request,
-) -> Result<(), ProjectError> {
+pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector, request: Request) -> Result<(), ProjectError> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
     let text = str::from_utf8(&bytes).map_err(|error| {
-        let newlines = bytes[..error.valid_up_to()]
-            .iter()
-            .filter(|&&byte| byte == b'\n')
-            .count();
+        let newlines = bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
         ProjectError::Text { line: newlines + 1 }
     })?;
     output.write_all(project(text, method, request)?.as_bytes())?;
@@ -205,19 +191,10 @@ pub fn run(
 /// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay in
 /// r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
 /// empty where no ray joins the two. The input is checked as a whole before anything is returned.
-pub fn project(
-    input: &str,
-    method: &dyn Projector,
-    request: Request,
-) -> Result<String, ProjectError> {
+pub fn project(input: &str, method: &dyn Projector, request: Request) -> Result<String, ProjectError> {
     let rows = parse(input)?;
-    let lines: Vec<String> = rows
-        .par_iter()
-        .map(|row| row.answer(method, request))
-        .collect();
-    let mut output = String::with_capacity(
-        OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>(),
-    );
+    let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
+    let mut output = String::with_capacity(OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>());
     for line in std::iter::once(OUTPUT_HEADER).chain(lines.iter().map(String::as_str)) {
         output.push_str(line);
         output.push('\n');
@@ -240,8 +217,7 @@ impl Row<'_> {
             Frame::Static => sight.psi_static,
         });
         let delay = sight.map(|sight| sight.delay);
-        let redshift =
-            sight.and_then(|_| light::static_redshift(1.0 / self.query.r, 1.0 / self.query.camera));
+        let redshift = sight.and_then(|_| light::static_redshift(1.0 / self.query.r, 1.0 / self.query.camera));
         for value in [psi, delay, redshift] {
             line.push(',');
             if let Some(value) = value {
@@ -258,60 +234,29 @@ fn parse(input: &str) -> Result<Vec<Row<'_>>, ProjectError> {
     let mut lines = input.trim_end().lines();
     let header = lines.next().unwrap_or("");
     if header.split(',').map(str::trim).ne(INPUT_HEADER.split(',')) {
-        return Err(ProjectError::Header {
-            found: header.trim().chars().take(80).collect(),
-        });
+        return Err(ProjectError::Header { found: header.trim().chars().take(80).collect() });
     }
-    lines
-        .enumerate()
-        .map(|(index, text)| parse_row(text, index + 2))
-        .collect()
+    lines.enumerate().map(|(index, text)| parse_row(text, index + 2)).collect()
 }
 
 fn parse_row(text: &str, line: usize) -> Result<Row<'_>, ProjectError> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let &[r, phi, camera] = fields.as_slice() else {
-        return Err(ProjectError::Columns {
-            line,
-            found: if text.trim().is_empty() {
-                0
-            } else {
-                fields.len()
-            },
-        });
+        return Err(ProjectError::Columns { line, found: if text.trim().is_empty() { 0 } else { fields.len() } });
     };
-    let number =
-        |field: &'static str, text: &str, range: &'static str, allowed: fn(f64) -> bool| {
-            let value: f64 = text.parse().map_err(|_| ProjectError::Number {
-                line,
-                field,
-                text: text.to_owned(),
-            })?;
-            if allowed(value) {
-                Ok(value)
-            } else {
-                Err(ProjectError::Range {
-                    line,
-                    field,
-                    text: text.to_owned(),
-                    range,
-                })
-            }
-        };
+    let number = |field: &'static str, text: &str, range: &'static str, allowed: fn(f64) -> bool| {
+        let value: f64 = text.parse().map_err(|_| ProjectError::Number { line, field, text: text.to_owned() })?;
+        if allowed(value) { Ok(value) } else { Err(ProjectError::Range { line, field, text: text.to_owned(), range }) }
+    };
     // 1/x must be a number too, or there is nothing to compute with.
     let radius = |x: f64| x > 0.0 && x.is_finite() && x.recip().is_normal();
     let query = Query {
         r: number("r", r, "a finite radius greater than 0", radius)?,
-        phi: number("phi", phi, "0 to π radians", |x| {
-            x >= -AXIS_CLEARANCE && x <= PI + AXIS_CLEARANCE
-        })?
-        .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
+        phi: number("phi", phi, "0 to π radians", |x| (-AXIS_CLEARANCE..=PI + AXIS_CLEARANCE).contains(&x))?
+            .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
         camera: number("L", camera, "a finite radius greater than 0", radius)?,
     };
-    Ok(Row {
-        texts: [r, phi, camera],
-        query,
-    })
+    Ok(Row { texts: [r, phi, camera], query })
 }
 
 /// A number with twelve significant digits, in plain notation where that is short; empty if it is not finite.
@@ -320,10 +265,7 @@ pub fn significant(value: f64) -> String {
         return String::new();
     }
     let scientific = format!("{value:.*e}", DIGITS - 1);
-    let exponent: i32 = scientific
-        .split_once('e')
-        .and_then(|(_, text)| text.parse().ok())
-        .unwrap_or(0);
+    let exponent: i32 = scientific.split_once('e').and_then(|(_, text)| text.parse().ok()).unwrap_or(0);
     let last = DIGITS as i32 - 1;
     if value == 0.0 || (-5..=last).contains(&exponent) {
         let decimals = if value == 0.0 { last } else { last - exponent };

@@ -16,11 +16,7 @@ pub fn rain_momentum(slope: f64, energy: f64, u: f64) -> [f64; 2] {
 /// cancellation for ingoing light.
 fn look_radial(w: f64, e: f64, u: f64) -> f64 {
     let beta = u.sqrt();
-    if w > 0.0 || e < 0.0 {
-        (beta * e + w) / (u - 1.0)
-    } else {
-        (e - u) * (e + u) / (beta * e - w)
-    }
+    if w > 0.0 || e < 0.0 { (beta * e + w) / (u - 1.0) } else { (e - u) * (e + u) / (beta * e - w) }
 }
 
 /// ψ in the rain frame, in [0, π] from the outward radial direction, of the light that reaches u = 1/r with slope `slope` and
@@ -49,10 +45,7 @@ pub struct Launch {
 pub fn launch(psi_rain: f64, u: f64) -> Launch {
     let beta = u.sqrt();
     let (sin, cos) = psi_rain.sin_cos();
-    Launch {
-        slope: -u * (beta + cos) / sin,
-        energy: u * (1.0 + beta * cos) / sin,
-    }
+    Launch { slope: -u * (beta + cos) / sin, energy: u * (1.0 + beta * cos) / sin }
 }
 
 /// ψ in the rain frame of the edge of the shadow for a camera at `u_camera` = 1/L, outside or inside; the shadow is ψ greater than that.

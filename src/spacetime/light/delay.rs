@@ -11,9 +11,7 @@
 //! K = u²/(e + w) − 2 [ln|1 − u|]′ = 2e/u + 2 [ln u − ln(e − w)]′.
 
 use super::Ray;
-use super::orbit::{
-    CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit,
-};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, Pole, carry, critical_excess, pole_orbit};
 
 /// Gauss–Legendre of ten points on [0, 1]: abscissae and weights (Abramowitz & Stegun 25.4.30).
 const NODES: [(f64, f64); 10] = {
@@ -44,37 +42,19 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     if u_point <= 0.0 {
         return f64::INFINITY;
     }
-    let Ray {
-        slope,
-        emission_slope,
-        energy: e,
-    } = *ray;
-    let d = if u_camera < 1.0 {
-        critical_excess(u_camera, slope)
-    } else {
-        (e * e - CRITICAL_ENERGY_SQUARED) / 16.0
-    };
+    let Ray { slope, emission_slope, energy: e } = *ray;
+    let d = if u_camera < 1.0 { critical_excess(u_camera, slope) } else { (e * e - CRITICAL_ENERGY_SQUARED) / 16.0 };
     let scattered = d < 0.0 && u_camera <= PHOTON_SPHERE;
     let trapped = d < 0.0 && !scattered;
     let near = swept < 0.5 && u_point < 2.0 * u_camera && u_camera < 2.0 * u_point;
-    let path = Path {
-        slope,
-        u_point,
-        emission_slope,
-        d,
-        swept,
-        u_camera,
-        energy: e,
-    };
+    let path = Path { slope, u_point, emission_slope, d, swept, u_camera, energy: e };
 
     let time = if trapped || near {
         let closed = |w: f64, u: f64| 2.0 * (u / ahead(e, w, u)).ln();
-        closed(emission_slope, u_point) - closed(slope, u_camera)
-            + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
+        closed(emission_slope, u_point) - closed(slope, u_camera) + path.integral(|u, _| e * (1.0 + 3.0 * u) / (u * u))
     } else if scattered {
         let closed = |w: f64, u: f64| (ahead(e, w, u) / u).ln() - w / (u * e);
-        closed(emission_slope, u_point) - closed(slope, u_camera)
-            + path.integral(|u, w| u / (2.0 * e) + 1.5 * (e + w) / (1.0 - u))
+        closed(emission_slope, u_point) - closed(slope, u_camera) + path.integral(|u, w| u / (2.0 * e) + 1.5 * (e + w) / (1.0 - u))
     } else {
         // No turning point. Light that left the past horizon has e and w of one sign.
         let outgoing = e * slope > 0.0;
@@ -82,11 +62,7 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
             let rest = ((e.abs() + w.abs()) / u).ln();
             (if outgoing { -rest } else { rest }) - w / (u * e)
         };
-        let horizon = if outgoing {
-            -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln()
-        } else {
-            0.0
-        };
+        let horizon = if outgoing { -2.0 * ((1.0 - u_point) / (1.0 - u_camera)).ln() } else { 0.0 };
         closed(emission_slope, u_point) - closed(slope, u_camera)
             + horizon
             + path.integral(|u, w| u / (2.0 * e) + (1.5 * u * u / (e.abs() + w.abs())).copysign(e))
@@ -96,11 +72,7 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
 
 /// e − w without cancellation.
 fn ahead(e: f64, w: f64, u: f64) -> f64 {
-    if e * w > 0.0 {
-        u * u * (1.0 - u) / (e + w)
-    } else {
-        e - w
-    }
+    if e * w > 0.0 { u * u * (1.0 - u) / (e + w) } else { e - w }
 }
 
 /// T − t̂.
@@ -124,16 +96,16 @@ impl Path {
     /// ∫ f(u, w) dΦ along the ray.
     fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
         let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
-        if self.u_camera < 1.0 {
-            self.from_both_ends(narrow, f)
-        } else {
-            self.from_the_point(narrow, f)
-        }
+        if self.u_camera < 1.0 { self.integral_of_halves(narrow, f) } else { self.integral_inwards(narrow, f) }
     }
 
     /// Camera outside: equal panels, half of them reached from either end, for errors grow like exp Φ near the photon sphere.
-    fn from_both_ends(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    fn integral_of_halves(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let count = (self.swept / narrow - 1e-9).ceil().max(1.0);
+        // A ray of the vacuum needs a dozen.
+        if count.is_nan() || count > 1e4 {
+            return f64::NAN;
+        }
         let Some(panel) = Panel::new(self.swept / count, self.d) else {
             return f64::NAN;
         };
@@ -156,7 +128,7 @@ impl Path {
 
     /// Camera inside: panels from the point on, shorter towards the singularity that lies 2/√u behind the camera. From the
     /// camera's end it would not do: there w² − u³ has lost the e² that decides about the rest.
-    fn from_the_point(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    fn integral_inwards(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let beyond = 2.0 / self.u_camera.sqrt();
         let f = |u: f64, w: f64| f(u, -w);
         let (mut u, mut w) = (self.u_point, -self.emission_slope);

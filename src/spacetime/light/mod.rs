@@ -17,9 +17,7 @@ mod orbit;
 mod sky;
 mod solve;
 
-pub use angles::{
-    Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift,
-};
+pub use angles::{Launch, launch, rain_angle, rain_momentum, shadow_angle, static_angle, static_redshift};
 pub use delay::delay;
 pub use orbit::{Fate, follow};
 pub use sky::{sky_angle, sky_slope, swept_to_sky};
@@ -99,7 +97,7 @@ pub struct Connection {
 ///
 /// None where no such ray exists: a point at or under the horizon seen from outside, a point nearer to the hole than a camera
 /// inside, a point inside beyond Φ = arccos(1 − 2r) − arccos(1 − 2L), branch minus with an end outside, or an argument out of
-/// range (Φ ≤ 0, u outside 1e-100 to 1e100 but for u_point = 0, not finite).
+/// range (u outside 1e-30 to 1e6 but for u_point = 0, Φ outside 1e-30 to 30, not finite).
 pub fn connect(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<Connection> {
     let ray = join(u_point, swept, u_camera, branch)?;
     Some(Connection {

@@ -68,33 +68,10 @@ fn laurent(z: f64, t: f64, d: f64) -> Pole {
     let series = |c: [f64; 8]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
     let inverse = 1.0 / t;
     let value = series([C2, c3, C4, c5, c6, c7, c8, c9]);
-    let slope = series([
-        2.0 * C2,
-        4.0 * c3,
-        6.0 * C4,
-        8.0 * c5,
-        10.0 * c6,
-        12.0 * c7,
-        14.0 * c8,
-        16.0 * c9,
-    ]);
+    let slope = series([2.0 * C2, 4.0 * c3, 6.0 * C4, 8.0 * c5, 10.0 * c6, 12.0 * c7, 14.0 * c8, 16.0 * c9]);
     let value_3 = series([0.0, 1.0, 0.0, C5_3, c6_3, C7_3, c8_3, c9_3]);
-    let slope_3 = series([
-        0.0,
-        4.0,
-        0.0,
-        8.0 * C5_3,
-        10.0 * c6_3,
-        12.0 * C7_3,
-        14.0 * c8_3,
-        16.0 * c9_3,
-    ]);
-    Pole {
-        p: inverse - 1.0 / 12.0 + t * value,
-        y: -2.0 * inverse / z + z * slope,
-        p_d: t * value_3 * C3_D,
-        y_d: z * slope_3 * C3_D,
-    }
+    let slope_3 = series([0.0, 4.0, 0.0, 8.0 * C5_3, 10.0 * c6_3, 12.0 * C7_3, 14.0 * c8_3, 16.0 * c9_3]);
+    Pole { p: inverse - 1.0 / 12.0 + t * value, y: -2.0 * inverse / z + z * slope, p_d: t * value_3 * C3_D, y_d: z * slope_3 * C3_D }
 }
 
 /// From Φ to 2Φ. None where p′² ≤ 0, which rounding can make of the half period itself.
@@ -114,16 +91,14 @@ fn double(pole: &Pole, d: f64) -> Option<Pole> {
     let p3 = p2 * p;
     let inner = 20.0 * p3 + 5.0 * p2 + 0.5 * p;
     let slope_top = p3 * p2 * (4.0 * p + 2.0) + d * (inner - 2.0 * d);
-    let slope_top_d =
-        (p2 * p2 * (24.0 * p + 10.0) + d * (60.0 * p2 + 10.0 * p + 0.5)) * p_d + inner - 4.0 * d;
+    let slope_top_d = (p2 * p2 * (24.0 * p + 10.0) + d * (60.0 * p2 + 10.0 * p + 0.5)) * p_d + inner - 4.0 * d;
     let over_y = 1.0 / y;
     let new_y = 0.5 * slope_top * over_y * over_square;
     Some(Pole {
         p: new_p,
         y: new_y,
         p_d: (top_d - new_p * square_d) * over_square,
-        y_d: 0.5 * slope_top_d * over_y * over_square
-            - new_y * (y_d * over_y + square_d * over_square),
+        y_d: 0.5 * slope_top_d * over_y * over_square - new_y * (y_d * over_y + square_d * over_square),
     })
 }
 
@@ -198,10 +173,7 @@ pub enum Fate {
 /// its energy may have either sign, which makes no difference to the path.
 pub fn follow(u: f64, w: f64, phi: f64) -> Fate {
     match shoot(u, w, critical_excess(u, w), phi) {
-        Shot::At(carried) if u + carried.rise >= 0.0 => Fate::At {
-            u: u + carried.rise,
-            slope: carried.chord * carried.rise - w,
-        },
+        Shot::At(carried) if u + carried.rise >= 0.0 => Fate::At { u: u + carried.rise, slope: carried.chord * carried.rise - w },
         Shot::At(_) | Shot::Escaped => Fate::Escaped,
         Shot::Plunged => Fate::Plunged,
     }
@@ -221,50 +193,26 @@ pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Shot {
     let trapped = d < 0.0 && u > PHOTON_SPHERE;
     let scattered = d < 0.0 && !trapped;
     let Some(pole) = pole_orbit(phi, d) else {
-        return if trapped || (w >= 0.0 && !scattered) {
-            Shot::Plunged
-        } else {
-            Shot::Escaped
-        };
+        return if trapped || (w >= 0.0 && !scattered) { Shot::Plunged } else { Shot::Escaped };
     };
     let past_half = pole.y >= 0.0;
     let gap = pole.p + 1.0 / 6.0 - 0.25 * u;
     if scattered {
         // Rises to its apsis, falls, leaves; what comes up again after more than ω is not light any more.
         let carried = carry(u, w, &pole);
-        let left = if w >= 0.0 {
-            past_half && carried.chord * carried.rise > w
-        } else {
-            past_half || returning(u, w, &carried)
-        };
-        return if left {
-            Shot::Escaped
-        } else {
-            Shot::At(carried)
-        };
+        let left = if w >= 0.0 { past_half && carried.chord * carried.rise > w } else { past_half || returning(u, w, &carried) };
+        return if left { Shot::Escaped } else { Shot::At(carried) };
     }
     if w >= 0.0 {
         // Straight to the singularity, where gap = 0.
-        return if past_half || gap <= 0.0 {
-            Shot::Plunged
-        } else {
-            Shot::At(carry(u, w, &pole))
-        };
+        return if past_half || gap <= 0.0 { Shot::Plunged } else { Shot::At(carry(u, w, &pole)) };
     }
     if trapped {
         // Up to its apsis and back to the singularity, where gap = 0 for the second time.
-        return if past_half && gap >= 0.0 {
-            Shot::Plunged
-        } else {
-            Shot::At(carry(u, w, &pole))
-        };
+        return if past_half && gap >= 0.0 { Shot::Plunged } else { Shot::At(carry(u, w, &pole)) };
     }
     let carried = carry(u, w, &pole);
-    if past_half || returning(u, w, &carried) {
-        Shot::Escaped
-    } else {
-        Shot::At(carried)
-    }
+    if past_half || returning(u, w, &carried) { Shot::Escaped } else { Shot::At(carried) }
 }
 
 /// Whether a ray that set out outward comes back up, which it does only beyond the sky. Rounding can turn the slope of the ray

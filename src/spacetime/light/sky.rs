@@ -28,11 +28,7 @@ pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
     if !(in_range(u) && e > 0.0 && e.is_finite() && w < (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt()) {
         return None;
     }
-    let chord = if w > 0.0 {
-        u * (1.0 - u) / (e + w)
-    } else {
-        (e - w) / u
-    };
+    let chord = if w > 0.0 { u * (1.0 - u) / (e + w) } else { (e - w) / u };
     let end = chord * chord + 1.0 - u;
     let slope_there = w - chord * (end - u);
     let root = lowest_root(e);
@@ -41,17 +37,9 @@ pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
         return Some(rest);
     }
     // Beyond the half period, which ends at the highest real root; the way to the next pole is the shorter rest.
-    let d = if u < 1.0 {
-        critical_excess(u, w)
-    } else {
-        (e * e - CRITICAL_ENERGY_SQUARED) / 16.0
-    };
+    let d = if u < 1.0 { critical_excess(u, w) } else { (e * e - CRITICAL_ENERGY_SQUARED) / 16.0 };
     let discriminant = -48.0 * d * (1.0 + root) / ((root + 2.0 / 3.0) * (root + 2.0 / 3.0));
-    let turning_point = if discriminant < 0.0 {
-        -root
-    } else {
-        0.5 * (1.0 + root + discriminant.sqrt())
-    };
+    let turning_point = if discriminant < 0.0 { -root } else { 0.5 * (1.0 + root + discriminant.sqrt()) };
     Some(2.0 * to_pole(turning_point, 0.0, root) - rest)
 }
 
@@ -79,11 +67,7 @@ fn lowest_root(e: f64) -> f64 {
 /// near the critical ray is known better than U tells.
 fn to_pole(from: f64, slope: f64, s: f64) -> f64 {
     let v = 2.0 * (s * (3.0 * s + 2.0)).sqrt();
-    let quadratic = if from + s > 0.0 {
-        slope.abs() / (from + s).sqrt()
-    } else {
-        0.5 * v
-    };
+    let quadratic = if from + s > 0.0 { slope.abs() / (from + s).sqrt() } else { 0.5 * v };
     let x = 2.0 * (quadratic + from) - 1.0 - s;
     let centre = x + 1.0 + 3.0 * s;
     4.0 * carlson_rf(x.max(0.0), centre + v, (centre - v).max(0.0))
@@ -100,9 +84,7 @@ fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         if dx.abs().max(dy.abs()).max(dz.abs()) < 0.012 || mean == 0.0 {
             let e2 = dx * dy - dz * dz;
             let e3 = dx * dy * dz;
-            let series = 1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0
-                - 3.0 * e2 * e3 / 44.0
-                - 5.0 * e2 * e2 * e2 / 208.0
+            let series = 1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0 - 5.0 * e2 * e2 * e2 / 208.0
                 + 3.0 * e3 * e3 / 104.0
                 + e2 * e2 * e3 / 16.0;
             return series / mean.sqrt();

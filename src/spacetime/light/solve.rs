@@ -3,9 +3,7 @@
 //! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
 //! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
 
-use super::orbit::{
-    CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot,
-};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot};
 use super::{Branch, Ray};
 use std::f64::consts::PI;
 
@@ -29,14 +27,7 @@ struct Start {
 
 impl Fan {
     fn new(u: f64) -> Fan {
-        if u < 1.0 {
-            Fan::Outside { u }
-        } else {
-            Fan::Inside {
-                u,
-                s: u * (u - 1.0).sqrt(),
-            }
-        }
+        if u < 1.0 { Fan::Outside { u } } else { Fan::Inside { u, s: u * (u - 1.0).sqrt() } }
     }
 
     fn u(self) -> f64 {
@@ -61,16 +52,8 @@ impl Fan {
 
     fn start(self, x: f64) -> Start {
         match self {
-            Fan::Outside { u } => Start {
-                slope: x,
-                d: critical_excess(u, x),
-                d_x: x / 8.0,
-            },
-            Fan::Inside { s, .. } => Start {
-                slope: x - s,
-                d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0,
-                d_x: (x - s) / 8.0,
-            },
+            Fan::Outside { u } => Start { slope: x, d: critical_excess(u, x), d_x: x / 8.0 },
+            Fan::Inside { s, .. } => Start { slope: x - s, d: (x * (x - 2.0 * s) - CRITICAL_ENERGY_SQUARED) / 16.0, d_x: (x - s) / 8.0 },
         }
     }
 
@@ -91,44 +74,32 @@ pub fn join(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<R
 
 /// As [`join`], starting from a guess of the slope at the camera (1/r_s), for instance a neighbour's; the result is the same
 /// whatever the guess, only faster with a good one.
-pub fn join_near(
-    u_point: f64,
-    swept: f64,
-    u_camera: f64,
-    branch: Branch,
-    guess: Option<f64>,
-) -> Option<Ray> {
+pub fn join_near(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess: Option<f64>) -> Option<Ray> {
     if !exists(u_point, swept, u_camera, branch) {
         return None;
     }
     let fan = Fan::new(u_camera);
-    let guess = guess
-        .filter(|w| w.is_finite())
-        .unwrap_or_else(|| first_guess(u_point, swept, u_camera));
-    let (x, emission_slope) = solve(fan, u_point, swept, fan.of_slope(guess))?;
+    let x = match guess.filter(|w| w.is_finite()) {
+        Some(w) => fan.of_slope(w),
+        None => first_guess(fan, u_point, swept),
+    };
+    let (x, emission_slope) = solve(fan, u_point, swept, x)?;
     let energy = fan.energy(x);
-    Some(Ray {
-        slope: fan.start(x).slope,
-        emission_slope,
-        energy: if branch == Branch::Minus {
-            -energy
-        } else {
-            energy
-        },
-    })
+    Some(Ray { slope: fan.start(x).slope, emission_slope, energy: if branch == Branch::Minus { -energy } else { energy } })
 }
 
-/// Whether u³ is a number to compute with: 1e-100 to 1e100 in 1/r_s.
+/// Φ in radians up to which rays are joined: beyond, neighbouring numbers w are rays that part before they get there.
+const MOST_SWEPT: f64 = 30.0;
+
+/// Whether u (1/r_s) is one that light can be computed for: below r = 1e-6 the rounding of u at the camera is felt as far out as
+/// the horizon.
 pub(super) fn in_range(u: f64) -> bool {
-    (1e-100..=1e100).contains(&u)
+    (1e-30..=1e6).contains(&u)
 }
 
 /// Whether such a ray exists.
 fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
-    let sound = (u_point == 0.0 || in_range(u_point))
-        && in_range(u_camera)
-        && swept > 0.0
-        && swept.is_finite();
+    let sound = (u_point == 0.0 || in_range(u_point)) && in_range(u_camera) && (1e-30..=MOST_SWEPT).contains(&swept);
     if !sound || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
         return false;
     }
@@ -139,12 +110,15 @@ fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
     u_camera > u_point && swept < (1.0 - 2.0 / u_point).acos() - (1.0 - 2.0 / u_camera).acos()
 }
 
-/// The straight line of flat space where it makes sense, else the ray that winds around the photon sphere.
-fn first_guess(u_point: f64, swept: f64, u_camera: f64) -> f64 {
-    if swept < 2.5 {
-        (u_point - u_camera * swept.cos()) / swept.sin()
-    } else {
-        (PHOTON_SPHERE - u_camera) * (u_camera + 1.0 / 3.0).sqrt()
+/// x of the straight line of flat space where it makes sense, else of the ray that winds around the photon sphere.
+fn first_guess(fan: Fan, u_point: f64, swept: f64) -> f64 {
+    let straight = fan.of_slope((u_point - fan.u() * swept.cos()) / swept.sin());
+    if swept < 2.5 && straight < fan.top() {
+        return straight;
+    }
+    match fan {
+        Fan::Outside { u } => (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt(),
+        Fan::Inside { s, .. } => -CRITICAL_ENERGY_SQUARED / (s + s.hypot(CRITICAL_ENERGY_SQUARED.sqrt())),
     }
 }
 
@@ -195,13 +169,14 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
         let here = (u + carried.rise).max(-0.5) + c;
         let there = u_point + c;
         let step = miss / rate * 2.0 * here / ((here * there).sqrt() + there);
-        // Rounding in u(Φ) ends the descent; the step is then the size of that error.
-        let scale = x.abs() + 1e-3 * u;
+        // Rounding in u(Φ) ends the descent; the steps then no longer shrink.
+        let scale = match fan {
+            Fan::Outside { .. } => x.abs() + 1e-3 * u,
+            Fan::Inside { .. } => x.abs(),
+        };
         let size = step.abs();
-        if miss == 0.0
-            || size <= 4.0 * f64::EPSILON * scale
-            || (size < 1e-10 * scale && size > 0.25 * last_step)
-        {
+        let at_the_floor = size < 1e-7 * scale && size > 0.25 * last_step;
+        if miss == 0.0 || size <= 4.0 * f64::EPSILON * scale || at_the_floor {
             return Some((x, carried.chord * rise_wanted - start.slope));
         }
         last_step = size;
@@ -210,8 +185,15 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
     None
 }
 
-/// The middle of two parameters as seen from the camera: halfway in the angle θ of x = −u cot θ.
+/// A parameter between two: their geometric mean where both are known and far apart, else halfway in the angle θ of x = −u cot θ, as
+/// seen from the camera, else a step towards the ray of zero energy.
 fn middle(low: f64, high: f64, u: f64) -> f64 {
+    if low * high > 0.0 && low.is_finite() && high.is_finite() && !(0.1..10.0).contains(&(low / high)) {
+        return (low * high).sqrt().copysign(low);
+    }
+    if high == 0.0 && low > -0.1 * u {
+        return 0.1 * low;
+    }
     let angle = |x: f64| {
         if x == f64::NEG_INFINITY {
             0.0
