@@ -75,6 +75,9 @@ const PLACEMENT_TWO_SIDED: u32 = 1u;
 /// The object does not move; each of its points emits as a static observer there.
 const PLACEMENT_HELD: u32 = 2u;
 
+/// Its whole image of this order is narrower than two pixels.
+const PLACEMENT_THIN: u32 = 4u;
+
 fn two_sided(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;
 }

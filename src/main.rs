@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lensrunner::lensing::command::{self as bake, BakeArgs};
+use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
@@ -26,7 +26,6 @@ enum Command {
     Play(lensrunner::play::PlayArgs),
     #[cfg(feature = "game")]
     Shot(ShotArgs),
-    /// Bakes a lensing table and measures its error.
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
@@ -104,6 +103,33 @@ struct ProjectArgs {
     branch: BranchArg,
 }
 
+/// Bakes a lensing table with a progress bar; prints its size, the time, and its error on fresh random points.
+#[derive(Args)]
+struct BakeArgs {
+    /// Nodes along each axis, 5 to 128; the scheme residual takes twice as many angles.
+    #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
+    nodes: u8,
+    /// What is stored.
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = SchemeArg::Residual)]
+    scheme: SchemeArg,
+    /// The file to write.
+    #[arg(short, value_name = "FILE", default_value = "tables/baked.lut")]
+    output: PathBuf,
+    /// Random points for each order to measure the error on.
+    #[arg(long, value_name = "N", default_value_t = 30_000)]
+    points: usize,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum SchemeArg {
+    /// Residuals against closed forms, as splines: the one the game draws with.
+    Residual,
+    /// Paper 1, the meshes of its equations 3 to 7.
+    Paper,
+    /// Paper 1, uniform meshes.
+    PaperUniform,
+}
+
 #[derive(Clone, Copy, ValueEnum)]
 enum FrameArg {
     /// Hovering; exists only outside the horizon.
@@ -128,10 +154,7 @@ fn main() -> ExitCode {
         Some(Command::Play(args)) => lensrunner::play::run(&args),
         #[cfg(feature = "game")]
         Some(Command::Shot(args)) => run_shot(&args),
-        Some(Command::Bake(args)) => match bake::run(&args) {
-            Ok(()) => ExitCode::SUCCESS,
-            Err(error) => fail(&error, 1),
-        },
+        Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
     }
@@ -187,6 +210,24 @@ fn run_project(args: &ProjectArgs) -> ExitCode {
         Err(ProjectError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error @ ProjectError::Io(_)) => fail(&error, 1),
         Err(error) => fail(&error, 2),
+    }
+}
+
+fn run_bake(args: BakeArgs) -> ExitCode {
+    let scheme = match args.scheme {
+        SchemeArg::Residual => Scheme::Residual,
+        SchemeArg::Paper => Scheme::Paper,
+        SchemeArg::PaperUniform => Scheme::PaperUniform,
+    };
+    let request = lensing::command::Request {
+        nodes: usize::from(args.nodes),
+        scheme,
+        output: args.output,
+        points: args.points,
+    };
+    match lensing::command::run(&request) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
     }
 }
 

@@ -10,3 +10,7 @@ mod scene_sky;
 mod reference_oracles;
 mod reference_trace;
 mod light_against_judge;
+
+mod spacetime_light;
+mod lensing_integrator;
+mod lensing_tables;

@@ -60,19 +60,17 @@ fn scenes_have_the_triangles_they_promise() {
 }
 
 #[test]
-fn parade_leaves_the_hole_free() {
+fn a_lattice_leaves_the_hole_free() {
+    // Three by three by three at a spacing of 1.5: the middle one sits in the hole, the six at 1.5 come to 1.25 with their radius.
+    let spheres = |clearance: f64| {
+        let text = format!("[[prop]]\nmodel = \"lattice\"\ncount = [3, 3, 3]\nspacing = 1.5\nsize = 0.5\nclearance = {clearance}\n");
+        Scene::from_toml(Path::new("a.toml"), &text).unwrap().props[0].positions.len()
+    };
+    assert_eq!([spheres(1.2), spheres(1.24), spheres(1.26)], [26, 26, 20]);
     let scene = load("parade").unwrap();
     let prop = &scene.props[0];
-    assert!(
-        prop.positions
-            .iter()
-            .all(|position| position.length() - 0.5 * prop.size >= 1.2)
-    );
-    assert!(
-        prop.positions
-            .iter()
-            .any(|position| position.length() < 2.0)
-    );
+    assert!(prop.positions.iter().all(|position| position.length() - 0.5 * prop.size >= 1.2));
+    assert!(prop.positions.iter().any(|position| position.length() < 2.0));
 }
 
 #[test]

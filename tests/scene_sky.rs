@@ -227,8 +227,14 @@ fn the_table_keeps_to_the_integral() {
         // leaves sRGB is zero, in the table a ten-thousandth; between the two entries at its end it is off by 0.1 % of the luminance.
         let scale = blackbody::luminance(exact);
         for (a, b) in exact.iter().zip(near) {
-            assert!((a - b).abs() < 0.005 * scale.max(*a), "{temperature} K: {exact:?} against {near:?}");
+            assert!(
+                (a - b).abs() < 0.005 * scale.max(*a),
+                "{temperature} K: {exact:?} against {near:?}"
+            );
         }
     }
-    assert_eq!(blackbody::lookup(&table, coldest, hottest, 1.0), blackbody::lookup(&table, coldest, hottest, coldest));
+    assert_eq!(
+        blackbody::lookup(&table, coldest, hottest, 1.0),
+        blackbody::lookup(&table, coldest, hottest, coldest)
+    );
 }

@@ -217,6 +217,21 @@ fn the_history_is_the_flight() {
 }
 
 #[test]
+fn a_history_told_to_forget_keeps_what_it_was_told_to() {
+    let start = circular_orbit(4.0, 0.0).expect("an orbit");
+    let mut history = History::new(0.0, &start);
+    history.forget_beyond(3.0);
+    let mut state = start;
+    for index in 1..=1000 {
+        state = step(&state, 0.1, DVec3::ZERO, DVec3::ZERO);
+        history.push(0.1 * f64::from(index), &state, &Default::default());
+    }
+    assert!(history.len() <= 62 && history.len() >= 30, "{}", history.len());
+    let want = step(&start, 97.2, DVec3::ZERO, DVec3::ZERO).position;
+    assert!(history.at(97.2).position.distance(want) < 1e-6);
+}
+
+#[test]
 fn before_the_start_a_ship_was_on_its_free_orbit() {
     let start = circular_orbit(4.0, 1.0).expect("an orbit");
     let mut history = History::new(0.0, &start);

@@ -48,7 +48,11 @@ class Ship:
 
     def __init__(self, name, palette):
         self.name, self.palette, self.parts = name, palette, []
-        self.random = random.Random(name)
+
+    def lot(self, face):
+        """A number in [0, 1) drawn by the place of a face, the same on both sides of the ship."""
+        x, y, z = face.calc_center_median()
+        return random.Random(f"{self.name} {abs(x):.2f} {y:.2f} {z:.2f}").random()
 
     def add(self, mesh, bevel=0.0, segments=1):
         bmesh.ops.recalc_face_normals(mesh, faces=mesh.faces)
@@ -86,7 +90,7 @@ class Ship:
         if panels:
             name, share, inset, depth = panels
             plain = self.palette.index(material)
-            chosen = [face for face in faces if face.is_valid and face.material_index == plain and self.random.random() < share]
+            chosen = [face for face in faces if face.material_index == plain and self.lot(face) < share]
             # The new faces around an inset keep the material; the face itself becomes the panel.
             bmesh.ops.inset_individual(mesh, faces=chosen, thickness=inset, depth=depth, use_even_offset=True)
             for face in chosen:
@@ -261,6 +265,18 @@ def shifted(ship, side, x, z, sections, material, points, **options):
     ship.rings(rings, material, **options)
 
 
+def smooth_path(path, parts):
+    """The path with each leg split into `parts` along a Catmull-Rom spline."""
+    points = [Vector(point) for point in path]
+    fine = []
+    for index in range(len(points) - 1):
+        a, b, c, d = (points[max(0, min(len(points) - 1, index + step))] for step in (-1, 0, 1, 2))
+        for part in range(parts):
+            t = part / parts
+            fine.append(tuple(b + 0.5 * (t * (c - a) + t * t * (2 * a - 5 * b + 4 * c - d) + t ** 3 * (3 * b - a - 3 * c + d))))
+    return fine + [tuple(points[-1])]
+
+
 def intake(ship, side):
     shifted(ship, side, 0.74, 0.0, [(-3.2, 0.42, 0.44, 2.6), (-2.2, 0.43, 0.44, 3.2), (-0.8, 0.36, 0.38, 4.0), (0.15, 0.27, 0.29, 5.0), (0.22, 0.22, 0.24, 5.0), (-0.35, 0.19, 0.21, 5.0)],
             "plate", 16, stripes={3: "hull", 4: "dark"}, panels=("dark", 0.12, 0.03, -0.015))
@@ -302,13 +318,14 @@ def quarry():
                   "plate", side, panels=("dark", 0.35, 0.05, -0.02))
         # Claw: a blade that sweeps forward and bends inward, thick at the shoulder.
         path = [(2.15, -2.35, 0.10, 0.07), (2.55, -1.75, 0.26, 0.17), (2.85, -0.9, 0.36, 0.26), (2.95, 0.0, 0.38, 0.28), (2.87, 0.9, 0.34, 0.25), (2.62, 1.75, 0.27, 0.20), (2.24, 2.5, 0.18, 0.13), (1.78, 3.1, 0.09, 0.07), (1.45, 3.4, 0.015, 0.015)]
+        path = smooth_path(path, 3)
         rings = []
         for x, y, width, height in path:
             section = [(1.0, 0.0), (0.55, 0.85), (-0.35, 1.0), (-0.95, 0.35), (-0.95, -0.35), (-0.35, -1.0), (0.55, -0.85)]
             rings.append([Vector((side * (x + width * a), y, -0.06 + height * b)) for a, b in section])
-        ship.rings(rings, "hull", panels=("plate", 0.4, 0.035, -0.018), stripes={5: "bronze", 7: "dark"})
+        ship.rings(rings, "hull", panels=("plate", 0.35, 0.018, -0.014), stripes={15: "bronze", 16: "bronze", 21: "dark", 22: "dark", 23: "dark"})
         # Inner edge of the claw: a glowing slit.
-        for (x, y, width, _), (x2, y2, width2, _) in zip(path[3:6], path[4:7]):
+        for (x, y, width, _), (x2, y2, width2, _) in zip(path[9:18:3], path[12:21:3]):
             inner, inner2 = x - 0.97 * width, x2 - 0.97 * width2
             length = math.hypot(inner2 - inner, y2 - y)
             angle = math.degrees(math.atan2(-(inner2 - inner), y2 - y)) * side
@@ -355,7 +372,7 @@ def preview(ship, folder):
     """Three views with the path tracer, on the processor."""
     scene = bpy.context.scene
     scene.render.engine = "CYCLES"
-    scene.cycles.samples = 24
+    scene.cycles.samples = 32
     scene.cycles.use_denoising = False
     scene.render.resolution_x, scene.render.resolution_y = 640, 400
     scene.view_settings.view_transform = "Filmic"

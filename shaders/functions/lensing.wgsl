@@ -10,14 +10,18 @@
 //
 // The twin of src/lensing/formulas.rs and src/lensing/lookup.rs, function for function. No bindings here: the shader that includes
 // this file supplies
-//   fn lens_texel(index: u32) -> vec4<f32>      the slice's coefficients: turn of w, delay, turn of w_e, unused; r fastest
-// and a `LensCamera`, which the processor fills from `lensing::single::Camera` and the slice's size.
+//   fn lens_texel(index: u32) -> vec4<f32>
+// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
+// delay, turn of w_e, unused), r fastest.
 
 const BEND_START: f32 = 3.6;
 const BEND_RANGE: f32 = 0.5;
 const SMALLEST_SWEEP: f32 = 1e-9;
 const HALF_TURN: f32 = 3.14159265358979;
 const LARGEST_SWEEP: f32 = 9.42477796076938;
+
+/// Texels before the coefficients.
+const HEADER: u32 = 4u;
 
 struct LensCamera {
     l: f32,      // L
@@ -33,9 +37,6 @@ struct LensCamera {
     scale: f32,
     nx: u32,     // nodes along r and Φ; two more coefficients than nodes each way
     ny: u32,
-    pad0: u32,
-    pad1: u32,
-    pad2: u32,
 }
 
 struct Place {
@@ -45,12 +46,18 @@ struct Place {
     phi: f32,
 }
 
-struct Seen {
-    look: vec2<f32>,
-    slope: f32,
-    emission_slope: f32,
-    energy: f32,
-    delay: f32,
+/// What the lookup returns: directions in the rain frame, momenta per angular momentum (in 1/r_s).
+struct LensRay {
+    cos_psi: f32,              // the look direction from the outward radial
+    sin_psi: f32,
+    delay: f32,                // T_arrival − T_emission, r_s/c
+    frequency: f32,            // of the photon in the rain frame at the camera
+    emission_radial: f32,      // of the photon's rain-frame momentum at the point: outward,
+    emission_tangential: f32,  // against the sweep,
+    emission_frequency: f32,   // and its frequency
+    slope: f32,                // w
+    emission_slope: f32,       // w_e
+    energy: f32,               // e
     valid: bool,
 }
 
@@ -78,7 +85,7 @@ fn sweep_raw(sweep: f32, s: f32) -> f32 {
 }
 
 fn sweep_axis(cam: LensCamera, c: f32, sweep: f32) -> f32 {
-    let s = 2.8 * sqrt(min(cam.a, 1.0) + c);
+    let s = 2.8 * sqrt(cam.a / (1.0 + cam.a) + c);
     let first = sweep_raw(0.0, s);
     return (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first);
 }
@@ -113,11 +120,13 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     let sk = basis(cam, bent);
     let s = sk.x;
     let k = sk.y;
-    let am = cam.a * cam.fade;
+    // What is right only in weak fields, held down where K grows.
+    let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
+    let am = cam.a * m;
     let f = cam.force;
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
-    let q = cam.fade * k * k;
+    let q = m * k * k;
     let root = sqrt(max(b * b + 2.0 * q * c, 0.05 * b * b + 1e-4 * q));
     var w = 0.0;
     if b > 0.0 {
@@ -125,26 +134,24 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     } else {
         w = (root - b) / q;
     }
-    let ahead = w * ((1.0 + cam.bend * k) * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + cam.fade * k * s * w * w;
-    return vec2<f32>(w, ahead);
+    let turn = 1.0 + cam.bend * k;
+    if cam.bend > 0.0 {
+        // The same derivative with the growing terms that cancel taken out by the equation for w.
+        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
+        return vec2<f32>(w, (turn * rise + f * k + rest) / s + w * am * s * s);
+    }
+    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w);
 }
 
 fn energy(w: f32, u: f32, room: f32) -> f32 {
     return sqrt(max(w * w + u * u * room, 0.0));
 }
 
-fn look(w: f32, e: f32, u: f32, beta: f32, room: f32) -> vec2<f32> {
-    var radial = 0.0;
-    var across = 0.0;
+fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
     if w > 0.0 {
-        radial = w + beta * e;
-        across = u * room;
-    } else {
-        radial = u * u - e * e;
-        across = u * (beta * e - w);
+        return (w + beta * e) / room;
     }
-    let n = 1.0 / sqrt(radial * radial + across * across);
-    return vec2<f32>(-radial * n, across * n);
+    return (u * u - e * e) / (beta * e - w);
 }
 
 fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
@@ -155,6 +162,10 @@ fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
     let st = sin(turn);
     let sine = max(s0 * ct + c0 * st, 1e-12);
     return -u * (c0 * ct - s0 * st) / sine;
+}
+
+fn emission_scale(cam: LensCamera, c: f32) -> f32 {
+    return c + cam.a / (1.0 + 4.0 * cam.a);
 }
 
 fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e: f32, w_e: f32) -> vec3<f32> {
@@ -216,21 +227,15 @@ fn angle(sine: f32, cosine: f32) -> f32 {
     return atan2(sine, cosine);
 }
 
-fn place(cam: LensCamera, outward: vec3<f32>, offset: vec3<f32>, position: vec3<f32>) -> Place {
-    let square = dot(offset, offset);
+fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
+    let square = along * along + across * across;
+    let r = sqrt(height * height + across * across);
+    let phi = angle(across / r, height / r);
     if square < 0.25 * cam.l * cam.l {
-        let along = dot(offset, outward);
-        let cross = offset - along * outward;
-        let up = cam.l + along;
-        let r = sqrt(up * up + dot(cross, cross));
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        let room = cam.room + dr / (r * cam.l);
-        return Place(r, room, dr, angle(sqrt(dot(cross, cross)) / r, up / r));
+        return Place(r, cam.room + dr / (r * cam.l), dr, phi);
     }
-    let r = sqrt(dot(position, position));
-    let along = dot(position, outward);
-    let cross = position - along * outward;
-    return Place(r, (r - 1.0) / r, r - cam.l, angle(sqrt(dot(cross, cross)) / r, along / r));
+    return Place(r, (r - 1.0) / r, r - cam.l, phi);
 }
 
 fn spline_weights(t: f32) -> vec4<f32> {
@@ -247,7 +252,7 @@ fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32> {
     let wy = spline_weights(py - f32(j));
     var sum = vec3<f32>(0.0);
     for (var b = 0u; b < 4u; b++) {
-        let at = (j + b) * (cam.nx + 2u) + i;
+        let at = HEADER + (j + b) * (cam.nx + 2u) + i;
         let row = wx.x * lens_texel(at).xyz + wx.y * lens_texel(at + 1u).xyz + wx.z * lens_texel(at + 2u).xyz + wx.w * lens_texel(at + 3u).xyz;
         sum += wy[b] * row;
     }
@@ -258,8 +263,31 @@ fn finite(x: f32) -> bool {
     return abs(x) < 3e38;
 }
 
-fn lookup(cam: LensCamera, at: Place, sweep: f32) -> Seen {
-    let nothing = Seen(vec2<f32>(1.0, 0.0), 0.0, 0.0, 0.0, 0.0, false);
+fn lens_camera() -> LensCamera {
+    let t0 = lens_texel(0u);
+    let t1 = lens_texel(1u);
+    let t2 = lens_texel(2u);
+    let t3 = lens_texel(3u);
+    return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y));
+}
+
+fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
+    if cam.room <= 0.0 {
+        // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
+        let e = energy(w_e, c, room);
+        return vec3<f32>(-sqrt(e * e - cam.a * cam.a * cam.room), e, w_e);
+    }
+    let e = energy(w, cam.a, cam.room);
+    // Away from a turning point the energy gives the magnitude more precisely.
+    let square = e * e - c * c * room;
+    if square > 0.3 * e * e {
+        return vec3<f32>(w, e, select(sqrt(square), -sqrt(square), w_e < 0.0));
+    }
+    return vec3<f32>(w, e, w_e);
+}
+
+fn lookup(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
+    let nothing = LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return nothing;
     }
@@ -269,19 +297,36 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32) -> Seen {
     let bent = bent_sweep(swept);
     let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
     let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let w = turned_slope(guess.x, cam.a, table.x);
-    let e = energy(w, cam.a, cam.room);
-    var w_e = turned_slope(guess.y, c, table.z);
-    // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        w_e = select(sqrt(square), -sqrt(square), w_e < 0.0);
-    }
+    let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
+    let w = ray.x;
+    let e = ray.y;
+    let w_e = ray.z;
     let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
     let delay = parts.x + parts.z * (parts.y + table.y);
-    let seen = look(w, e, cam.a, cam.beta, cam.room);
-    if !(finite(seen.x) && finite(seen.y) && finite(w) && finite(w_e) && finite(e) && finite(delay)) {
+    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
+    let frequency = sqrt(radial * radial + cam.a * cam.a);
+    let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
+    let emission_frequency = sqrt(leaving * leaving + c * c);
+    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
         return nothing;
     }
-    return Seen(seen, w, w_e, e, delay, at.room > 0.0);
+    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, at.room > 0.0);
+}
+
+/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along.
+fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {
+    let cam = lens_camera();
+    let at = place(cam, along, across, height);
+    var sweep = at.phi;
+    if order == 2u {
+        sweep = 2.0 * HALF_TURN - at.phi;
+    } else if order == 3u {
+        sweep = 2.0 * HALF_TURN + at.phi;
+    }
+    return lookup(cam, at, sweep);
+}
+
+/// The same where only the offset is at hand.
+fn lens_lookup(along: f32, across: f32, order: u32) -> LensRay {
+    return lens_lookup_at(along, across, lens_texel(0u).x + along, order);
 }

@@ -36,22 +36,25 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 
     let from_apparent = seen[placement.ids.z + edge.x].apparent.xyz;
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
-    var error: f32;
-    if a.w == VERTEX_ON_AXIS {
-        error = radial_error(apex_offset(a.xyz), b.xyz, order);
-    } else if b.w == VERTEX_ON_AXIS {
-        error = radial_error(apex_offset(b.xyz), a.xyz, order);
-    } else if angle_between(from_apparent, to_apparent) < 2.0 * frame.size.w {
-        // The whole edge is seen under less than the budget allows for its bend.
-        error = 0.0;
-    } else {
+    let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
+    var error = 0.0;
+    // An edge that is seen under less than the budget allows for its bend needs no measuring.
+    if radial || angle_between(from_apparent, to_apparent) >= 2.0 * frame.size.w {
         let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
         let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
-        error = chord_error(from_apparent,
-            sight_at(emitted_offset(placement, p + (q - p) * 0.25, order), order).apparent,
-            sight_at(emitted_offset(placement, p + (q - p) * 0.5, order), order).apparent,
-            sight_at(emitted_offset(placement, p + (q - p) * 0.75, order), order).apparent,
-            to_apparent);
+        // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
+        let apex = apex_offset(select(b.xyz, a.xyz, a.w == VERTEX_ON_AXIS));
+        let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);
+        var points = array<vec3<f32>, 5>(from_apparent, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), to_apparent);
+        for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
+            let t = f32(k) * 0.25;
+            var query = query_body(p + (q - p) * t);
+            if radial {
+                query = query_fan(apex, outer, t);
+            }
+            points[k] = answer(placement, query, order).ray.apparent;
+        }
+        error = chord_error(points[0], points[1], points[2], points[3], points[4]);
     }
     edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error)), bitcast<f32>(0u), 0.0, error);
 }

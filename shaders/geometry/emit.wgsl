@@ -1,8 +1,8 @@
 // How a stage hands over: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is held inside its buffer.
 
-/// A triangle of seen vertices that is to be drawn. Its height on the screen decides how: at least a pixel, as it is; less, as a thin
-/// triangle grown to a pixel, with the covered part as alpha, so that narrow images are lines and not dots.
-fn thin_coverage(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
+/// Height of a triangle on the screen over its longest side, in pixels. In a thin image it decides how the triangle is drawn: at least a
+/// pixel, as it is; less, grown to a pixel, with the covered part as alpha, so that narrow images are lines and not dots.
+fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
     let a = p1 - p0;
     let b = p2 - p0;
     let area = abs(a.x * b.y - a.y * b.x);
@@ -23,8 +23,12 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, len
     return centre + direction * along_part + across * across_part;
 }
 
-/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye).
-fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
+/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
+/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque.
+fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
+    if (placement.triangles.w & PLACEMENT_THIN) == 0u {
+        return false;
+    }
     let c0 = clip_position(seen[i0].apparent.xyz);
     let c1 = clip_position(seen[i1].apparent.xyz);
     let c2 = clip_position(seen[i2].apparent.xyz);
@@ -35,14 +39,14 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
     let p0 = pixels(c0);
     let p1 = pixels(c1);
     let p2 = pixels(c2);
-    let height = thin_coverage(p0, p1, p2);
+    let height = height_on_screen(p0, p1, p2);
     if height >= 1.0 {
         return false;
     }
     // Coverage adds up to the truth only if each line of sight meets one layer: back faces are left out.
     let facing = dot(seen[i0].normal.xyz, seen[i0].leaving.xyz) + dot(seen[i1].normal.xyz, seen[i1].leaving.xyz)
         + dot(seen[i2].normal.xyz, seen[i2].leaving.xyz);
-    if !two_sided && facing < 0.0 {
+    if !two_sided(placement) && facing < 0.0 {
         return true;
     }
     let a = p1 - p0;
@@ -71,8 +75,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, two_sided: bool) -> bool {
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, two_sided: bool) {
-    if emit_thin(i0, i1, i2, two_sided) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement) {
+    if emit_thin(i0, i1, i2, placement) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);

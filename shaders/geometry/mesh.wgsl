@@ -29,11 +29,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let w = min(BLOCK, item.grid.y - item.grid.w);
 
     for (var k = lane; k < item.place.z; k += 64u) {
+        var corner: vec3<f32>;
+        var s = 1.0;
         if fan {
-            seen[item.place.x + k] = fan_vertex(item, placement, triangle, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
+            let point = fan_point(item, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
+            corner = point.xyz;
+            s = point.w;
         } else {
-            seen[item.place.x + k] = triangle_vertex(item, placement, triangle, k);
+            corner = triangle_point(item, k);
         }
+        seen[item.place.x + k] = vertex_at(item, placement, triangle, corner, s);
     }
     storageBarrier();
 
@@ -65,7 +70,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         let slot = item.place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, two_sided(placement)) {
+        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement) {
             b = a;
             c = a;
         }
@@ -79,99 +84,106 @@ fn unseen(vertex: u32) -> bool {
     return seen[vertex].apparent.w <= 0.0;
 }
 
-/// Vertex k of a triangle's grid: row i counts from corner 0 to the opposite edge, column j along that edge.
-fn triangle_vertex(item: WorkItem, placement: Placement, triangle: ModelTriangle, k: u32) -> SeenVertex {
+/// Vertex k of a triangle's grid, barycentric: row i counts from corner 0 to the opposite edge, column j along that edge.
+fn triangle_point(item: WorkItem, k: u32) -> vec3<f32> {
     let n = item.grid.x;
     let i = triangle_row(k);
     let j = k - i * (i + 1u) / 2u;
     let c0 = item.piece.corner_0.xyz;
     let c1 = item.piece.corner_1.xyz;
     let c2 = item.piece.corner_2.xyz;
-    var corner: vec3<f32>;
     if i == 0u {
-        corner = c0;
+        return c0;
     } else if i == n && j == 0u {
-        corner = c1;
+        return c1;
     } else if i == n && j == n {
-        corner = c2;
+        return c2;
     } else if j == 0u {
-        corner = side_point(c0, c1, i, n, item.levels.z);
+        return side_point(c0, c1, i, n, item.levels.z);
     } else if j == i {
-        corner = side_point(c0, c2, i, n, item.levels.y);
+        return side_point(c0, c2, i, n, item.levels.y);
     } else if i == n {
-        corner = side_point(c1, c2, j, n, item.levels.x);
-    } else {
-        corner = (c0 * f32(n - i) + c1 * f32(i - j) + c2 * f32(j)) / f32(n);
+        return side_point(c1, c2, j, n, item.levels.x);
     }
-    return vertex_at(placement, item.piece.what.x, triangle, corner);
+    return (c0 * f32(n - i) + c1 * f32(i - j) + c2 * f32(j)) / f32(n);
 }
 
 /// Point i of n on a side of `level` segments, the same from both ends.
 fn side_point(a: vec3<f32>, b: vec3<f32>, i: u32, n: u32, level: u32) -> vec3<f32> {
+    if i == 0u {
+        return a;
+    }
+    if i == n {
+        return b;
+    }
     if comes_first(a, b) {
         return a + (b - a) * snapped(i, n, level);
     }
     return b + (a - b) * snapped(n - i, n, level);
 }
 
-/// The seen vertex of a point of a model triangle. A corner of the model itself is taken from the first stage, to the last bit.
-fn vertex_at(placement: Placement, index: u32, triangle: ModelTriangle, corner: vec3<f32>) -> SeenVertex {
-    if corner.x == 1.0 || corner.y == 1.0 || corner.z == 1.0 {
-        let which = select(select(triangle.vertices.z, triangle.vertices.y, corner.y == 1.0), triangle.vertices.x, corner.x == 1.0);
-        return seen[placement.ids.z + which];
-    }
-    let body = body_point(placement, triangle, corner);
-    let offset = emitted_offset(placement, body, placement.ids.x);
-    let ray = sight_at(offset, placement.ids.x);
-    return finished(placement, index, triangle, corner, ray, offset);
-}
-
-fn fan_vertex(item: WorkItem, placement: Placement, triangle: ModelTriangle, row: u32, column: u32) -> SeenVertex {
-    let order = placement.ids.x;
+/// A vertex of a fan's grid: the point of its outer edge, barycentric, and w: how far from the axis towards it. Each side has its own level:
+/// the arc at the axis, the outer edge, the two radial sides.
+fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
     let c1 = item.piece.corner_1.xyz;
     let c2 = item.piece.corner_2.xyz;
     let rows = item.grid.x;
     let columns = item.grid.y;
-    // Each side has its own level: the arc at the axis, the outer edge, the two radial sides.
-    var t = f32(column) / f32(columns);
-    if row == rows {
-        t = snapped(column, columns, item.levels.y);
-    } else if row == 0u {
-        t = snapped(column, columns, item.levels.x);
-    }
     var s = f32(row) / f32(rows);
     if column == 0u {
         s = snapped(row, rows, item.levels.z);
     } else if column == columns {
         s = snapped(row, rows, item.levels.w);
     }
-    var outer = edge_point(c1, c2, t);
+    var level = columns;
     if row == rows {
-        if !comes_first(c1, c2) {
-            outer = c2 + (c1 - c2) * snapped(columns - column, columns, item.levels.y);
-        } else {
-            outer = c1 + (c2 - c1) * t;
-        }
-        if column == 0u { outer = c1; }
-        if column == columns { outer = c2; }
-        return vertex_at(placement, item.piece.what.x, triangle, outer);
+        level = item.levels.y;
+    } else if row == 0u {
+        level = item.levels.x;
     }
-    let apex = apex_offset(emitted_offset(placement, body_point(placement, triangle, item.piece.corner_0.xyz), order));
-    let rim = emitted_offset(placement, body_point(placement, triangle, outer), order);
-    let ray = fan_sight(apex, rim, s, order);
-    let corner = mix(item.piece.corner_0.xyz, outer, vec3<f32>(s));
-    return finished(placement, item.piece.what.x, triangle, corner, ray, apex + (rim - apex) * s);
+    return vec4<f32>(side_point(c1, c2, column, columns, level), s);
 }
 
-fn finished(placement: Placement, index: u32, triangle: ModelTriangle, corner: vec3<f32>, ray: Sight, offset: vec3<f32>) -> SeenVertex {
+/// The seen vertex of a point of a model triangle (s = 1), or of one between a fan's axis and that point (s < 1). A corner of the model
+/// itself is taken from the first stage, to the last bit.
+fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
+    if s == 1.0 && (point.x == 1.0 || point.y == 1.0 || point.z == 1.0) {
+        let which = select(select(triangle.vertices.z, triangle.vertices.y, point.y == 1.0), triangle.vertices.x, point.x == 1.0);
+        return seen[placement.ids.z + which];
+    }
+    // Inside a fan: the axis point and the outer point at their emission times, then the place between them.
+    let body = body_point(placement, triangle, point);
+    var apex = vec3<f32>(0.0);
+    var found: Answer;
+    for (var k = select(0u, 1u, s == 1.0); k < select(3u, 2u, s == 1.0); k++) {
+        var query = query_body(body);
+        if k == 0u {
+            query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
+        } else if k == 2u {
+            query = query_fan(apex, found.offset, s);
+            if s == 0.0 {
+                // A quarter of a pixel past the axis: the next order begins there with arcs cut at other points, and between two chords of
+                // one circle a pixel could be missed.
+                query.across = -0.25 * frame.size.z * length(apex);
+            }
+        }
+        let next = answer(placement, query, placement.ids.x);
+        if k == 0u {
+            apex = apex_offset(next.offset);
+        } else {
+            found = next;
+        }
+    }
+    let corner = mix(item.piece.corner_0.xyz, point, vec3<f32>(s));
     let first = placement.vertices.x;
     let v0 = model_vertices[first + triangle.vertices.x];
     let v1 = model_vertices[first + triangle.vertices.y];
     let v2 = model_vertices[first + triangle.vertices.z];
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     let u = v0.position.w * corner.x + v1.position.w * corner.y + v2.position.w * corner.z;
-    var vertex = seen_vertex(placement, index, ray, offset, normal_of(placement, normal.xyz), vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
-    if !ray.valid || !finite_vector(ray.apparent) {
+    var vertex = seen_vertex(placement, item.piece.what.x, found.ray, found.offset, normal_of(placement, normal.xyz),
+        vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
+    if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);
     }

@@ -95,48 +95,12 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
     return b + (a - b) * (1.0 - t);
 }
 
-/// Offset from the camera of a body point at its own emission time.
-fn emitted_offset(placement: Placement, body: vec3<f32>, order: u32) -> vec3<f32> {
-    return offset_at(placement, body, emission_shift(placement, body, order));
-}
-
-fn apparent_corner(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
-    let body = body_point(placement, triangle, corner);
-    return sight_at(emitted_offset(placement, body, placement.ids.x), placement.ids.x).apparent;
-}
-
-/// Error in radians of replacing the seen curve between two corners by a chord.
-fn edge_error(placement: Placement, triangle: ModelTriangle, from_corner: vec3<f32>, to_corner: vec3<f32>) -> f32 {
-    var a = from_corner;
-    var b = to_corner;
-    if !comes_first(a, b) {
-        a = to_corner;
-        b = from_corner;
-    }
-    return chord_error(
-        apparent_corner(placement, triangle, a),
-        apparent_corner(placement, triangle, a + (b - a) * 0.25),
-        apparent_corner(placement, triangle, a + (b - a) * 0.5),
-        apparent_corner(placement, triangle, a + (b - a) * 0.75),
-        apparent_corner(placement, triangle, b));
-}
-
 /// A point of the fan round the axis: `outer` is an offset of its outer edge, `apex` the offset of the axis point, `s` runs from the
 /// axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis itself.
-fn fan_sight(apex: vec3<f32>, outer: vec3<f32>, s: f32, order: u32) -> Sight {
+fn query_fan(apex: vec3<f32>, outer: vec3<f32>, s: f32) -> Query {
     let parts = split_offset(outer);
-    let offset = apex + (outer - apex) * s;
-    return sight(dot(offset, frame.radial.xyz), parts.across * s, parts.side, order);
-}
-
-/// Error of a radial side of a fan.
-fn radial_error(apex: vec3<f32>, outer: vec3<f32>, order: u32) -> f32 {
-    return chord_error(
-        fan_sight(apex, outer, 0.0, order).apparent,
-        fan_sight(apex, outer, 0.25, order).apparent,
-        fan_sight(apex, outer, 0.5, order).apparent,
-        fan_sight(apex, outer, 0.75, order).apparent,
-        fan_sight(apex, outer, 1.0, order).apparent);
+    let along = dot(apex + (outer - apex) * s, frame.radial.xyz);
+    return Query(vec3<f32>(0.0), true, along, parts.across * s, parts.side);
 }
 
 /// The offset of the axis point: on the axis exactly, at the height of the barycentric point.

@@ -14,39 +14,24 @@ struct Sight {
 /// The ray of `order` from the point `offset` away from the camera (rain axes). `side` is the unit vector across the axis towards the
 /// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it.
 fn sight(along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
-    let camera = lens_camera();
-    // In the plane of the ray: x along the outward radial, y across.
-    let at = place(camera, vec3<f32>(1.0, 0.0, 0.0), vec3<f32>(along, across, 0.0), vec3<f32>(camera.l + along, across, 0.0));
-    var sweep = at.phi;
-    var turn = 1.0;
-    if order == 2u {
-        sweep = 2.0 * HALF_TURN - at.phi;
-        turn = -1.0;
-    } else if order == 3u {
-        sweep = 2.0 * HALF_TURN + at.phi;
-    }
-    let ray = lookup(camera, at, sweep);
+    let ray = lens_lookup(along, across, order);
+    let turn = select(1.0, -1.0, order == 2u);
     let n = frame.radial.xyz;
     // The direction, at the camera, in which the ray sweeps backwards round the hole; even orders go the other way.
-    let seen_at = n * ray.look.x + side * (turn * ray.look.y);
+    let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
 
     var result: Sight;
     result.valid = ray.valid && ray.delay > 0.0;
     result.delay = ray.delay;
     result.apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
-    // Over E b, the photon's momentum across is u and along it as `look` has it; its frequency is the length of both.
-    let frequency = camera.a / max(ray.look.y, 1e-9);
-    result.arriving = vec4<f32>(-seen_at * frequency, frequency);
+    result.arriving = vec4<f32>(-seen_at * ray.frequency, ray.frequency);
 
     // At the point: radial m, and the sweep's tangent side·cosφ − n·sinφ, times its sense.
-    let c = 1.0 / at.r;
-    let sin_phi = across * c;
-    let cos_phi = (camera.l + along) * c;
-    let m = n * cos_phi + side * sin_phi;
-    let tangent = (side * cos_phi - n * sin_phi) * turn;
-    let there = look(ray.emission_slope, ray.energy, c, sqrt(c), max(at.room, 1e-4));
-    let emitted_frequency = c / max(there.y, 1e-9);
-    result.leaving = vec4<f32>(-(m * there.x + tangent * there.y) * emitted_frequency, emitted_frequency);
+    let height = frame.radial.w + along;
+    let c = inverseSqrt(max(height * height + across * across, 1e-12));
+    let m = n * (height * c) + side * (across * c);
+    let tangent = (side * (height * c) - n * (across * c)) * turn;
+    result.leaving = vec4<f32>(m * ray.emission_radial - tangent * ray.emission_tangential, ray.emission_frequency);
     return result;
 }
 
@@ -71,11 +56,6 @@ fn split_offset(offset: vec3<f32>) -> Split {
     return result;
 }
 
-fn sight_at(offset: vec3<f32>, order: u32) -> Sight {
-    let parts = split_offset(offset);
-    return sight(parts.along, parts.across, parts.side, order);
-}
-
 /// ν_observed/ν_emitted for an emitter of rain-frame momentum `momentum` (xyz, γ).
 fn frequency_ratio(arriving: vec4<f32>, leaving: vec4<f32>, momentum: vec4<f32>) -> f32 {
     // Time row of the Lorentz matrix: the photon (k, ω) has frequency Λ_t·(k, ω) in the camera's frame.
@@ -98,27 +78,64 @@ fn offset_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     return placement.offset.xyz + still + (placement.velocity.xyz + turning) * s;
 }
 
-/// The emission time of a body point, after T₀: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s, since no
-/// emitter outruns light, so Newton with its slope held above a floor converges from any start.
-fn emission_shift(placement: Placement, body: vec3<f32>, order: u32) -> f32 {
-    if placement.velocity.w == 0.0 {
-        return 0.0;
-    }
-    var s = 0.0;
-    for (var i = 0; i < 3; i++) {
-        let ray = sight_at(offset_at(placement, body, s), order);
-        let missing = placement.offset.w - (s + ray.delay);
-        // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
-        let energy = ray.leaving.w - river_at(placement, body, s, ray.leaving.xyz);
-        let slope = 1.0 - dot(placement.velocity.xyz, ray.leaving.xyz) / energy;
-        s += missing / max(slope, 0.05);
-    }
-    return s;
+/// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
+struct Query {
+    body: vec3<f32>,
+    fixed: bool,
+    along: f32,
+    across: f32,
+    side: vec3<f32>,
 }
 
-/// β n·k at the point: what turns the rain frame's frequency into the conserved energy E = ω − β n·k.
-fn river_at(placement: Placement, body: vec3<f32>, s: f32, k: vec3<f32>) -> f32 {
-    let position = frame.radial.xyz * frame.radial.w + offset_at(placement, body, s);
+struct Answer {
+    ray: Sight,
+    /// Offset from the camera at emission.
+    offset: vec3<f32>,
+}
+
+fn query_body(body: vec3<f32>) -> Query {
+    return Query(body, false, 0.0, 0.0, vec3<f32>(0.0));
+}
+
+/// Steps of Newton on the emission time: each squares the error, which starts as the part of c at which the object turns or accelerates
+/// while light crosses it.
+const EMISSION_STEPS: u32 = 3u;
+
+/// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀; the left side increases strictly with s, since no emitter
+/// outruns light, so Newton with its slope held above a floor converges from any start. There is one call of the lookup here, and a pass
+/// should call this from one place: shader compilers copy functions into every call.
+fn answer(placement: Placement, query: Query, order: u32) -> Answer {
+    var result: Answer;
+    var s = 0.0;
+    for (var i = 0u; i <= EMISSION_STEPS; i++) {
+        var along = query.along;
+        var across = query.across;
+        var side = query.side;
+        if query.fixed {
+            result.offset = frame.radial.xyz * along + side * across;
+        } else {
+            result.offset = offset_at(placement, query.body, s);
+            let parts = split_offset(result.offset);
+            along = parts.along;
+            across = parts.across;
+            side = parts.side;
+        }
+        result.ray = sight(along, across, side, order);
+        if query.fixed || placement.velocity.w == 0.0 || i == EMISSION_STEPS {
+            break;
+        }
+        let missing = placement.offset.w - (s + result.ray.delay);
+        // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
+        let energy = result.ray.leaving.w - river_at(result.offset, result.ray.leaving.xyz);
+        let slope = 1.0 - dot(placement.velocity.xyz, result.ray.leaving.xyz) / energy;
+        s += missing / max(slope, 0.05);
+    }
+    return result;
+}
+
+/// β n·k at an offset from the camera: what turns the rain frame's frequency into the conserved energy E = ω − β n·k.
+fn river_at(offset: vec3<f32>, k: vec3<f32>) -> f32 {
+    let position = frame.radial.xyz * frame.radial.w + offset;
     let r = max(length(position), 1e-6);
     return dot(position, k) / (r * sqrt(r));
 }

@@ -11,25 +11,87 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let piece = pieces[queue * frame.capacity.z + index];
     let placement = placements[piece.what.x];
     let triangle = model_triangles[piece.what.y];
+    measure(piece, placement, triangle);
+    model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
+        bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
     if piece.what.z == PIECE_FAN {
-        refine_fan(piece, placement, triangle, 1u - queue);
+        refine_fan(piece, 1u - queue);
     } else {
-        refine_triangle(piece, placement, triangle, 1u - queue);
+        refine_triangle(piece, 1u - queue);
     }
 }
 
-fn refine_triangle(piece: Piece, placement: Placement, triangle: ModelTriangle, queue: u32) {
+/// What was measured of a piece: its points as they are seen, and for a fan their offsets.
+var<private> points: array<vec3<f32>, 17>;
+var<private> offsets: array<vec3<f32>, 6>;
+
+/// Levels of the model triangle's edges, from the stage of edges.
+var<private> model_levels: vec3<u32>;
+
+/// The level of the edge between two corners: a whole edge of the model has the level that its other triangle knows too.
+fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
+    let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
+    if !whole {
+        return level_for(error);
+    }
+    let absent = a + b;
+    if absent.x == 0.0 {
+        return model_levels.x;
+    }
+    return select(model_levels.z, model_levels.y, absent.y == 0.0);
+}
+
+/// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
+/// at ¼, ½, ¾; then from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾, from 10 that at corner 2, from 14 the arc at ¼, ½, ¾.
+fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
+    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    let fan = piece.what.z == PIECE_FAN;
+    let count = select(12u, 17u, fan);
+    for (var k = 0u; k < count; k++) {
+        var corner = corners[min(k, 2u)];
+        if k >= 3u && k < 12u {
+            let side = select((k - 3u) / 3u, 0u, fan);
+            corner = quarter_point(corners[(side + 1u) % 3u], corners[(side + 2u) % 3u], (k - 3u) % 3u + 1u);
+        }
+        var query = query_body(body_point(placement, triangle, corner));
+        if fan && k >= 6u {
+            let apex = apex_offset(offsets[0]);
+            if k < 10u {
+                query = query_fan(apex, offsets[1], f32(k - 6u) * 0.25);
+            } else if k < 14u {
+                query = query_fan(apex, offsets[2], f32(k - 10u) * 0.25);
+            } else {
+                query = query_fan(apex, offsets[3u + k - 14u], 0.0);
+            }
+        }
+        let found = answer(placement, query, placement.ids.x);
+        points[k] = found.ray.apparent;
+        if k < 6u {
+            offsets[k] = found.offset;
+        }
+    }
+}
+
+/// The point at k quarters from a to b, from whichever end comes first.
+fn quarter_point(a: vec3<f32>, b: vec3<f32>, k: u32) -> vec3<f32> {
+    return edge_point(a, b, f32(k) * 0.25);
+}
+
+/// Error of the edge opposite corner `side` of a measured triangle.
+fn side_error(side: u32) -> f32 {
+    let k = 3u + 3u * side;
+    return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
+}
+
+fn refine_triangle(piece: Piece, queue: u32) {
     let c0 = piece.corner_0.xyz;
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let error_0 = edge_error(placement, triangle, c1, c2);
-    let error_1 = edge_error(placement, triangle, c2, c0);
-    let error_2 = edge_error(placement, triangle, c0, c1);
-    if off_screen(apparent_corner(placement, triangle, c0), apparent_corner(placement, triangle, c1), apparent_corner(placement, triangle, c2),
-            max(error_0, max(error_1, error_2))) {
+    let errors = vec3<f32>(side_error(0u), side_error(1u), side_error(2u));
+    if off_screen(points[0], points[1], points[2], max(errors.x, max(errors.y, errors.z))) {
         return;
     }
-    let levels = vec3<u32>(level_for(error_0), level_for(error_1), level_for(error_2));
+    let levels = vec3<u32>(level_between(c1, c2, errors.x), level_between(c2, c0, errors.y), level_between(c0, c1, errors.z));
     let most = max(levels.x, max(levels.y, levels.z));
     let depth = piece.what.w;
     if most <= BLOCK || depth >= DEEPEST {
@@ -73,15 +135,10 @@ fn refine_triangle(piece: Piece, placement: Placement, triangle: ModelTriangle, 
     }
 }
 
-fn refine_fan(piece: Piece, placement: Placement, triangle: ModelTriangle, queue: u32) {
-    let order = placement.ids.x;
+fn refine_fan(piece: Piece, queue: u32) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let apex = apex_offset(emitted_offset(placement, body_point(placement, triangle, piece.corner_0.xyz), order));
-    let outer_1 = emitted_offset(placement, body_point(placement, triangle, c1), order);
-    let outer_2 = emitted_offset(placement, body_point(placement, triangle, c2), order);
-    let outer_error = edge_error(placement, triangle, c1, c2);
-    let outer = level_for(outer_error);
+    let outer = level_between(c1, c2, chord_error(points[1], points[3], points[4], points[5], points[2]));
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {
         let m = edge_point(c1, c2, 0.5);
@@ -89,24 +146,9 @@ fn refine_fan(piece: Piece, placement: Placement, triangle: ModelTriangle, queue
         emit_piece(queue, piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;
     }
-    let side_1_error = radial_error(apex, outer_1, order);
-    let side_2_error = radial_error(apex, outer_2, order);
-    // The arc at the axis, over the azimuths of the outer edge.
-    let arc_error = chord_error(
-        fan_sight(apex, outer_1, 0.0, order).apparent,
-        fan_sight(apex, fan_outer(placement, triangle, c1, c2, 0.25), 0.0, order).apparent,
-        fan_sight(apex, fan_outer(placement, triangle, c1, c2, 0.5), 0.0, order).apparent,
-        fan_sight(apex, fan_outer(placement, triangle, c1, c2, 0.75), 0.0, order).apparent,
-        fan_sight(apex, outer_2, 0.0, order).apparent);
-    let levels = vec4<u32>(
-        min(level_for(arc_error), 64u),
-        min(outer, BLOCK),
-        min(level_for(side_1_error), 64u),
-        min(level_for(side_2_error), 64u));
+    let side_1 = level_for(chord_error(points[6], points[7], points[8], points[9], points[1]));
+    let side_2 = level_for(chord_error(points[10], points[11], points[12], points[13], points[2]));
+    let arc = level_for(chord_error(points[6], points[14], points[15], points[16], points[10]));
+    let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     _ = emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
-}
-
-/// The offset of the outer point of a fan at fraction t from corner 1 to corner 2.
-fn fan_outer(placement: Placement, triangle: ModelTriangle, c1: vec3<f32>, c2: vec3<f32>, t: f32) -> vec3<f32> {
-    return emitted_offset(placement, body_point(placement, triangle, edge_point(c1, c2, t)), placement.ids.x);
 }

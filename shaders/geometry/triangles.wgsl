@@ -82,13 +82,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     if most <= 1u {
-        emit_triangle(slots.x, slots.y, slots.z, two_sided(placement));
+        emit_triangle(slots.x, slots.y, slots.z, placement);
         return;
     }
     if most <= BLOCK {
         let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
         if !emit_work(piece, vec4<u32>(levels, 1u), most, 1u) {
-            emit_triangle(slots.x, slots.y, slots.z, two_sided(placement));
+            emit_triangle(slots.x, slots.y, slots.z, placement);
         }
         return;
     }

@@ -14,16 +14,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     let vertex = model_vertices[placement.vertices.x + local];
     let order = placement.ids.x;
-    let s = emission_shift(placement, vertex.position.xyz, order);
-    let offset = offset_at(placement, vertex.position.xyz, s);
     let slot = placement.ids.z + local;
-
-    var parts = split_offset(offset);
+    let found = answer(placement, query_body(vertex.position.xyz), order);
+    let offset = found.offset;
+    let parts = split_offset(offset);
     let on_axis = parts.across < axis_tolerance(offset) && axis_matters(parts.along, order);
-    if on_axis {
-        parts.across = 0.0;
-    }
-    let ray = sight(parts.along, parts.across, parts.side, order);
+    let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);
     if ray.valid && !ok {
         atomicAdd(&counters.caught, 1u);

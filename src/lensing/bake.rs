@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::double::{Camera, bent_sweep, delay_parts, slope_guess};
+use super::double::{Camera, bent_sweep, delay_parts, emission_scale, slope_guess};
 use super::table::{Scheme, Table};
 use super::{grid, spline};
 use crate::spacetime::light::{Branch, Ray, delay, join_near};
@@ -19,18 +19,24 @@ pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let time = delay(&ray, c, sweep, cam.a);
     let Ray { slope: w, emission_slope: w_e, energy: e } = ray;
     let r = 1.0 / c;
+    let scale = emission_scale(cam, c);
     let parts = delay_parts(cam, r, 1.0 - c, r - cam.l, bent, w, e, w_e);
     Some([
         cam.a.atan2(-w) - cam.a.atan2(-w0),
         (time - parts[0]) / parts[2] - parts[1],
-        c.atan2(-w_e) - c.atan2(-w_e0),
+        scale.atan2(-w_e) - scale.atan2(-w_e0),
     ])
 }
 
-/// The table of `nodes` camera radii, `nodes` point radii and twice as many angles. `done` is called with each share of the work
+/// How many nodes along r, Φ and L a table of `nodes` has: the interpolation in L needs the most.
+pub fn size(nodes: usize) -> [usize; 3] {
+    [(nodes * 62 / 100).max(5), (nodes * 106 / 100).max(5), nodes]
+}
+
+/// The table of `nodes` camera radii. `done` is called with each share of the work
 /// that is finished; the shares add up to 1.
 pub fn residual_table(nodes: usize, done: impl Fn(f64) + Sync) -> Table {
-    let (nx, ny, nz) = (nodes, 2 * nodes, nodes);
+    let [nx, ny, nz] = size(nodes);
     let (mx, my, mz) = (spline::coefficients(nx), spline::coefficients(ny), spline::coefficients(nz));
     let layers: Vec<Vec<[f64; 3]>> = (0..nz)
         .into_par_iter()

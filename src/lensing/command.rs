@@ -7,33 +7,20 @@ use super::score::{Points, Spread, score};
 use super::{Scheme, bake};
 
 /// What `bake` is asked for.
-#[derive(clap::Args, Clone, Debug)]
-pub struct BakeArgs {
-    /// Nodes along each axis (twice as many angles in the scheme "residual")
-    #[arg(long, default_value_t = super::FULL_NODES, value_parser = nodes)]
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Nodes along each axis, at least 5 (twice as many angles in the scheme residual).
     pub nodes: usize,
-    /// residual, paper or paper-uniform
-    #[arg(long, default_value = "residual", value_parser = scheme)]
+    /// What to store.
     pub scheme: Scheme,
-    /// The file to write
-    #[arg(short, default_value = "tables/baked.lut")]
+    /// The file to write.
     pub output: PathBuf,
-    /// Random points for each order to measure the error on
-    #[arg(long, default_value_t = 30_000)]
+    /// Random points for each order to measure the error on.
     pub points: usize,
 }
 
-fn nodes(text: &str) -> Result<usize, String> {
-    let n: usize = text.parse().map_err(|_| "not a whole number".to_string())?;
-    if (5..=256).contains(&n) { Ok(n) } else { Err("must be from 5 to 256".to_string()) }
-}
-
-fn scheme(text: &str) -> Result<Scheme, String> {
-    Scheme::named(text).ok_or_else(|| "must be residual, paper or paper-uniform".to_string())
-}
-
 /// Bakes with a progress bar, writes the file, prints size, time and the error on fresh random points.
-pub fn run(args: &BakeArgs) -> Result<(), super::TableError> {
+pub fn run(args: &Request) -> Result<(), super::TableError> {
     let style = indicatif::ProgressStyle::with_template("{bar:40} {percent} % {msg}").unwrap_or_else(|_| indicatif::ProgressStyle::default_bar());
     let bar = indicatif::ProgressBar::new(1000).with_style(style).with_message("baking");
     let finished = std::sync::Mutex::new(0.0);

@@ -51,9 +51,9 @@ pub struct Camera {
 /// The constants of the camera at radius `l`.
 pub fn camera(l: f64) -> Camera {
     let a = 1.0 / l;
-    let m = (-(a / 0.45f64).powi(4)).exp();
+    let m = (-(a / 0.45f64).powi(2)).exp();
     let n = -m + (1.0 - m) * 2.25 * a * a / (a + 1.0 / 3.0);
-    let soft = 0.3 * a.min(1.0);
+    let soft = 0.3 * a / (1.0 + a * a).sqrt();
     let raw = |c: f64| (c + soft).ln() - 2.0 * (1.0 - c).sqrt();
     let (first, last) = (raw(POINT_RANGE[0] as f64), raw(POINT_RANGE[1] as f64));
     Camera {
@@ -101,7 +101,7 @@ pub fn sweep_raw(sweep: Real, s: Real) -> Real {
 
 /// The table's second coordinate, 0 to 1 over Φ from 0 to 3π.
 pub fn sweep_axis(cam: &Camera, c: Real, sweep: Real) -> Real {
-    let s = 2.8 * (cam.a.min(1.0) + c).sqrt();
+    let s = 2.8 * (cam.a / (1.0 + cam.a) + c).sqrt();
     let first = sweep_raw(0.0, s);
     (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first)
 }
@@ -137,15 +137,22 @@ pub fn basis(cam: &Camera, sweep: Real) -> [Real; 2] {
 /// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
 pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
     let [s, k] = basis(cam, bent);
-    let am = cam.a * cam.fade;
+    // What is right only in weak fields, held down where K grows.
+    let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
+    let am = cam.a * m;
     let f = cam.force;
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
-    let q = cam.fade * k * k;
+    let q = m * k * k;
     let root = (b * b + 2.0 * q * c).max(0.05 * b * b + 1e-4 * q).sqrt();
     let w = if b > 0.0 { 2.0 * c / (b + root) } else { (root - b) / q };
-    let ahead = w * ((1.0 + cam.bend * k) * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + cam.fade * k * s * w * w;
-    [w, ahead]
+    let turn = 1.0 + cam.bend * k;
+    if cam.bend > 0.0 {
+        // The same derivative with the growing terms that cancel taken out by the equation for w.
+        let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
+        return [w, (turn * rise + f * k + rest) / s + w * am * s * s];
+    }
+    [w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w]
 }
 
 /// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
@@ -153,11 +160,13 @@ pub fn energy(w: Real, u: Real, room: Real) -> Real {
     (w * w + u * u * room).max(0.0).sqrt()
 }
 
-/// (cos ψ, sin ψ) of the look direction in the rain frame at u, for slope w and energy e ≥ 0; ψ from the outward radial.
-pub fn look(w: Real, e: Real, u: Real, beta: Real, room: Real) -> [Real; 2] {
-    let (radial, across) = if w > 0.0 { (w + beta * e, u * room) } else { (u * u - e * e, u * (beta * e - w)) };
-    let n = 1.0 / (radial * radial + across * across).sqrt();
-    [-radial * n, across * n]
+/// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e ≥ 0, `room` = 1 − u; the one
+/// against the sweep is u. Regular through the horizon for w ≤ 0.
+pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Real {
+    if w > 0.0 {
+        return (w + beta * e) / room;
+    }
+    (u * u - e * e) / (beta * e - w)
 }
 
 /// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn`: how the table corrects a closed form.
@@ -167,6 +176,11 @@ pub fn turned_slope(guess: Real, u: Real, turn: Real) -> Real {
     let (ct, st) = (turn.cos(), turn.sin());
     let sine = (s0 * ct + c0 * st).max(1e-12);
     -u * (c0 * ct - s0 * st) / sine
+}
+
+/// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
+pub fn emission_scale(cam: &Camera, c: Real) -> Real {
+    c + cam.a / (1.0 + 4.0 * cam.a)
 }
 
 /// The parts of the delay T = p₀ + p₂ (p₁ + table): what is singular at the horizon and what falls with the rain; the chord and

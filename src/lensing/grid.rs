@@ -5,9 +5,9 @@ use super::double::{Camera, LARGEST_SWEEP, POINT_RANGE, camera, point_axis, swee
 /// The range of camera radii, in r_s.
 pub const CAMERA_RANGE: [f64; 2] = [0.05, 5000.0];
 
-/// ln L, stretched around the horizon.
+/// ln L, stretched around the horizon and around L = 2.5, where the closed form goes from strong to weak fields.
 fn camera_raw(l: f64) -> f64 {
-    0.7 * l.ln() + (l.ln() / 0.2).asinh()
+    0.5 * l.ln() + 0.7 * (l.ln() / 0.2).asinh() + 1.2 * ((l.ln() - 0.9) / 0.4).asinh()
 }
 
 /// The third coordinate, 0 to 1 over `CAMERA_RANGE`.

@@ -1,9 +1,9 @@
 //! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 
 use super::single::*;
-use super::slice::Slice;
+use super::slice::{HEADER, Slice};
 
-/// Where a point is, as the lookup needs it; in f32, free of cancellation near the camera and near the hole.
+/// Where a point is, as the lookup needs it, free of cancellation near the camera.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
     /// r, in r_s.
@@ -16,22 +16,47 @@ pub struct Place {
     pub phi: f32,
 }
 
-/// What the lookup returns.
+/// What the lookup returns: directions in the rain frame, momenta per angular momentum (in 1/r_s).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
-    /// (cos ψ, sin ψ) of the look direction in the rain frame, ψ from the outward radial; sin ψ ≥ 0.
-    pub look: [f32; 2],
+pub struct LensRay {
+    /// Cosine of the look direction from the outward radial.
+    pub cos_psi: f32,
+    /// Sine of the same, ≥ 0.
+    pub sin_psi: f32,
+    /// T_arrival − T_emission, in r_s/c.
+    pub delay: f32,
+    /// The photon's frequency in the rain frame at the camera.
+    pub frequency: f32,
+    /// The photon's rain-frame momentum at the point: outward.
+    pub emission_radial: f32,
+    /// The same against the sweep.
+    pub emission_tangential: f32,
+    /// Its frequency there.
+    pub emission_frequency: f32,
     /// w = du/dΦ at the camera, in 1/r_s.
     pub slope: f32,
     /// w_e = du/dΦ at the point, in 1/r_s.
     pub emission_slope: f32,
     /// e = 1/b, in 1/r_s.
     pub energy: f32,
-    /// T_arrival − T_emission, in r_s/c.
-    pub delay: f32,
-    /// Whether the point is within the table: outside the horizon and all inputs finite.
+    /// Whether there is an answer: the point is outside the horizon and all inputs are finite.
     pub valid: bool,
 }
+
+/// The answer where there is none.
+const NOTHING: LensRay = LensRay {
+    cos_psi: 1.0,
+    sin_psi: 0.0,
+    delay: 0.0,
+    frequency: 1.0,
+    emission_radial: 0.0,
+    emission_tangential: 0.0,
+    emission_frequency: 1.0,
+    slope: 0.0,
+    emission_slope: 0.0,
+    energy: 0.0,
+    valid: false,
+};
 
 /// The angle of (sine, cosine), sine ≥ 0, accurate near 0 and π whatever the platform's atan2.
 pub fn angle(sine: f32, cosine: f32) -> f32 {
@@ -43,28 +68,17 @@ pub fn angle(sine: f32, cosine: f32) -> f32 {
     sine.atan2(cosine)
 }
 
-/// The place of a point from its `offset` from the camera and its `position` from the hole, both rounded from f64, and the unit
-/// vector `outward` from the hole to the camera. Near the camera the offset counts, elsewhere the position.
-pub fn place(cam: &Camera, outward: [f32; 3], offset: [f32; 3], position: [f32; 3]) -> Place {
-    let square = dot(offset, offset);
+/// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
+/// rounded from f64: near the camera the offset counts, elsewhere the height.
+pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
+    let square = along * along + across * across;
+    let r = (height * height + across * across).sqrt();
+    let phi = angle(across / r, height / r);
     if square < 0.25 * cam.l * cam.l {
-        let along = dot(offset, outward);
-        let cross = [0, 1, 2].map(|i| offset[i] - along * outward[i]);
-        let up = cam.l + along;
-        let r = (up * up + dot(cross, cross)).sqrt();
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        let room = cam.room + dr / (r * cam.l);
-        return Place { r, room, dr, phi: angle((dot(cross, cross)).sqrt() / r, up / r) };
+        return Place { r, room: cam.room + dr / (r * cam.l), dr, phi };
     }
-    let r = dot(position, position).sqrt();
-    let along = dot(position, outward);
-    let cross = [0, 1, 2].map(|i| position[i] - along * outward[i]);
-    Place { r, room: (r - 1.0) / r, dr: r - cam.l, phi: angle((dot(cross, cross)).sqrt() / r, along / r) }
-}
-
-/// a · b.
-pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    Place { r, room: (r - 1.0) / r, dr: r - cam.l, phi }
 }
 
 /// The weights of the four B-spline coefficients around the place `t` in 0..=1 between two nodes.
@@ -84,12 +98,12 @@ pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
     let wy = spline_weights(py - j as f32);
     let mut sum = [0.0; 3];
     for b in 0..4 {
-        let mut row = [0.0; 3];
-        for a in 0..4 {
-            let texel = slice.texels[((j + b) * (nx + 2) + i + a) as usize];
-            (0..3).for_each(|h| row[h] += wx[a as usize] * texel[h]);
+        let at = HEADER + ((j + b as u32) * (nx + 2) + i) as usize;
+        let t = &slice.texels[at..at + 4];
+        for h in 0..3 {
+            let row = wx[0] * t[0][h] + wx[1] * t[1][h] + wx[2] * t[2][h] + wx[3] * t[3][h];
+            sum[h] += wy[b] * row;
         }
-        (0..3).for_each(|h| sum[h] += wy[b as usize] * row[h]);
     }
     sum
 }
@@ -99,12 +113,27 @@ pub fn finite(x: f32) -> bool {
     x.abs() < 3e38
 }
 
+/// (w, e, w_e) made consistent from the two slopes of the table: each is taken from where it is well conditioned.
+pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
+    if cam.room <= 0.0 {
+        // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
+        let e = energy(w_e, c, room);
+        return [-(e * e - cam.a * cam.a * cam.room).sqrt(), e, w_e];
+    }
+    let e = energy(w, cam.a, cam.room);
+    // Away from a turning point the energy gives the magnitude more precisely.
+    let square = e * e - c * c * room;
+    if square > 0.3 * e * e {
+        return [w, e, if w_e < 0.0 { -square.sqrt() } else { square.sqrt() }];
+    }
+    [w, e, w_e]
+}
+
 /// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ).
-pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> Seen {
+pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
     let cam = &slice.camera;
-    let nothing = Seen { look: [1.0, 0.0], slope: 0.0, emission_slope: 0.0, energy: 0.0, delay: 0.0, valid: false };
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
-        return nothing;
+        return NOTHING;
     }
     let swept = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
@@ -112,19 +141,45 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> Seen {
     let bent = bent_sweep(swept);
     let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
     let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let w = turned_slope(guess[0], cam.a, table[0]);
-    let e = energy(w, cam.a, cam.room);
-    let mut w_e = turned_slope(guess[1], c, table[2]);
-    // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        w_e = if w_e < 0.0 { -square.sqrt() } else { square.sqrt() };
-    }
+    let [w, e, w_e] =
+        joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
     let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
     let delay = parts[0] + parts[2] * (parts[1] + table[1]);
-    let look = look(w, e, cam.a, cam.beta, cam.room);
-    if !(finite(look[0]) && finite(look[1]) && finite(w) && finite(w_e) && finite(e) && finite(delay)) {
-        return nothing;
+    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
+    let frequency = (radial * radial + cam.a * cam.a).sqrt();
+    let leaving = radial_momentum(w_e, e, c, c.sqrt(), room);
+    let emission_frequency = (leaving * leaving + c * c).sqrt();
+    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
+        return NOTHING;
     }
-    Seen { look, slope: w, emission_slope: w_e, energy: e, delay, valid: at.room > 0.0 }
+    LensRay {
+        cos_psi: -radial / frequency,
+        sin_psi: cam.a / frequency,
+        delay,
+        frequency,
+        emission_radial: leaving,
+        emission_tangential: c,
+        emission_frequency,
+        slope: w,
+        emission_slope: w_e,
+        energy: e,
+        valid: at.room > 0.0,
+    }
+}
+
+/// The ray of `order` (1 to 3) from the point `along` outward and `across` from the axis, away from the camera of `slice`;
+/// `height` = L + along, rounded from f64.
+pub fn lens_lookup_at(slice: &Slice, along: f32, across: f32, height: f32, order: u32) -> LensRay {
+    let at = place(&slice.camera, along, across, height);
+    let sweep = match order {
+        2 => 2.0 * HALF_TURN - at.phi,
+        3 => 2.0 * HALF_TURN + at.phi,
+        _ => at.phi,
+    };
+    lookup(slice, at, sweep)
+}
+
+/// The same where only the offset is at hand.
+pub fn lens_lookup(slice: &Slice, along: f32, across: f32, order: u32) -> LensRay {
+    lens_lookup_at(slice, along, across, slice.camera.l + along, order)
 }

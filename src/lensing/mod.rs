@@ -31,14 +31,14 @@ pub mod single {
     include!("formulas.rs");
 }
 
-pub use lookup::{Place, Seen, lookup, place};
+pub use lookup::{LensRay, lens_lookup, lens_lookup_at};
 pub use slice::Slice;
 pub use table::{Scheme, Table, TableError, load_or_bake};
 
-/// The nodes of a full-size bake: camera and point radii; there are twice as many angles.
-pub const FULL_NODES: usize = 64;
-/// The nodes of the small committed table.
-pub const SMALL_NODES: usize = 52;
+/// The camera radii of a full-size bake (`bake::size`).
+pub const FULL_NODES: usize = 112;
+/// The camera radii of the small committed table.
+pub const SMALL_NODES: usize = 78;
 
 /// Bakes a table of `scheme` with `nodes` (at least 5) along each axis; `done` is called with finished shares that add up to 1.
 pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
@@ -46,4 +46,13 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
         Scheme::Residual => bake::residual_table(nodes, done),
         Scheme::Paper | Scheme::PaperUniform => paper::bake(scheme, nodes, done),
     }
+}
+
+/// Where the small committed table lies, from the folder that the program is started in.
+pub const DEFAULT_PATH: &str = "tables/default.lut";
+
+/// The committed table; where its file cannot be used, says why on stderr and bakes it again.
+pub fn default_table() -> Table {
+    let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
+    load_or_bake(std::path::Path::new(DEFAULT_PATH), Scheme::Residual, SMALL_NODES, complain, |_| ())
 }

@@ -4,7 +4,7 @@ use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::lookup::{lookup, place};
+use super::lookup::{LensRay, lens_lookup_at};
 use super::paper;
 use super::slice::Slice;
 use super::table::{Scheme, Table};
@@ -92,18 +92,11 @@ fn spread(mut values: Vec<(f64, [f64; 3])>) -> Spread {
 }
 
 /// The table's answer for one row through the f32 lookup, positions differenced in f64 first.
-pub fn look_up_row(slice: &Slice, [r, phi, l]: [f64; 3], order: Order) -> super::Seen {
-    // The difference in a form that keeps its digits: r cos φ − L = (r − L) − 2 r sin²(φ/2).
+pub fn look_up_row(slice: &Slice, [r, phi, l]: [f64; 3], order: Order) -> LensRay {
     let half = (0.5 * phi).sin();
-    let position = [r * phi.cos(), r * phi.sin(), 0.0].map(|v| v as f32);
-    let offset = [(r - l) - 2.0 * r * half * half, r * phi.sin(), 0.0].map(|v| v as f32);
-    let at = place(&slice.camera, [1.0, 0.0, 0.0], offset, position);
-    let sweep = match order.number() {
-        1 => at.phi,
-        2 => 2.0 * super::single::HALF_TURN - at.phi,
-        _ => 2.0 * super::single::HALF_TURN + at.phi,
-    };
-    lookup(slice, at, sweep)
+    // r cos φ − L in a form that keeps its digits near the camera.
+    let along = (r - l) - 2.0 * r * half * half;
+    lens_lookup_at(slice, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, u32::from(order.number()))
 }
 
 /// The errors of `table` for each order on `count` points of each, drawn from `seed`.
@@ -125,11 +118,10 @@ fn score_order(table: &Table, points: Points, count: usize, seed: u64, order: Or
                 let seen = paper::lookup(table, row, order.number());
                 return Some((row, [(seen[0] - exact_angle).abs().to_degrees(), (seen[1] - exact.delay).abs(), exact.delay, 0.0]));
             }
-            let seen = look_up_row(&Slice::at(table, l), row, order);
+            let seen = look_up_row(&Slice::new(table, l), row, order);
             let psi = rain_angle(exact.slope, exact.energy, 1.0 / l);
-            let angle = (seen.look[1] as f64 * psi.cos() - seen.look[0] as f64 * psi.sin())
-                .atan2(seen.look[0] as f64 * psi.cos() + seen.look[1] as f64 * psi.sin())
-                .abs();
+            let (cos, sin) = (seen.cos_psi as f64, seen.sin_psi as f64);
+            let angle = (sin * psi.cos() - cos * psi.sin()).atan2(cos * psi.cos() + sin * psi.sin()).abs();
             let angle = if seen.valid { angle } else { std::f64::consts::PI };
             let emission = ((1.0 / r).atan2(-seen.emission_slope as f64) - (1.0 / r).atan2(-exact.emission_slope)).abs();
             Some((row, [angle.to_degrees(), (seen.delay as f64 - exact.delay).abs(), exact.delay, emission.to_degrees()]))

@@ -2,6 +2,7 @@
 //!
 //! The input is CSV with the header `r,phi,L` (r_s = 1, radians), the output CSV `r,phi,L,psi,delay,redshift` in the same order.
 
+use crate::lensing;
 use crate::spacetime::light::{self, Branch, Order};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -77,13 +78,35 @@ impl Projector for Exact {
     }
 }
 
+/// The lensing table as the GPU evaluates it: a slice at the camera's radius, then the lookup in f32.
+pub struct Table(pub lensing::Table);
+
+impl Projector for Table {
+    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
+        let [low, high] = lensing::grid::CAMERA_RANGE;
+        let [far, near] = lensing::double::POINT_RANGE;
+        let u = 1.0 / query.r;
+        if !(low..=high).contains(&query.camera) || !(far..=near).contains(&u) {
+            return None;
+        }
+        let slice = lensing::Slice::new(&self.0, query.camera);
+        let ray = lensing::score::look_up_row(&slice, [query.r, query.phi, query.camera], order);
+        ray.valid.then(|| Sight {
+            psi_rain: f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)),
+            psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / query.camera),
+            delay: f64::from(ray.delay),
+        })
+    }
+}
+
 /// The names that [`method`] knows.
-pub const METHODS: &[&str] = &["exact"];
+pub const METHODS: &[&str] = &["exact", "table"];
 
 /// The method called `name`.
 pub fn method(name: &str) -> Result<Box<dyn Projector>, ProjectError> {
     match name {
         "exact" => Ok(Box::new(Exact)),
+        "table" => Ok(Box::new(Table(lensing::default_table()))),
         _ => Err(ProjectError::UnknownMethod {
             name: name.to_owned(),
         }),

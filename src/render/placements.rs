@@ -2,6 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::lensing::Slice;
+use crate::lensing::lookup::lens_lookup_at;
 use crate::sim::History;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
@@ -40,6 +42,8 @@ pub struct Object<'a> {
     pub model: ModelRange,
     /// How it moves.
     pub motion: Motion<'a>,
+    /// Farthest point of the object from its centre, in r_s.
+    pub reach: f64,
     /// Length in r_s of one unit of the model along each body axis.
     pub scale: DVec3,
     /// A number for the layers of a picture, from 1.
@@ -61,16 +65,21 @@ pub struct Placed {
 
 /// The placements of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
 /// (it has not been reached by light yet, or never will) is left out.
-pub fn place(camera: &Camera, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
+pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
+    let camera = view.camera;
     Order::ALL
         .into_iter()
         .take(orders as usize)
         .filter_map(|order| {
-            let placement = match object.motion {
-                Motion::Held { position, attitude } => held(camera, position, attitude, object),
+            let (mut placement, position) = match object.motion {
+                Motion::Held { position, attitude } => (held(camera, position, attitude, object), position),
                 Motion::Flying(history) => flying(camera, time, history, order, object)?,
             };
-            Some(Placed { model: object.model, placement: Placement { ids: [u32::from(order.number()), object.id, 0, 0], ..placement } })
+            placement.ids = [u32::from(order.number()), object.id, 0, 0];
+            if view.width(position, object.reach, order) < THIN_PIXELS * view.pixel {
+                placement.triangles[3] |= THIN;
+            }
+            Some(Placed { model: object.model, placement })
         })
         .collect()
 }
@@ -79,6 +88,42 @@ pub fn place(camera: &Camera, time: f64, object: &Object, orders: u32) -> Vec<Pl
 const TWO_SIDED: u32 = 1;
 /// Held in place; as in shaders/types.wgsl.
 const HELD: u32 = 2;
+/// A thin image; as in shaders/types.wgsl.
+const THIN: u32 = 4;
+/// Images narrower than this are drawn as thin ones, in pixels: from here down single triangles would miss pixel centres.
+const THIN_PIXELS: f64 = 2.0;
+
+/// A camera with what is needed to say how wide an image is.
+#[derive(Clone, Copy, Debug)]
+pub struct View<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// The table at its radius.
+    pub slice: &'a Slice,
+    /// Angle of a pixel in radians.
+    pub pixel: f64,
+}
+
+impl View<'_> {
+    /// The width, in radians, of the image of a ball of radius `reach` at `position`: its extent in ψ, or its angular size if that is less.
+    /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
+    fn width(&self, position: DVec3, reach: f64, order: Order) -> f64 {
+        let (l, r) = (self.camera.radius(), position.length());
+        let n = self.camera.position / l;
+        let phi = position.dot(n).clamp(-r, r) / r;
+        let phi = phi.acos();
+        let half = if reach < r { (reach / r).asin() } else { return std::f64::consts::PI };
+        let seen = |r: f64, phi: f64| {
+            let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
+            let ray = lens_lookup_at(self.slice, (r * cosine - l) as f32, (r * sine) as f32, (r * cosine) as f32, u32::from(order.number()));
+            (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay))
+        };
+        let (centre, path) = seen(r, phi);
+        let around = [seen(r, phi - half).0, seen(r, phi + half).0, seen((r - reach).max(1.001), phi).0, seen(r + reach, phi).0];
+        let (low, high) = around.iter().fold((centre, centre), |(low, high), &psi| (low.min(psi), high.max(psi)));
+        (high - low).min(2.0 * reach / path.max(1e-9))
+    }
+}
 
 fn row(v: DVec3, w: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, w as f32]
@@ -108,7 +153,7 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
     }
 }
 
-fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &Object) -> Option<Placement> {
+fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3)> {
     let emission = emission_time(camera, time, history, order)?;
     let at = |t: f64| {
         let sample = history.at(t);
@@ -120,7 +165,7 @@ fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &
     let span = object.scale.max_element().max(1e-3);
     let (later, later_body) = at(emission + span);
     let rate = (contraction(later.momentum) * later_body - shape) * (1.0 / span);
-    Some(Placement {
+    let placement = Placement {
         offset: row(sample.position - camera.position, time - emission),
         velocity: row(sample.velocity, 1.0),
         momentum: row(sample.momentum, gamma(sample.momentum)),
@@ -130,7 +175,8 @@ fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &
         light: light_rows(&object.light),
         triangles: [0, 0, 0, if object.two_sided { TWO_SIDED } else { 0 }],
         ..Placement::default()
-    })
+    };
+    Some((placement, sample.position))
 }
 
 /// The Lorentz contraction of a body of momentum p per mass, on the rain frame's slice: 1 − p pᵀ/(γ(1 + γ)).

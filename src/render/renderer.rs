@@ -100,6 +100,11 @@ impl Renderer {
         &self.gpu
     }
 
+    /// The baked table.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
     /// Adds a model.
     pub fn add_model(&mut self, model: &Model) -> ModelRange {
         self.geometry.models_changed();
@@ -135,8 +140,8 @@ impl Renderer {
         // The slices depend on the radius alone.
         if self.sliced != l {
             self.sliced = l;
-            let slice = Slice::at(&self.table, l);
-            if self.lens_slice.write(&self.gpu, &lens_rows(&slice)) {
+            let slice = Slice::new(&self.table, l);
+            if self.lens_slice.write(&self.gpu, slice.texels()) {
                 let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
             }
@@ -255,19 +260,6 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
-}
-
-/// The slice as `lensing_camera.wgsl` reads it: the camera's constants in four rows, then the coefficients.
-fn lens_rows(slice: &Slice) -> Vec<[f32; 4]> {
-    let cam = &slice.camera;
-    let mut rows = vec![
-        [cam.l, cam.room, cam.a, cam.beta],
-        [cam.fade, cam.bend, cam.rate, cam.force],
-        [cam.soft, cam.start, cam.scale, 0.0],
-        [slice.size[0] as f32, slice.size[1] as f32, 0.0, 0.0],
-    ];
-    rows.extend(&slice.texels);
-    rows
 }
 
 fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {

@@ -1,7 +1,10 @@
 //! A scene on the renderer: its models uploaded, and a frame made of its objects at any T.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::lensing::{Slice, Table};
 use crate::scene::{self, Body, GameConfig, Mount, Scene};
 use crate::sim::History;
 use crate::spacetime::frames;
@@ -11,12 +14,15 @@ use crate::spacetime::orbit::static_momentum;
 use super::Renderer;
 use super::frame::{Camera, FrameInput, Settings};
 use super::models::ModelRange;
-use super::placements::{Motion, Object, Surroundings, place};
+use super::placements::{Motion, Object, Surroundings, View, place};
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
 pub struct Stage {
     objects: Vec<(scene::Object, ModelRange)>,
+    /// Farthest vertex of each object from its centre, in r_s.
+    reaches: Vec<f64>,
+    table: Arc<Table>,
     mount: Mount,
     field_of_view: f64,
     sky: (bool, bool, f32),
@@ -37,12 +43,16 @@ impl Stage {
             bevy::log::warn!("{warning}");
         }
         let ranges: Vec<ModelRange> = assembly.models.iter().map(|model| renderer.add_model(model)).collect();
+        let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
+        let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
         let objects = assembly.objects.into_iter().map(|object| {
             let range = ranges[object.model];
             (object, range)
         });
         Stage {
             objects: objects.collect(),
+            reaches,
+            table: renderer.table().clone(),
             mount: scene.camera.mount.clone(),
             field_of_view: scene.camera.fov,
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
@@ -68,8 +78,11 @@ impl Stage {
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own).
-    pub fn frame(&self, camera: Camera, time: f64, histories: &[&History], hidden: Option<usize>, settings: &Settings) -> FrameInput {
+    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    pub fn frame(&self, camera: Camera, width: u32, time: f64, histories: &[&History], hidden: Option<usize>, settings: &Settings) -> FrameInput {
+        let slice = Slice::new(&self.table, camera.radius());
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+        let view = View { camera: &camera, slice: &slice, pixel };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -82,12 +95,13 @@ impl Stage {
             let object = Object {
                 model: *model,
                 motion,
+                reach: self.reaches[number],
                 scale: DVec3::splat(object.scale),
                 id: number as u32 + 1,
                 two_sided: matches!(object.body, Body::Held { .. }),
                 light: self.light_at(position),
             };
-            placed.extend(place(&camera, time, &object, settings.orders));
+            placed.extend(place(&view, time, &object, settings.orders));
         }
         let mut settings = *settings;
         settings.stars &= self.sky.0;

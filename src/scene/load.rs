@@ -80,7 +80,7 @@ impl Scene {
     /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.
     pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaint> {
         let entry: SceneFile = parse(file, text)?;
-        let scene = check(&entry, text).map_err(|fault| complain(file, text, fault))?;
+        let scene = check(&entry).map_err(|fault| complain(file, text, fault))?;
         let name = file
             .file_stem()
             .map(|stem| stem.to_string_lossy().into_owned())
@@ -109,7 +109,7 @@ impl From<&RulesConfig> for Rules {
     }
 }
 
-fn check(entry: &SceneFile, _text: &str) -> Result<Scene, Fault> {
+fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     let ships = check_ships(&entry.ship)?;
     entry.rules.check(Rules::default())?;
     Ok(Scene {

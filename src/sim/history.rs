@@ -59,19 +59,22 @@ impl Node {
     }
 }
 
-/// The worldline of one ship. Every node is kept (at 64 steps a second, 13 kB a second), so what crossed the horizon is seen for ever.
+/// The worldline of one ship. Every node is kept (184 bytes a step), so what crossed the horizon is seen for ever, unless
+/// [`History::forget_beyond`] says that nobody will look that far.
 #[derive(Component, Clone, Debug)]
 pub struct History {
     /// From T = 0 on, times increasing.
     nodes: Vec<Node>,
     /// Before T = 0, times decreasing.
     past: Vec<Node>,
+    /// How far back from the latest node is surely kept, in r_s/c.
+    keep: f64,
 }
 
 impl History {
     /// A ship that has this state at T = `time` and coasted before.
     pub fn new(time: f64, state: &ShipState) -> Self {
-        History { nodes: vec![Node::coasting(time, state)], past: Vec::new() }
+        History { nodes: vec![Node::coasting(time, state)], past: Vec::new(), keep: f64::INFINITY }
     }
 
     /// Adds the state at `time`, later than all before, reached under `command`.
@@ -80,8 +83,19 @@ impl History {
         if let Some(last) = self.nodes.last_mut() {
             last.force_after = force(&last.state);
         }
+        if self.nodes[0].time < time - 2.0 * self.keep {
+            let old = self.nodes.partition_point(|node| node.time < time - self.keep);
+            self.nodes.drain(..old.saturating_sub(1));
+            self.past.clear();
+        }
         let force = force(state);
         self.nodes.push(Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force });
+    }
+
+    /// From now on keeps at least the last `keep` r_s/c and lets go what is older than twice that; a look farther back then shows a free
+    /// orbit through the oldest node kept.
+    pub fn forget_beyond(&mut self, keep: f64) {
+        self.keep = keep;
     }
 
     /// The latest T known, in r_s/c.

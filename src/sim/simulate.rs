@@ -12,7 +12,7 @@ use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
-use super::{Clock, SimEvent, SimulationPlugins, outcome, start};
+use super::{Clock, History, SimEvent, SimulationPlugins, outcome, start};
 
 /// The header row.
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
@@ -23,6 +23,9 @@ pub const DEFAULT_UNTIL: f64 = 100.0;
 pub const DEFAULT_EVERY: f64 = 1.0;
 /// The most rows of T one run writes.
 pub const MAX_ROWS: f64 = 1e8;
+
+/// How much of the ships' histories a run keeps, in r_s/c: more than the longest reaction delay.
+const KEEP: f64 = 100.0;
 
 /// What is asked of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,6 +114,9 @@ pub fn simulate(
 ) -> Result<Summary, SimulateError> {
     let mut until = request.check(scene, config)?;
     let mut app = app_of(scene, config, request.seed);
+    for mut history in app.world_mut().query::<&mut History>().iter_mut(app.world_mut()) {
+        history.forget_beyond(KEEP);
+    }
     let started = Instant::now();
     writeln!(out, "{COLUMNS}")?;
     let mut row = 0u64;

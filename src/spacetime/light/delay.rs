@@ -58,6 +58,7 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     let trapped = d < 0.0 && !scattered;
     let near = swept < 0.5 && u_point < 2.0 * u_camera && u_camera < 2.0 * u_point;
     let path = Path {
+        slope,
         u_point,
         emission_slope,
         d,
@@ -110,6 +111,7 @@ fn to_rain_time(u: f64) -> f64 {
 
 /// A ray as the quadrature sees it.
 struct Path {
+    slope: f64,
     u_point: f64,
     emission_slope: f64,
     d: f64,
@@ -119,53 +121,97 @@ struct Path {
 }
 
 impl Path {
-    /// ∫ f(u, w) dΦ along the ray, in panels from the point to the camera: that way a ray that ends deep inside stays accurate,
-    /// for there w² − u³ of the camera's end would have lost the e² that decides about the rest.
+    /// ∫ f(u, w) dΦ along the ray.
     fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
-        let (mut u, mut w) = (self.u_point, self.emission_slope);
+        let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
+        if self.u_camera < 1.0 {
+            self.from_both_ends(narrow, f)
+        } else {
+            self.from_the_point(narrow, f)
+        }
+    }
+
+    /// Camera outside: equal panels, half of them reached from either end, for errors grow like exp Φ near the photon sphere.
+    fn from_both_ends(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+        let count = (self.swept / narrow - 1e-9).ceil().max(1.0);
+        let Some(panel) = Panel::new(self.swept / count, self.d) else {
+            return f64::NAN;
+        };
+        let from_camera = (0.5 * count) as usize;
+        let (mut u, mut w) = (self.u_camera, self.slope);
+        let mut sum = 0.0;
+        for _ in 0..from_camera {
+            sum += panel.integral(u, w, &f);
+            (u, w) = ahead_by(u, w, &panel.whole);
+        }
+        // The same path seen from the point has the opposite slope.
+        let f = |u: f64, w: f64| f(u, -w);
+        (u, w) = (self.u_point, -self.emission_slope);
+        for _ in from_camera..count as usize {
+            sum += panel.integral(u, w, f);
+            (u, w) = ahead_by(u, w, &panel.whole);
+        }
+        sum
+    }
+
+    /// Camera inside: panels from the point on, shorter towards the singularity that lies 2/√u behind the camera. From the
+    /// camera's end it would not do: there w² − u³ has lost the e² that decides about the rest.
+    fn from_the_point(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+        let beyond = 2.0 / self.u_camera.sqrt();
+        let f = |u: f64, w: f64| f(u, -w);
+        let (mut u, mut w) = (self.u_point, -self.emission_slope);
         let mut left = self.swept;
         let mut sum = 0.0;
-        let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
-        let beyond = 2.0 / self.u_camera.sqrt();
-        let mut cached: Option<(f64, [Pole; 10], Pole)> = None;
         loop {
-            // Inside, the singularity lies 2/√u behind the camera.
-            let panels = (left / narrow.min(0.4 * (left + beyond)) - 1e-9)
-                .ceil()
-                .max(1.0);
-            let step = left / panels;
-            let fitting = cached.filter(|(length, ..)| (step / length - 1.0).abs() < 1e-12);
-            let Some((step, nodes, whole)) = fitting.or_else(|| poles_over(step, self.d)) else {
+            let last = left <= narrow.min(0.4 * (left + beyond));
+            let step = if last { left } else { narrow.min(0.4 * (left + beyond)) };
+            let Some(panel) = Panel::new(step, self.d) else {
                 return f64::NAN;
             };
-            cached = Some((step, nodes, whole));
-            let mut panel = 0.0;
-            for (pole, (_, weight)) in nodes.iter().zip(NODES) {
-                let (u, w) = back(u, w, pole);
-                panel += weight * f(u, w);
-            }
-            sum += panel * step;
-            if panels <= 1.0 {
+            sum += panel.integral(u, w, f);
+            if last {
                 return sum;
             }
-            (u, w) = back(u, w, &whole);
+            (u, w) = ahead_by(u, w, &panel.whole);
             left -= step;
         }
     }
 }
 
-/// The ray (u, w) carried towards the camera.
-fn back(u: f64, w: f64, pole: &Pole) -> (f64, f64) {
-    let carried = carry(u, -w, pole);
-    (u + carried.rise, -(carried.chord * carried.rise + w))
+/// The ray (u, w) one step farther.
+fn ahead_by(u: f64, w: f64, pole: &Pole) -> (f64, f64) {
+    let carried = carry(u, w, pole);
+    (u + carried.rise, carried.chord * carried.rise - w)
 }
 
-/// The length of a panel, and the pole orbit at its nodes and at its end.
-fn poles_over(step: f64, d: f64) -> Option<(f64, [Pole; 10], Pole)> {
-    let whole = pole_orbit(step, d)?;
-    let mut nodes = [whole; 10];
-    for (node, (x, _)) in nodes.iter_mut().zip(NODES) {
-        *node = pole_orbit(step * x, d)?;
+/// A panel of Φ: its length, and the pole orbit at its nodes and at its end.
+struct Panel {
+    step: f64,
+    nodes: [Pole; 10],
+    whole: Pole,
+}
+
+impl Panel {
+    fn new(step: f64, d: f64) -> Option<Panel> {
+        let whole = pole_orbit(step, d)?;
+        let mut nodes = [whole; 10];
+        for (node, (x, _)) in nodes.iter_mut().zip(NODES) {
+            *node = pole_orbit(step * x, d)?;
+        }
+        Some(Panel { step, nodes, whole })
     }
-    Some((step, nodes, whole))
+
+    /// ∫ f(u, w) dΦ over the panel that starts at (u, w).
+    fn integral(&self, u: f64, w: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+        let sum: f64 = self
+            .nodes
+            .iter()
+            .zip(NODES)
+            .map(|(pole, (_, weight))| {
+                let (u, w) = ahead_by(u, w, pole);
+                weight * f(u, w)
+            })
+            .sum();
+        sum * self.step
+    }
 }

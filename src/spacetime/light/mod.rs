@@ -99,7 +99,7 @@ pub struct Connection {
 ///
 /// None where no such ray exists: a point at or under the horizon seen from outside, a point nearer to the hole than a camera
 /// inside, a point inside beyond Φ = arccos(1 − 2r) − arccos(1 − 2L), branch minus with an end outside, or an argument out of
-/// range (u_point < 0, u_camera ≤ 0, Φ ≤ 0, not finite).
+/// range (Φ ≤ 0, u outside 1e-100 to 1e100 but for u_point = 0, not finite).
 pub fn connect(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> Option<Connection> {
     let ray = join(u_point, swept, u_camera, branch)?;
     Some(Connection {

@@ -2,12 +2,13 @@
 
 use super::angles::{launch, shadow_angle};
 use super::orbit::{CRITICAL_ENERGY_SQUARED, PHOTON_SPHERE, critical_excess};
+use super::solve::in_range;
 use super::{Branch, join};
 
 /// Φ∞, the angle that the ray seen at `psi_rain` (rain frame, in [0, π]) sweeps on its way from infinity to the camera at
 /// `u_camera` = 1/L; None in the shadow, ψ ≥ [`shadow_angle`], where no such ray exists. It grows without bound towards the edge.
 pub fn sky_angle(psi_rain: f64, u_camera: f64) -> Option<f64> {
-    if !(psi_rain >= 0.0 && psi_rain < shadow_angle(u_camera)) {
+    if !(in_range(u_camera) && psi_rain >= 0.0 && psi_rain < shadow_angle(u_camera)) {
         return None;
     }
     let ray = launch(psi_rain, u_camera);
@@ -24,7 +25,7 @@ pub fn sky_angle(psi_rain: f64, u_camera: f64) -> Option<f64> {
 pub fn swept_to_sky(slope: f64, energy: f64, u_camera: f64) -> Option<f64> {
     let (w, e, u) = (slope, energy, u_camera);
     // The critical ray is seen at this slope from outside the photon sphere and from inside it.
-    if !(e > 0.0 && w < (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt()) {
+    if !(in_range(u) && e > 0.0 && e.is_finite() && w < (PHOTON_SPHERE - u) * (u + 1.0 / 3.0).sqrt()) {
         return None;
     }
     let chord = if w > 0.0 {
@@ -90,7 +91,8 @@ fn to_pole(from: f64, slope: f64, s: f64) -> f64 {
 
 /// Carlson's R_F by duplication (Carlson 1979, Numer. Math. 33, 1), relative error about 1e-15.
 fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
-    loop {
+    // Each round quarters the differences; from any finite start a few dozen are enough.
+    for _ in 0..1000 {
         let mean = (x + y + z) / 3.0;
         let (dx, dy) = (1.0 - x / mean, 1.0 - y / mean);
         let dz = -dx - dy;
@@ -111,4 +113,5 @@ fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         y = 0.25 * (y + lambda);
         z = 0.25 * (z + lambda);
     }
+    f64::NAN
 }

@@ -118,11 +118,18 @@ pub fn join_near(
     })
 }
 
+/// Whether u³ is a number to compute with: 1e-100 to 1e100 in 1/r_s.
+pub(super) fn in_range(u: f64) -> bool {
+    (1e-100..=1e100).contains(&u)
+}
+
 /// Whether such a ray exists.
 fn exists(u_point: f64, swept: f64, u_camera: f64, branch: Branch) -> bool {
-    let in_range =
-        u_point >= 0.0 && u_camera > 0.0 && swept > 0.0 && (u_point + swept + u_camera).is_finite();
-    if !in_range || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
+    let sound = (u_point == 0.0 || in_range(u_point))
+        && in_range(u_camera)
+        && swept > 0.0
+        && swept.is_finite();
+    if !sound || (branch == Branch::Minus && (u_point <= 1.0 || u_camera <= 1.0)) {
         return false;
     }
     if u_point < 1.0 {
