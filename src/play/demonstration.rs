@@ -124,15 +124,16 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
         let share = f64::from(index) / f64::from((flight.frames - 1).max(1));
         let time = span[0] + (span[1] - span[0]) * share;
         let (camera, hidden) = director.camera(&cast, time, share, session.config.video.fov.to_radians());
-        let frame = stage.frame(camera, time, &histories, hidden, &settings);
+        let frame = stage.frame(camera, flight.size[0], time, &histories, hidden, &settings);
         renderer.prepare(&frame);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &view);
         gpu.queue.submit([encoder.finish()]);
         let pixels = readback::texture(gpu, &texture, 4)?;
         times.push(began.elapsed().as_secs_f64() * 1e3);
-        // From the second frame on the eye adapts, as at 24 frames a second.
-        settings.adaptation = (1.0 - (-session.config.render.exposure_speed / 24.0).exp2()) as f32;
+        // From the second frame on the eye adapts, by the time that passes for a player.
+        let seconds = (span[1] - span[0]) / f64::from(flight.frames) / session.config.clock.pace;
+        settings.adaptation = (1.0 - (-session.config.render.exposure_speed * seconds).exp2()) as f32;
         if !writer.send(index, pixels) {
             break;
         }

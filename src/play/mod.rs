@@ -6,9 +6,18 @@
 pub mod camera;
 pub mod demonstration;
 pub mod director;
+pub mod hud;
+pub mod input;
+pub mod instruments;
+pub mod live;
+pub mod menu;
+pub mod overlay;
+pub mod record;
+pub mod screens;
 pub mod seen;
 pub mod session;
 pub mod sheet;
+pub mod window;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -70,6 +79,15 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         Ok(gpu) => gpu,
         Err(error) => return fail(&error, 1),
     };
+    if !without_window {
+        // Bevy opens the adapter again; this one was to say in words what is missing.
+        drop(gpu);
+        let options = window::Options { autopilot: args.autopilot, size: args.size, frames: args.frames, record: args.record.clone() };
+        return match window::run(session, &options) {
+            bevy::app::AppExit::Success => ExitCode::SUCCESS,
+            bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),
+        };
+    }
     let flight = Flight {
         frames: args.frames.unwrap_or(demonstration::FRAMES),
         size: args.size.unwrap_or(demonstration::SIZE),

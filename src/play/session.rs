@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use bevy::prelude::Resource;
 use thiserror::Error;
 
 use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
@@ -26,7 +27,7 @@ pub enum SessionError {
 }
 
 /// A scene, its configuration, a seed.
-#[derive(Clone, Debug)]
+#[derive(Resource, Clone, Debug)]
 pub struct Session {
     /// What exists.
     pub scene: Scene,
