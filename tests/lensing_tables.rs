@@ -126,7 +126,7 @@ fn falling_through_the_horizon_shows_no_seam() {
 #[test]
 fn a_file_gives_back_the_table_and_says_what_is_wrong() {
     let small = lensrunner::lensing::bake(Scheme::Residual, 5, |_| ());
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("t.lut");
     small.save(&path).unwrap();
     assert_eq!(Table::load(&path, Scheme::Residual).unwrap(), small);
@@ -150,7 +150,7 @@ fn a_file_gives_back_the_table_and_says_what_is_wrong() {
 
 #[test]
 fn a_damaged_file_is_named_and_never_used() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("t.lut");
     std::fs::write(&path, b"not a table at all, but long enough").unwrap();
     let told = std::cell::Cell::new(0);
