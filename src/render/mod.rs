@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod layout;
 pub mod models;
 pub mod placements;
+pub mod plugin;
 pub mod readback;
 pub mod renderer;
 pub mod shaders;
