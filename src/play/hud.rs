@@ -13,7 +13,8 @@ use super::instruments::Scale;
 use super::live::Notice;
 use super::screens::Screen;
 use super::session::Session;
-use super::window::{Panel, Player1};
+use super::game::Seat;
+use super::window::Panel;
 
 /// What is read.
 const TEXT: Color32 = Color32::from_rgb(222, 232, 240);
@@ -39,7 +40,7 @@ pub fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
     session: Res<Session>,
-    player: Res<Player1>,
+    player: Res<Seat>,
     panel: Res<Panel>,
     chase: Option<Res<Chase>>,
     rules: Res<ChaseRules>,
@@ -55,7 +56,7 @@ pub fn draw(
     if player.bare || *screen.get() == Screen::Title {
         return Ok(());
     }
-    markers(&painter, rect, &panel, &player);
+    markers(&painter, rect, &panel);
     if let Some(chase) = chase.filter(|chase| chase.held > 0.0 && chase.outcome.is_none()) {
         let share = (chase.held / rules.0.hold_time.max(1e-9)).clamp(0.0, 1.0);
         arc(&painter, rect.center(), 46.0, share, Stroke::new(4.0, OWN));
@@ -88,7 +89,7 @@ fn plate(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color
     }
 }
 
-fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Player1, panel: &Panel) {
+fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel: &Panel) {
     let Some(read) = panel.instruments else { return };
     let scale = Scale::of(session.config.hole.mass_solar);
     let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
@@ -184,17 +185,15 @@ pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -
     Place::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
 }
 
-fn markers(painter: &Painter, rect: Rect, panel: &Panel, player: &Player1) {
+fn markers(painter: &Painter, rect: Rect, panel: &Panel) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let find = |direction: DVec3| place(direction, panel.field_of_view, size, 60.0);
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
 
     // The ship's nose.
-    if player.view == View::Cockpit {
-        let c = rect.center();
-        for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
-            painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT));
-        }
+    let c = rect.center();
+    for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
+        painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT.gamma_multiply(0.7)));
     }
     if let Some(Place::On(at)) = panel.heading.map(find) {
         let at = point(at);

@@ -48,7 +48,7 @@ pub fn draw(
 fn card(context: &egui::Context, name: &'static str, content: impl FnOnce(&mut Ui)) {
     egui::Area::new(egui::Id::new(name)).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
         egui::Frame::new()
-            .fill(Color32::from_rgba_premultiplied(5, 9, 16, 205))
+            .fill(Color32::from_rgba_premultiplied(5, 9, 16, 225))
             .corner_radius(12.0)
             .inner_margin(26.0)
             .show(ui, |ui| ui.vertical_centered(|ui| {
