@@ -7,7 +7,7 @@ use bevy_egui::input::EguiWantsInput;
 
 use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
 use crate::sim::ship::Player;
-use crate::sim::{Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
+use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
 use crate::spacetime::matter::gamma;
 
 use super::camera::{Follower, View};
@@ -53,6 +53,7 @@ impl Plugin for GamePlugin {
             .add_message::<Wish>()
             .init_resource::<Bindings>()
             .init_resource::<MouseTurn>()
+            .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .configure_sets(Update, (GameSet::Keys, GameSet::Answer).chain())
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_wishes, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
@@ -162,6 +163,11 @@ fn end_chase(world: &mut World) {
         Screen::Title if world.resource::<Clock>().time > decided + 5.0 => begin(world, Screen::Title),
         _ => (),
     }
+}
+
+/// A decided chase stands still in play; on the title it flies on for a while.
+fn goes_on(chase: Option<Res<Chase>>, screen: Res<State<Screen>>) -> bool {
+    *screen.get() == Screen::Title || chase.is_none_or(|chase| chase.outcome.is_none())
 }
 
 /// Game time: its pace, its step, and whether it passes.
@@ -280,7 +286,7 @@ mod tests {
     fn a_decided_chase_shows_its_result() {
         let mut app = game();
         push(&mut app, KeyCode::Enter);
-        app.world_mut().resource_mut::<crate::sim::Chase>().outcome = Some((Outcome::Caught, 1.0));
+        app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
         app.update();
         app.update();
         assert_eq!(screen(&app), Screen::Result);
@@ -304,6 +310,19 @@ mod tests {
         assert!(app.world().resource::<Seat>().autopilot);
         let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
         assert_eq!(manual.iter(app.world()).count(), 0);
+    }
+
+    #[test]
+    fn nothing_moves_after_the_end() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        app.update();
+        app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
+        let before = time(&app);
+        for _ in 0..5 {
+            app.update();
+        }
+        assert_eq!(time(&app), before);
     }
 
     #[test]

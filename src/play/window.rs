@@ -164,7 +164,8 @@ fn make_frame(
     let cockpit = cockpit && !title;
     let camera = if title {
         // The title looks on from far, and slowly goes round.
-        wide(state.position, real.elapsed_secs_f64() * TITLE_TURN, field_of_view)
+        let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
+        wide(state.position, turn, field_of_view)
     } else {
         on_ship(&state, seat.view, attitude, length(&session, me), field_of_view)
     };
