@@ -180,6 +180,9 @@ fn run_time(screen: Res<State<Screen>>, next: Res<NextState<Screen>>, session: R
     if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
 }
 
+/// The ship that the player flies by hand.
+type ByHand = (With<Player>, With<Manual>);
+
 /// The player's hands become the ship's controls.
 #[allow(clippy::too_many_arguments)]
 fn fly_by_hand(
@@ -190,7 +193,7 @@ fn fly_by_hand(
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,
     mut player: ResMut<Seat>,
-    mut ships: Query<(&ShipMotion, &Engine, &mut Controls), (With<Player>, With<Manual>)>,
+    mut ships: Query<(&ShipMotion, &Engine, &mut Controls), ByHand>,
 ) {
     for (motion, engine, mut controls) in &mut ships {
         let mut stick = Hands { bindings: &bindings, keys: &keys, mouse: &buttons }.stick();
