@@ -28,7 +28,7 @@ impl View {
 }
 
 /// Behind (+z) and above (+y) the ship, in lengths of the ship.
-pub const BEHIND: DVec3 = DVec3::new(0.0, 0.9, 3.6);
+pub const BEHIND: DVec3 = DVec3::new(0.0, 0.62, 3.4);
 /// The wall time in which a third-person camera follows a turn of its ship, in seconds.
 const LAG: f64 = 0.18;
 
@@ -67,7 +67,6 @@ pub fn on_ship(state: &ShipState, view: View, attitude: DQuat, length: f64, fiel
         View::ThirdPerson => BEHIND * length,
         View::Cockpit => DVec3::ZERO,
     };
-    // A little down, so that the ship is in the lower part of the picture and what is ahead in the middle.
     third_person(&turned, offset, DQuat::IDENTITY, field_of_view)
 }
 

@@ -77,6 +77,8 @@ pub struct Report {
     pub milliseconds: [f64; 2],
     /// Frames written per second, everything included.
     pub rate: f64,
+    /// Passes of one of the last frames on the GPU with their milliseconds, where it has timestamps.
+    pub passes: Vec<(&'static str, f32)>,
 }
 
 impl std::fmt::Display for Report {
@@ -86,7 +88,12 @@ impl std::fmt::Display for Report {
         writeln!(f, "The flight from T = {from:.1} to {to:.1} r_s/c: {}.", self.end)?;
         writeln!(f, "Frames: {}", self.frames.display())?;
         writeln!(f, "Contact sheet: {}", self.sheet.display())?;
-        write!(f, "A frame took {mean:.1} ms in the mean, {worst:.1} ms at worst; {:.1} frames a second with writing.", self.rate)
+        write!(f, "A frame took {mean:.1} ms in the mean, {worst:.1} ms at worst; {:.1} frames a second with writing.", self.rate)?;
+        if !self.passes.is_empty() {
+            let passes: Vec<String> = self.passes.iter().map(|(name, time)| format!("{name} {time:.1}")).collect();
+            write!(f, "\nPasses of a late frame, in ms: {}.", passes.join(", "))?;
+        }
+        Ok(())
     }
 }
 
@@ -119,6 +126,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
     }
     let started = Instant::now();
     let mut times = Vec::new();
+    let mut passes = Vec::new();
     for index in 0..flight.frames {
         let began = Instant::now();
         let share = f64::from(index) / f64::from((flight.frames - 1).max(1));
@@ -131,6 +139,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
         gpu.queue.submit([encoder.finish()]);
         let pixels = readback::texture(gpu, &texture, 4)?;
         times.push(began.elapsed().as_secs_f64() * 1e3);
+        passes = renderer.timing().latest().to_vec();
         // From the second frame on the eye adapts, by the time that passes for a player.
         let seconds = (span[1] - span[0]) / f64::from(flight.frames) / session.config.clock.pace;
         settings.adaptation = (1.0 - (-session.config.render.exposure_speed * seconds).exp2()) as f32;
@@ -150,6 +159,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
         end,
         milliseconds: [rest.iter().sum::<f64>() / rest.len() as f64, rest.iter().copied().fold(0.0, f64::max)],
         rate: f64::from(flight.frames) / started.elapsed().as_secs_f64(),
+        passes,
     })
 }
 

@@ -42,7 +42,7 @@ pub fn shot_at(share: f64) -> Shot {
 }
 
 /// Behind and above, in lengths of the ship.
-const BEHIND: DVec3 = DVec3::new(0.35, 1.0, 3.4);
+const BEHIND: DVec3 = DVec3::new(0.5, 0.6, 3.0);
 /// How much of the way to its new attitude a camera goes in a frame.
 const FOLLOW: f64 = 0.25;
 
@@ -102,7 +102,7 @@ fn look_at(state: &ShipState, time: f64, other: Option<&History>) -> Option<DQua
 }
 
 /// A hovering camera above the side of the hole where the ships are, the hole in the middle.
-fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Camera {
+pub fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Camera {
     let azimuth = ship.y.atan2(ship.x) - 0.35 + share;
     let position = DVec3::new(azimuth.cos(), azimuth.sin(), 0.32) * 15.0;
     static_camera(position, -position, DVec3::Z, field_of_view)

@@ -13,12 +13,13 @@ use super::instruments::Scale;
 use super::live::Notice;
 use super::screens::Screen;
 use super::session::Session;
-use super::window::{Panel, Player1};
+use super::game::Seat;
+use super::window::Panel;
 
 /// What is read.
 const TEXT: Color32 = Color32::from_rgb(222, 232, 240);
 /// What explains it.
-const FAINT: Color32 = Color32::from_rgb(140, 156, 172);
+const FAINT: Color32 = Color32::from_rgb(168, 184, 200);
 /// The image of the target.
 const SEEN: Color32 = Color32::from_rgb(96, 220, 255);
 /// The target itself.
@@ -28,7 +29,7 @@ const OWN: Color32 = Color32::from_rgb(150, 240, 150);
 /// Danger.
 const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
 /// Behind text, so that it stays readable before stars.
-const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 150);
+const SHADE: Color32 = Color32::from_rgba_premultiplied(3, 6, 11, 175);
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
@@ -39,7 +40,7 @@ pub fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
     session: Res<Session>,
-    player: Res<Player1>,
+    player: Res<Seat>,
     panel: Res<Panel>,
     chase: Option<Res<Chase>>,
     rules: Res<ChaseRules>,
@@ -55,7 +56,7 @@ pub fn draw(
     if player.bare || *screen.get() == Screen::Title {
         return Ok(());
     }
-    markers(&painter, rect, &panel, &player);
+    markers(&painter, rect, &panel);
     if let Some(chase) = chase.filter(|chase| chase.held > 0.0 && chase.outcome.is_none()) {
         let share = (chase.held / rules.0.hold_time.max(1e-9)).clamp(0.0, 1.0);
         arc(&painter, rect.center(), 46.0, share, Stroke::new(4.0, OWN));
@@ -88,7 +89,7 @@ fn plate(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color
     }
 }
 
-fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Player1, panel: &Panel) {
+fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel: &Panel) {
     let Some(read) = panel.instruments else { return };
     let scale = Scale::of(session.config.hole.mass_solar);
     let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
@@ -137,7 +138,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Player1, pan
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
     let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
     let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
-    text(painter, pos2(rect.center().x, bottom - 34.0), Align2::CENTER_BOTTOM, &state, 12.0, FAINT);
+    plate(painter, pos2(rect.center().x, bottom - 26.0), Align2::CENTER_BOTTOM, &[(&state, 12.0, TEXT)]);
     if player.avoiding {
         text(painter, pos2(rect.center().x, rect.bottom() - 110.0), Align2::CENTER_BOTTOM, "PULLING AWAY FROM THE HOLE", 18.0, ALARM);
     } else if read.radius < 1.0 {
@@ -169,9 +170,9 @@ pub enum Place {
 /// See [`Place`]; `size` in points, `inset` the distance of arrows from the edge.
 pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -> Place {
     let camera = Camera { position: DVec3::X, momentum: DVec3::ZERO, attitude: glam::DQuat::IDENTITY, field_of_view };
-    let whole = [1000, (1000.0 * size[1] / size[0]).round() as u32];
-    if let Some([x, y]) = camera.pixel(direction, whole) {
-        let at = [x * size[0] / 1000.0, y * size[0] / 1000.0];
+    // On a square of 1,000 pixels; its middle is the screen's.
+    if let Some([x, y]) = camera.pixel(direction, [1000, 1000]) {
+        let at = [0.5 * size[0] + (x - 500.0) * size[0] / 1000.0, 0.5 * size[1] + (y - 500.0) * size[0] / 1000.0];
         if (0.0..=size[0]).contains(&at[0]) && (0.0..=size[1]).contains(&at[1]) {
             return Place::On(at);
         }
@@ -184,17 +185,15 @@ pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -
     Place::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
 }
 
-fn markers(painter: &Painter, rect: Rect, panel: &Panel, player: &Player1) {
+fn markers(painter: &Painter, rect: Rect, panel: &Panel) {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let find = |direction: DVec3| place(direction, panel.field_of_view, size, 60.0);
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
 
     // The ship's nose.
-    if player.view == View::Cockpit {
-        let c = rect.center();
-        for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
-            painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT));
-        }
+    let c = rect.center();
+    for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
+        painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT.gamma_multiply(0.7)));
     }
     if let Some(Place::On(at)) = panel.heading.map(find) {
         let at = point(at);
@@ -209,7 +208,7 @@ fn markers(painter: &Painter, rect: Rect, panel: &Panel, player: &Player1) {
             let begin = f64::from(quarter) / 8.0;
             dash(painter, at, 13.0, begin, begin + 0.07, Stroke::new(1.8, TRUE));
         }
-        text(painter, at + vec2(18.0, 10.0), Align2::LEFT_TOP, "now", 12.0, TRUE);
+        text(painter, at + vec2(18.0, 10.0), Align2::LEFT_TOP, "now", 13.0, TRUE);
     }
     for (order, image) in panel.images.iter().enumerate() {
         let Some(image) = image else { continue };
@@ -217,11 +216,11 @@ fn markers(painter: &Painter, rect: Rect, panel: &Panel, player: &Player1) {
             (Place::On(at), 0) => {
                 diamond(painter, point(at), 13.0, Stroke::new(2.0, SEEN));
                 let label = format!("seen, {:.1} r_s/c ago", image.age);
-                text(painter, point(at) + vec2(18.0, -10.0), Align2::LEFT_BOTTOM, &label, 12.0, SEEN);
+                text(painter, point(at) + vec2(18.0, -10.0), Align2::LEFT_BOTTOM, &label, 13.0, SEEN);
             }
             (Place::On(at), _) => {
                 diamond(painter, point(at), 7.0, Stroke::new(1.2, SEEN.gamma_multiply(0.7)));
-                text(painter, point(at) + vec2(11.0, 0.0), Align2::LEFT_CENTER, "2nd image", 10.5, SEEN.gamma_multiply(0.7));
+                text(painter, point(at) + vec2(11.0, 0.0), Align2::LEFT_CENTER, "2nd image", 11.5, SEEN.gamma_multiply(0.85));
             }
             (Place::Edge(at, towards), 0) => arrow(painter, point(at), vec2(towards[0] as f32, towards[1] as f32)),
             _ => (),

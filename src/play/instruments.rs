@@ -155,8 +155,8 @@ mod tests {
         let scale = Scale::of(1e10);
         assert_eq!(scale.kilometres(9.0), "265.8 bn km");
         assert_eq!(Scale::of(1.0).kilometres(2.0), "6 km");
-        // r_s/c = 98,510 s = 1 d 03:21:50.
-        assert_eq!(scale.clock(1.0), "1 d 03:21:50");
+        // r_s/c = 98,509.8 s = 1 d 03:21:49.
+        assert_eq!(scale.clock(1.0), "1 d 03:21:49");
         // c²/r_s = 3,043.3 m/s².
         assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
     }

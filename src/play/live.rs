@@ -15,7 +15,8 @@ use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
 use super::input::Bindings;
 use super::session::Session;
-use super::window::{GameSet, Staged};
+use super::game::GameSet;
+use super::window::Staged;
 
 /// Time between two looks at the file.
 const PERIOD: Duration = Duration::from_secs(1);

@@ -28,15 +28,15 @@ pub fn draw(
     let mut ask = |wish| _ = wishes.write(wish);
     match screen.get() {
         Screen::Playing => (),
-        Screen::Title => card(context, "title", |ui| title(ui, &session, &mut ask)),
-        Screen::Paused => card(context, "pause", |ui| {
+        Screen::Title => card(context, "title", Align2::LEFT_CENTER, |ui| title(ui, &session, &mut ask)),
+        Screen::Paused => card(context, "pause", Align2::CENTER_CENTER, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
             buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
             ui.add_space(10.0);
             controls(ui, &session);
         }),
-        Screen::Result => card(context, "result", |ui| {
+        Screen::Result => card(context, "result", Align2::CENTER_CENTER, |ui| {
             result(ui, &session, chase.as_deref(), &panel);
             buttons(ui, &mut ask, &[("Once more", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
         }),
@@ -44,11 +44,11 @@ pub fn draw(
     Ok(())
 }
 
-/// A dark card in the middle of the screen.
-fn card(context: &egui::Context, name: &'static str, content: impl FnOnce(&mut Ui)) {
-    egui::Area::new(egui::Id::new(name)).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(context, |ui| {
+/// A dark card on the screen.
+fn card(context: &egui::Context, name: &'static str, place: Align2, content: impl FnOnce(&mut Ui)) {
+    egui::Area::new(egui::Id::new(name)).anchor(place, [if place == Align2::LEFT_CENTER { 48.0 } else { 0.0 }, 0.0]).show(context, |ui| {
         egui::Frame::new()
-            .fill(Color32::from_rgba_premultiplied(5, 9, 16, 205))
+            .fill(Color32::from_rgba_premultiplied(5, 9, 16, 225))
             .corner_radius(12.0)
             .inner_margin(26.0)
             .show(ui, |ui| ui.vertical_centered(|ui| {

@@ -1,11 +1,12 @@
 //! Playing: screens, input, camera, HUD, dev overlay, and the demonstration flight without a display.
 //!
-//! [`window`] puts the game together; [`demonstration`] flies it to files. Between them they share [`session`] (what is played), [`camera`]
+//! [`game`] is screens, keys and time, [`window`] adds window and picture; [`demonstration`] flies it to files. Between them they share [`session`] (what is played), [`camera`]
 //! and [`seen`] (where the image of a ship appears).
 
 pub mod camera;
 pub mod demonstration;
 pub mod director;
+pub mod game;
 pub mod hud;
 pub mod input;
 pub mod instruments;

@@ -12,7 +12,7 @@ use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
 use super::session::Session;
-use super::window::Player1;
+use super::game::Seat;
 
 /// Frames over which mean and worst are taken.
 const WINDOW: usize = 240;
@@ -43,7 +43,7 @@ impl FrameTimes {
 #[allow(clippy::too_many_arguments)]
 pub fn draw(
     mut contexts: EguiContexts,
-    player: Res<Player1>,
+    player: Res<Seat>,
     mut session: ResMut<Session>,
     renderer: Option<Res<SharedRenderer>>,
     real: Res<Time<Real>>,

@@ -1,0 +1,341 @@
+//! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
+
+use std::time::Duration;
+
+use bevy::prelude::*;
+use bevy_egui::input::EguiWantsInput;
+
+use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
+use crate::sim::ship::Player;
+use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
+use crate::spacetime::matter::gamma;
+
+use super::camera::{Follower, View};
+use super::input::{Bindings, Hands, MouseTurn};
+use super::record;
+use super::screens::{Screen, Wish, answer};
+use super::session::Session;
+
+/// How the player plays: what is not in `game.toml`.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Seat {
+    /// The autopilot flies.
+    pub autopilot: bool,
+    /// From where one looks.
+    pub view: View,
+    /// The HUD is off.
+    pub bare: bool,
+    /// The dev overlay is on.
+    pub overlay: bool,
+    /// The assist has taken the thrust to keep off the hole.
+    pub avoiding: bool,
+    /// The autopilot was asked for on the command line.
+    pub always_autopilot: bool,
+    /// How the camera follows.
+    pub follower: Follower,
+}
+
+/// The order of what the game does in a frame.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GameSet {
+    /// Keys are read.
+    Keys,
+    /// Wishes are answered: screens change, chases begin.
+    Answer,
+}
+
+/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`], [`Session`] and [`Seat`].
+pub struct GamePlugin;
+
+impl Plugin for GamePlugin {
+    fn build(&self, app: &mut App) {
+        app.init_state::<Screen>()
+            .add_message::<Wish>()
+            .init_resource::<Bindings>()
+            .init_resource::<MouseTurn>()
+            .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
+            .configure_sets(Update, (GameSet::Keys, GameSet::Answer).chain())
+            .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_wishes, end_chase, run_time).chain().in_set(GameSet::Answer)))
+            .add_systems(Startup, begin_title)
+            .add_systems(FixedUpdate, fly_by_hand.in_set(SimSet::Input));
+    }
+}
+
+fn begin_title(world: &mut World) {
+    begin(world, Screen::Title);
+}
+
+/// Starts the chase anew for a screen: by hand in play, unless the autopilot was asked for.
+fn begin(world: &mut World, screen: Screen) {
+    let session = world.resource::<Session>().clone();
+    start(world, &session.scene, &session.config, session.seed);
+    let ship = world.resource::<Fleet>().0[session.player()];
+    world.entity_mut(ship).insert(Player);
+    let mut player = world.resource_mut::<Seat>();
+    player.autopilot = screen != Screen::Playing || player.always_autopilot;
+    player.follower.reset();
+    player.avoiding = false;
+    let manual = !player.autopilot;
+    set_manual(world, manual);
+    *world.resource_mut::<MouseTurn>() = MouseTurn::default();
+}
+
+/// Keys that switch something.
+#[allow(clippy::too_many_arguments)]
+fn read_keys(
+    bindings: Res<Bindings>,
+    keys: Res<ButtonInput<KeyCode>>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    typing: Option<Res<EguiWantsInput>>,
+    screen: Res<State<Screen>>,
+    mut session: ResMut<Session>,
+    mut player: ResMut<Seat>,
+    mut wishes: MessageWriter<Wish>,
+    mut commands: Commands,
+) {
+    let hands = Hands { bindings: &bindings, keys: &keys, mouse: &buttons };
+    if hands.pushed("toggle_overlay") {
+        player.overlay = !player.overlay;
+    }
+    if hands.pushed("screenshot") {
+        commands.queue(record::screenshot);
+    }
+    if typing.is_some_and(|typing| typing.wants_keyboard_input()) {
+        return;
+    }
+    let enter = keys.just_pressed(KeyCode::Enter) || keys.just_pressed(KeyCode::NumpadEnter);
+    match screen.get() {
+        Screen::Title if enter => _ = wishes.write(Wish::Start),
+        Screen::Result if enter => _ = wishes.write(Wish::Start),
+        Screen::Paused if enter => _ = wishes.write(Wish::Pause),
+        _ => (),
+    }
+    if hands.pushed("pause") {
+        wishes.write(if *screen.get() == Screen::Result { Wish::Title } else { Wish::Pause });
+    }
+    if hands.pushed("restart") && *screen.get() != Screen::Title {
+        wishes.write(Wish::Start);
+    }
+    if hands.pushed("toggle_camera") {
+        player.view = player.view.toggled();
+        player.follower.reset();
+    }
+    if hands.pushed("toggle_hud") {
+        player.bare = !player.bare;
+    }
+    if hands.pushed("toggle_assist") {
+        session.config.assist.enabled = !session.config.assist.enabled;
+    }
+    if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
+        player.autopilot = !player.autopilot;
+        let manual = !player.autopilot;
+        commands.queue(move |world: &mut World| set_manual(world, manual));
+    }
+    let faster = f64::from(i8::from(hands.pushed("faster")) - i8::from(hands.pushed("slower")));
+    if faster != 0.0 {
+        let pace = session.config.clock.pace * faster.exp2();
+        session.config.clock.pace = pace.clamp(0.05, 24.0);
+    }
+}
+
+fn answer_wishes(world: &mut World) {
+    let wishes: Vec<Wish> = world.resource_mut::<Messages<Wish>>().drain().collect();
+    for wish in wishes {
+        if wish == Wish::Quit {
+            world.write_message(AppExit::Success);
+        }
+        let screen = *world.resource::<State<Screen>>().get();
+        if let Some((next, anew)) = answer(screen, wish) {
+            if anew {
+                begin(world, next);
+            }
+            world.resource_mut::<NextState<Screen>>().set(next);
+        }
+    }
+}
+
+/// A decided chase leads to the result, on the title to a new one.
+fn end_chase(world: &mut World) {
+    let Some((_, decided)) = outcome(world) else { return };
+    match world.resource::<State<Screen>>().get() {
+        Screen::Playing => world.resource_mut::<NextState<Screen>>().set(Screen::Result),
+        // The title shows the end for a while.
+        Screen::Title if world.resource::<Clock>().time > decided + 5.0 => begin(world, Screen::Title),
+        _ => (),
+    }
+}
+
+/// A decided chase stands still in play; on the title it flies on for a while.
+fn goes_on(chase: Option<Res<Chase>>, screen: Res<State<Screen>>) -> bool {
+    *screen.get() == Screen::Title || chase.is_none_or(|chase| chase.outcome.is_none())
+}
+
+/// Game time: its pace, its step, and whether it passes.
+fn run_time(screen: Res<State<Screen>>, next: Res<NextState<Screen>>, session: Res<Session>, mut time: ResMut<Time<Virtual>>, mut fixed: ResMut<Time<Fixed>>) {
+    let clock = &session.config.clock;
+    let step = clock.step / clock.pace;
+    fixed.set_timestep_seconds(step);
+    time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
+    let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
+    if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
+}
+
+/// The ship that the player flies by hand.
+type ByHand = (With<Player>, With<Manual>);
+
+/// The player's hands become the ship's controls.
+#[allow(clippy::too_many_arguments)]
+fn fly_by_hand(
+    bindings: Res<Bindings>,
+    keys: Res<ButtonInput<KeyCode>>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    clock: Res<Clock>,
+    session: Res<Session>,
+    mut turn: ResMut<MouseTurn>,
+    mut player: ResMut<Seat>,
+    mut ships: Query<(&ShipMotion, &Engine, &mut Controls), ByHand>,
+) {
+    for (motion, engine, mut controls) in &mut ships {
+        let mut stick = Hands { bindings: &bindings, keys: &keys, mouse: &buttons }.stick();
+        let proper_step = clock.step / gamma(motion.0.momentum);
+        let mouse = turn.pull(engine.max_rate * proper_step);
+        stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);
+        let config = &session.config;
+        player.avoiding = false;
+        controls.0 = if config.assist.enabled {
+            let help = assisted(&motion.0, &stick, engine, Reference::Orbit, &AssistSettings::from(config));
+            player.avoiding = help.avoiding;
+            help.command
+        } else {
+            direct(&stick, engine)
+        };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::live::LivePlugin;
+    use crate::sim::{Outcome, SimulationPlugins};
+    use bevy::input::InputPlugin;
+    use bevy::state::app::StatesPlugin;
+    use bevy::time::TimeUpdateStrategy;
+
+    /// The game at the title, 0.1 s a frame.
+    fn game() -> App {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, SimulationPlugins, GamePlugin, LivePlugin))
+            .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)))
+            .insert_resource(Session::load(None, Some("chase"), 1).expect("the game's own files"))
+            .init_resource::<Seat>();
+        app.update();
+        app.update();
+        app
+    }
+
+    fn push(app: &mut App, key: KeyCode) {
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(key);
+        // The frame after the one that reads the key is the first on the new screen.
+        app.world_mut().run_schedule(Update);
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().reset_all();
+        app.update();
+    }
+
+    fn screen(app: &App) -> Screen {
+        *app.world().resource::<State<Screen>>().get()
+    }
+
+    fn time(app: &App) -> f64 {
+        app.world().resource::<Clock>().time
+    }
+
+    #[test]
+    fn title_play_pause_and_back() {
+        let mut app = game();
+        assert_eq!(screen(&app), Screen::Title);
+        push(&mut app, KeyCode::Enter);
+        assert_eq!(screen(&app), Screen::Playing);
+        app.update();
+        let before = time(&app);
+        for _ in 0..5 {
+            app.update();
+        }
+        assert!(time(&app) > before + 0.5, "{} {before}", time(&app));
+        push(&mut app, KeyCode::Escape);
+        assert_eq!(screen(&app), Screen::Paused);
+        let before = time(&app);
+        for _ in 0..5 {
+            app.update();
+        }
+        assert_eq!(time(&app), before, "time stands still");
+        push(&mut app, KeyCode::Escape);
+        assert_eq!(screen(&app), Screen::Playing);
+    }
+
+    #[test]
+    fn restart_is_at_the_beginning() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        for _ in 0..20 {
+            app.update();
+        }
+        let late = time(&app);
+        push(&mut app, KeyCode::KeyR);
+        assert!(time(&app) < 0.5 * late, "{} {late}", time(&app));
+        assert_eq!(screen(&app), Screen::Playing);
+    }
+
+    #[test]
+    fn a_decided_chase_shows_its_result() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
+        app.update();
+        app.update();
+        assert_eq!(screen(&app), Screen::Result);
+        push(&mut app, KeyCode::Enter);
+        assert_eq!(screen(&app), Screen::Playing);
+    }
+
+    #[test]
+    fn keys_thrust_by_hand_and_not_under_autopilot() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        let thrust = |app: &mut App| {
+            let mut ships = app.world_mut().query_filtered::<&Controls, With<Player>>();
+            ships.single(app.world()).expect("one player").0.thrust
+        };
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyW);
+        app.update();
+        assert!(thrust(&mut app).z < -0.01, "{}", thrust(&mut app));
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyW);
+        push(&mut app, KeyCode::KeyP);
+        assert!(app.world().resource::<Seat>().autopilot);
+        let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
+        assert_eq!(manual.iter(app.world()).count(), 0);
+    }
+
+    #[test]
+    fn nothing_moves_after_the_end() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        app.update();
+        app.world_mut().resource_mut::<Chase>().outcome = Some((Outcome::Caught, 1.0));
+        let before = time(&app);
+        for _ in 0..5 {
+            app.update();
+        }
+        assert_eq!(time(&app), before);
+    }
+
+    #[test]
+    fn pace_is_doubled_and_halved() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        let pace = app.world().resource::<Session>().config.clock.pace;
+        push(&mut app, KeyCode::Period);
+        assert_eq!(app.world().resource::<Session>().config.clock.pace, 2.0 * pace);
+        push(&mut app, KeyCode::Comma);
+        assert_eq!(app.world().resource::<Session>().config.clock.pace, pace);
+    }
+}
