@@ -1,17 +1,22 @@
 //! All integration tests in one binary (linking is the slow part); the modules mirror `src/`.
-mod scene_config;
-mod scene_files;
-mod sim_chase;
-mod sim_simulate;
-mod spacetime_matter;
-mod scene_models;
-mod scene_sky;
 
-mod reference_oracles;
-mod reference_trace;
-mod light_against_judge;
-
-mod measure_project;
-mod spacetime_light;
+mod house;
 mod lensing_integrator;
 mod lensing_tables;
+mod light_against_judge;
+mod measure_project;
+mod reference_oracles;
+mod reference_trace;
+#[cfg(feature = "game")]
+mod render_pictures;
+#[cfg(feature = "game")]
+mod render_shaders;
+mod scene_config;
+mod scene_files;
+mod scene_models;
+mod scene_sky;
+mod sim_chase;
+mod sim_simulate;
+mod spacetime_light;
+mod spacetime_matter;
+mod support;

@@ -165,7 +165,7 @@ fn nodes_are_flattened_and_mirrored_triangles_turned() {
         "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}}],
         "bufferViews":[{{"buffer":0,"byteLength":36}}],"buffers":[{{"byteLength":36,"uri":"data:application/octet-stream;base64,{positions}"}}]}}"#
     );
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("one.gltf");
     std::fs::write(&path, text).unwrap();
     let model = load_model(&path).unwrap();
@@ -192,7 +192,7 @@ fn a_missing_or_broken_model_is_named_and_replaced() {
             && edges(&model).values().all(|&uses| uses == 2)
             && volume(&model) > 0.0
     );
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("broken.glb");
     let whole = std::fs::read(assets_folder().join("models/hunter.glb")).unwrap();
     for bytes in [&b"not a model"[..], &whole[..whole.len() / 2], &[]] {

@@ -57,7 +57,7 @@ fn the_sun_has_its_temperature() {
 
 #[test]
 fn a_damaged_catalogue_is_refused_by_reason() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("stars.bin");
     let whole = std::fs::read(assets_folder().join("sky/stars.bin")).unwrap();
     let refused = |bytes: &[u8]| {

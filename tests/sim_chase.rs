@@ -8,6 +8,8 @@ use glam::DVec3;
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner::sim::assist::{AssistSettings, Reference, Stick, assisted, drift};
 use lensrunner::sim::flight::{Flight, fly};
+use lensrunner::sim::pilot::plan::{SAFE_RADIUS, fall_risk};
+use lensrunner::sim::pilot::rollout::Point;
 use lensrunner::sim::simulate::app_of;
 use lensrunner::sim::{
     Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, SimulationPlugins, outcome,
@@ -128,6 +130,52 @@ fn a_catch_takes_the_hold_time_without_a_break() {
         [[ship]]\nname = \"target\"\norbit = { radius = 6, phase = 0.05 }\n";
     let (end, time) = play(&scene(text), 0, |_| ());
     assert_eq!((end, time), (Outcome::Caught, 3.0));
+}
+
+#[test]
+fn a_break_in_the_hold_starts_it_again() {
+    let text = "[rules]\nhold_time = 3\n[[ship]]\nname = \"hunter\"\norbit = { radius = 6 }\nai = \"pursue\"\nfuel = 0\n\
+        [[ship]]\nname = \"target\"\norbit = { radius = 6, phase = 0.05 }\n";
+    let mut app = app_of(&scene(text), &GameConfig::default(), 0);
+    let target = app.world().resource::<Fleet>().0[1];
+    loop {
+        if app.world().resource::<Clock>().time == 2.0 {
+            // For one step it is elsewhere.
+            let before = motion(app.world(), 1);
+            let away = ShipState { position: -before.position, momentum: -before.momentum, ..before };
+            app.world_mut().entity_mut(target).insert(ShipMotion(away));
+            app.world_mut().run_schedule(FixedUpdate);
+            app.world_mut().entity_mut(target).insert(ShipMotion(step(&before, 0.03125, DVec3::ZERO, DVec3::ZERO)));
+        }
+        app.world_mut().run_schedule(FixedUpdate);
+        if let Some(end) = outcome(app.world()) {
+            // Away in the step that ends at 2.03125.
+            assert_eq!(end, (Outcome::Caught, 5.03125));
+            return;
+        }
+    }
+}
+
+#[test]
+fn an_orbit_without_fall_risk_stays_up_and_one_that_falls_has_it() {
+    let mut counts = [0, 0];
+    for index in 0..400 {
+        let angle = f64::from(index);
+        let position = DVec3::X * (2.5 + 0.02 * angle);
+        let momentum = DVec3::new(0.5 * (3.1 * angle).sin(), 0.15 + 0.4 * (1.7 * angle).cos().abs(), 0.2 * (2.3 * angle).sin());
+        let start = ShipState::new(position, momentum);
+        let safe = fall_risk(&Point::from(&start), 10.0) == 0.0;
+        assert_eq!(safe, fall_risk(&Point::from(&start), 0.0) == 0.0);
+        let (mut now, mut lowest) = (start, f64::INFINITY);
+        for _ in 0..600 {
+            now = step(&now, 0.5, DVec3::ZERO, DVec3::ZERO);
+            lowest = lowest.min(now.position.length());
+        }
+        assert!(!safe || lowest > SAFE_RADIUS, "{start:?} came down to {lowest}");
+        assert!(safe || lowest < SAFE_RADIUS || energy(&start) >= 0.97, "{start:?} never came below {lowest}");
+        counts[usize::from(safe)] += 1;
+    }
+    assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
 }
 
 #[test]

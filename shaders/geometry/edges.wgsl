@@ -38,8 +38,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
-    // An edge that is seen under less than the budget allows for its bend needs no measuring.
-    if radial || angle_between(from_apparent, to_apparent) >= 2.0 * frame.size.w {
+    // A short edge needs no measuring: seen under θ it bends by about θ²/8 over the radius of the image's curves, which is that of the ring
+    // (0.1 rad and more) unless the axis is near: 8 pixels bend by less than a tenth of one.
+    let seen_under = angle_between(from_apparent, to_apparent);
+    let nearest = min(length(across_plane(a.xyz)), length(across_plane(b.xyz)));
+    let short = seen_under < 2.0 * frame.size.w || (seen_under < 8.0 * frame.size.z && nearest > 4.0 * distance(a.xyz, b.xyz));
+    if radial || !short {
         let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
         let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
@@ -56,5 +60,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         error = chord_error(points[0], points[1], points[2], points[3], points[4]);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error)), bitcast<f32>(0u), 0.0, error);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement))), bitcast<f32>(0u), 0.0, error);
 }

@@ -56,11 +56,12 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
     if dot(b, b) > dot(direction, direction) { direction = b; }
     if dot(c, c) > dot(direction, direction) { direction = c; }
     let along = length(direction);
-    if along < 1e-4 {
+    // Nothing to see, and f32 pixels (3e-5 at 500) cannot say its direction.
+    if along < 1e-3 || height < 1e-5 {
         return true;
     }
     direction = direction / along;
-    let coverage = max(height, 1e-3) * min(along, 1.0);
+    let coverage = height * min(along, 1.0);
     let slot = atomicAdd(&counters.thin, 3u);
     if slot + 3u > frame.capacity.w {
         atomicSub(&counters.thin, 3u);

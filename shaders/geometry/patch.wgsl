@@ -60,6 +60,12 @@ fn level_for(error: f32) -> u32 {
     return 1u;
 }
 
+/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held four times closer, so that
+/// sag and growth together stay under a pixel.
+fn strictness(placement: Placement) -> f32 {
+    return select(1.0, 4.0, (placement.triangles.w & PLACEMENT_THIN) != 0u);
+}
+
 /// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.
 fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>) -> f32 {
     let e1 = angle_between(quarter, mix(a, b, vec3<f32>(0.25)));

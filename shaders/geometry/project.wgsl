@@ -125,6 +125,10 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
             break;
         }
         let missing = placement.offset.w - (s + result.ray.delay);
+        // A time in which the object moves less than a tenth of a pixel need not be found.
+        if i > 0u && abs(missing) * length(placement.velocity.xyz) < 0.1 * frame.size.z * result.ray.delay {
+            break;
+        }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
         let energy = result.ray.leaving.w - river_at(result.offset, result.ray.leaving.xyz);
         let slope = 1.0 - dot(placement.velocity.xyz, result.ray.leaving.xyz) / energy;

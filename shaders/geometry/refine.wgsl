@@ -11,6 +11,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let piece = pieces[queue * frame.capacity.z + index];
     let placement = placements[piece.what.x];
     let triangle = model_triangles[piece.what.y];
+    strict = strictness(placement);
     measure(piece, placement, triangle);
     model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
         bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
@@ -25,6 +26,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 var<private> points: array<vec3<f32>, 17>;
 var<private> offsets: array<vec3<f32>, 6>;
 
+/// `strictness` of the placement.
+var<private> strict: f32;
 /// Levels of the model triangle's edges, from the stage of edges.
 var<private> model_levels: vec3<u32>;
 
@@ -32,7 +35,7 @@ var<private> model_levels: vec3<u32>;
 fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
     if !whole {
-        return level_for(error);
+        return level_for(error * strict);
     }
     let absent = a + b;
     if absent.x == 0.0 {
@@ -146,8 +149,8 @@ fn refine_fan(piece: Piece, queue: u32) {
         emit_piece(queue, piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;
     }
-    let side_1 = level_for(chord_error(points[6], points[7], points[8], points[9], points[1]));
-    let side_2 = level_for(chord_error(points[10], points[11], points[12], points[13], points[2]));
+    let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]));
+    let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]));
     // The arc is where two orders meet, each with arcs of its own: held to an eighth of the budget, so that the overlap covers the difference.
     let arc = level_for(8.0 * chord_error(points[6], points[14], points[15], points[16], points[10]));
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));

@@ -54,22 +54,21 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let doppler = camera_doppler(look);
     // dΩ_camera/dΩ_sky = (sinψ dψ)/(sinΦ dΦ) / D²; dψ/dΦ = gap · ds/dΦ.
     let magnification = sin(psi) * gap * s.y / max(sin_phi, STAR_DISC) / (doppler * doppler);
-    let g = sky_ratio(cos(psi), doppler);
-    let flags = frame.switches.x;
-    var light = blackbody_rgb(star.colour.x);
-    light /= max(luminance(light), 1e-30);
-    if (flags & FLAG_DOPPLER) != 0u {
-        light = blackbody_rgb(star.colour.x * g) / max(luminance(blackbody_rgb(star.colour.x)), 1e-30);
-    }
-    if (flags & FLAG_BEAMING) == 0u {
-        light /= max(luminance(light), 1e-30);
-    }
     let flux = star.direction.w * magnification * frame.light.y;
-    let colour = light * flux;
-    // Too faint to change a pixel of the developed picture: a thousandth of full scale.
-    if luminance(colour) * adaptation.x < 1e-3 {
+    // Too faint to change a pixel of the developed picture, whatever its colour: a five-hundredth of full scale, with room for the shift.
+    let g = sky_ratio(cos(psi), doppler);
+    if flux * max(g * g * g * g, 1.0) * adaptation.x < 2e-3 {
         return;
     }
+    let flags = frame.switches.x;
+    let rest = blackbody_rgb(star.colour.x);
+    var light = rest;
+    if (flags & FLAG_DOPPLER) != 0u {
+        light = blackbody_rgb(star.colour.x * g);
+    }
+    // The catalogue gives light as seen: a black body at T of that luminance. At gT it is as much brighter as the black body is.
+    light /= max(luminance(select(light, rest, (flags & FLAG_BEAMING) != 0u)), 1e-30);
+    let colour = light * flux;
     let slot = atomicAdd(&star_draw.instances, 1u);
     if slot >= arrayLength(&seen_stars) {
         atomicSub(&star_draw.instances, 1u);

@@ -15,9 +15,9 @@ pub const BEND_RANGE: Real = 0.5;
 /// The smallest angle swept, in radians: a point exactly on the axis is looked up as if this far off it.
 pub const SMALLEST_SWEEP: Real = 1e-9;
 /// Half the turn, in radians.
-pub const HALF_TURN: Real = 3.141_592_653_589_793_f64 as Real;
+pub const HALF_TURN: Real = std::f64::consts::PI as Real;
 /// The largest angle swept in the table, in radians: 3π.
-pub const LARGEST_SWEEP: Real = 9.424_777_960_769_38_f64 as Real;
+pub const LARGEST_SWEEP: Real = (3.0 * std::f64::consts::PI) as Real;
 /// The table's range of 1/r, in 1/r_s: r from 1.00035 to 10,526.
 pub const POINT_RANGE: [Real; 2] = [0.95e-4, 0.999_65];
 
@@ -131,7 +131,10 @@ pub fn basis(cam: &Camera, sweep: Real) -> [Real; 2] {
     }
     let up = x.exp();
     let down = 1.0 / up;
-    [0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate)]
+    [
+        0.5 * (up - down) / cam.rate,
+        (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate),
+    ]
 }
 
 /// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
@@ -145,14 +148,21 @@ pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
     let root = (b * b + 2.0 * q * c).max(0.05 * b * b + 1e-4 * q).sqrt();
-    let w = if b > 0.0 { 2.0 * c / (b + root) } else { (root - b) / q };
+    let w = if b > 0.0 {
+        2.0 * c / (b + root)
+    } else {
+        (root - b) / q
+    };
     let turn = 1.0 + cam.bend * k;
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
         let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
         return [w, (turn * rise + f * k + rest) / s + w * am * s * s];
     }
-    [w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w]
+    [
+        w,
+        w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w,
+    ]
 }
 
 /// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
@@ -186,7 +196,16 @@ pub fn emission_scale(cam: &Camera, c: Real) -> Real {
 /// The parts of the delay T = p₀ + p₂ (p₁ + table): what is singular at the horizon and what falls with the rain; the chord and
 /// Shapiro's logarithm, both regular across the Einstein ring; a factor that goes to zero with e at the horizon.
 /// `room` = 1 − 1/r, `dr` = r − L; w, e, w_e are those of the ray.
-pub fn delay_parts(cam: &Camera, r: Real, room: Real, dr: Real, bent: Real, w: Real, e: Real, w_e: Real) -> [Real; 3] {
+pub fn delay_parts(
+    cam: &Camera,
+    r: Real,
+    room: Real,
+    dr: Real,
+    bent: Real,
+    w: Real,
+    e: Real,
+    w_e: Real,
+) -> [Real; 3] {
     let (l, a) = (cam.l, cam.a);
     let c = 1.0 / r;
     let (root_r, root_l) = (r.sqrt(), l.sqrt());
@@ -196,13 +215,24 @@ pub fn delay_parts(cam: &Camera, r: Real, room: Real, dr: Real, bent: Real, w: R
     let y = 2.0 * (0.5 * bent).cos();
     let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
     let reach = (y * y + soft).sqrt();
-    let h = if y > 0.0 { 0.5 * (y + reach) } else { 0.5 * soft / (reach - y) };
-    let excess = if y > 0.0 { 0.5 * soft / (reach + y) } else { 0.5 * (reach - y) };
+    let h = if y > 0.0 {
+        0.5 * (y + reach)
+    } else {
+        0.5 * soft / (reach - y)
+    };
+    let excess = if y > 0.0 {
+        0.5 * soft / (reach + y)
+    } else {
+        0.5 * (reach - y)
+    };
     let q = x * x - excess * (h + y);
     // The radial rates, exact along Φ = 0.
     let fall = dr / (root_r + root_l);
     let (rate_in, rate_log) = if dr.abs() > 1e-6 * l {
-        (2.0 * log1p(fall / (1.0 + root_l)) / dr, 2.0 * log1p(dr / l) / dr)
+        (
+            2.0 * log1p(fall / (1.0 + root_l)) / dr,
+            2.0 * log1p(dr / l) / dr,
+        )
     } else {
         (1.0 / (root_l * (1.0 + root_l)), 2.0 / l)
     };
@@ -210,10 +240,22 @@ pub fn delay_parts(cam: &Camera, r: Real, room: Real, dr: Real, bent: Real, w: R
     let rain = (2.0 / (root_r + root_l) + 0.5 * rate_log - rate_in) * dr;
     let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
     let chord = (mean * mean * dr * dr + across).sqrt();
-    let out = if w_e > 0.0 { (w_e + e) / (room * c) } else { c / (e - w_e) };
-    let back = if w > 0.0 { a * cam.room / (e + w) } else { (e - w) / a };
+    let out = if w_e > 0.0 {
+        (w_e + e) / (room * c)
+    } else {
+        c / (e - w_e)
+    };
+    let back = if w > 0.0 {
+        a * cam.room / (e + w)
+    } else {
+        (e - w) / a
+    };
     let a4 = a * a * a * a;
     let c4 = c * c * c * c;
     let factor = e / (e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4)).sqrt();
-    [2.0 * (out * back).ln() - rain, chord - 2.0 * (0.5 * h).ln(), factor]
+    [
+        2.0 * (out * back).ln() - rain,
+        chord - 2.0 * (0.5 * h).ln(),
+        factor,
+    ]
 }

@@ -81,6 +81,11 @@ impl Gpu {
 }
 
 /// Waits for a future that wgpu completes at once on native platforms.
+/// Waits for a future that wgpu completes at once on native platforms.
+pub fn wait<T>(future: impl Future<Output = T>) -> T {
+    block_on(future)
+}
+
 fn block_on<T>(future: impl Future<Output = T>) -> T {
     bevy::tasks::block_on(future)
 }

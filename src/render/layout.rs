@@ -64,11 +64,14 @@ pub fn bind(device: &wgpu::Device, label: &str, layout: &wgpu::BindGroupLayout, 
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
 }
 
-/// A buffer of `size` bytes, at least one row of 16.
+/// The least size of a buffer, in bytes: an empty list still has room for one of the largest rows that a shader reads.
+const LEAST: u64 = 512;
+
+/// A buffer of `size` bytes, or of the least size.
 pub fn buffer(device: &wgpu::Device, label: &str, size: u64, usage: BufferUsages) -> Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some(label),
-        size: size.max(16).next_multiple_of(16),
+        size: size.max(LEAST).next_multiple_of(16),
         usage: usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC,
         mapped_at_creation: false,
     })
@@ -94,7 +97,7 @@ pub struct Growing {
 impl Growing {
     /// An empty one.
     pub fn new(device: &wgpu::Device, label: &'static str, usage: BufferUsages) -> Self {
-        Growing { label, usage, buffer: buffer(device, label, 16, usage) }
+        Growing { label, usage, buffer: buffer(device, label, LEAST, usage) }
     }
 
     /// Holds at least `size` bytes afterwards. True if the buffer was replaced, so that bind groups must be made anew.

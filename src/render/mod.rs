@@ -4,6 +4,7 @@
 //! file: [`placements`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
 //! (Milky Way, stars) → [`develop`] (bloom, exposure, tone curve).
 
+pub mod coarse;
 pub mod develop;
 pub mod device;
 pub mod frame;
@@ -11,6 +12,7 @@ pub mod geometry;
 pub mod layout;
 pub mod models;
 pub mod placements;
+pub mod plugin;
 pub mod readback;
 pub mod renderer;
 pub mod shaders;

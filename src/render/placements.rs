@@ -40,6 +40,8 @@ pub struct Surroundings {
 pub struct Object<'a> {
     /// Which model.
     pub model: ModelRange,
+    /// What stands for it where its image is only a few pixels wide.
+    pub coarse: ModelRange,
     /// How it moves.
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
@@ -76,10 +78,17 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
                 Motion::Flying(history) => flying(camera, time, history, order, object)?,
             };
             placement.ids = [u32::from(order.number()), object.id, 0, 0];
-            if view.width(position, object.reach, order) < THIN_PIXELS * view.pixel {
+            let width = view.width(position, object.reach, order) / view.pixel;
+            if width < LEAST_PIXELS && order.number() > 1 {
+                return None;
+            }
+            if width < THIN_PIXELS {
                 placement.triangles[3] |= THIN;
             }
-            Some(Placed { model: object.model, placement })
+            // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
+            let small = width < COARSE_PIXELS && object.reach < 0.1 * position.length();
+            let model = if small { object.coarse } else { object.model };
+            Some(Placed { model, placement })
         })
         .collect()
 }
@@ -92,6 +101,11 @@ const HELD: u32 = 2;
 const THIN: u32 = 4;
 /// Images narrower than this are drawn as thin ones, in pixels: from here down single triangles would miss pixel centres.
 const THIN_PIXELS: f64 = 2.0;
+
+/// Images of order 2 and 3 narrower than this are not drawn: as a line a pixel wide they would cover a hundredth of it.
+const LEAST_PIXELS: f64 = 0.01;
+/// Images narrower than this show the coarse model: its cells (a sixth of the object) are then a pixel wide.
+const COARSE_PIXELS: f64 = 6.0;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]

@@ -42,6 +42,7 @@ pub struct Renderer {
     blackbody: wgpu::Buffer,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
+    format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
     /// The radius that the slices are for.
     sliced: f64,
@@ -88,6 +89,7 @@ impl Renderer {
             blackbody,
             adaptation,
             frame_layout,
+            format,
             frame_group,
             sliced: f64::NAN,
             develop,
@@ -126,6 +128,15 @@ impl Renderer {
     pub fn resize(&mut self, size: [u32; 2]) {
         if size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
+            self.develop.resize(&self.gpu, &self.targets);
+        }
+    }
+
+    /// Makes the passes for an output of another format.
+    pub fn set_output_format(&mut self, format: wgpu::TextureFormat) {
+        if format != self.format {
+            self.format = format;
+            self.develop = Develop::new(&self.gpu.device, &self.frame_layout, format);
             self.develop.resize(&self.gpu, &self.targets);
         }
     }

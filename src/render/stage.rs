@@ -13,13 +13,14 @@ use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
 use super::frame::{Camera, FrameInput, Settings};
+use super::coarse::coarse;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, Surroundings, View, place};
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    objects: Vec<(scene::Object, ModelRange)>,
+    objects: Vec<(scene::Object, [ModelRange; 2])>,
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
@@ -42,7 +43,12 @@ impl Stage {
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
-        let ranges: Vec<ModelRange> = assembly.models.iter().map(|model| renderer.add_model(model)).collect();
+        let mut ranges: Vec<[ModelRange; 2]> = Vec::new();
+        for model in &assembly.models {
+            let fine = renderer.add_model(model);
+            let stand_in = coarse(model).map_or(fine, |model| renderer.add_model(&model));
+            ranges.push([fine, stand_in]);
+        }
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
         let objects = assembly.objects.into_iter().map(|object| {
@@ -93,7 +99,8 @@ impl Stage {
                 },
             };
             let object = Object {
-                model: *model,
+                model: model[0],
+                coarse: model[1],
                 motion,
                 reach: self.reaches[number],
                 scale: DVec3::splat(object.scale),

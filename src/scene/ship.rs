@@ -216,11 +216,11 @@ fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
             if !(x.length() > SINGULARITY_RADIUS && x.length() <= MAX_START_RADIUS) {
                 return fault(
                     position,
-                    format!("position = {x:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.length()),
+                    format!("position = {:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.to_array(), x.length()),
                 );
             }
             if !(0.0..=MAX_START_MOMENTUM).contains(&p.length()) {
-                return fault(momentum, format!("momentum = {p:?} must be finite and at most {MAX_START_MOMENTUM:e} c"));
+                return fault(momentum, format!("momentum = {:?} must be finite and at most {MAX_START_MOMENTUM:e} c", p.to_array()));
             }
             Ok(ShipState::new(x, p))
         }
@@ -277,7 +277,7 @@ fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
         if !(0.0..=MAX_ACCELERATION).contains(&acceleration.length()) {
             return fault(
                 &entry.acceleration,
-                format!("acceleration = {acceleration:?} must be finite and at most {MAX_ACCELERATION} c²/r_s"),
+                format!("acceleration = {:?} must be finite and at most {MAX_ACCELERATION} c²/r_s", acceleration.to_array()),
             );
         }
         checked.push((burn.span(), Burn { from, until, acceleration }));

@@ -1,0 +1,136 @@
+//! The demonstration flight's cameras: what is shown when.
+
+use glam::{DQuat, DVec3};
+
+use crate::render::frame::Camera;
+use crate::render::stage::{static_camera, third_person};
+use crate::sim::History;
+use crate::spacetime::frames;
+use crate::spacetime::light::Order;
+use crate::spacetime::matter::ShipState;
+
+use super::camera::state_of;
+use super::seen::apparition;
+
+/// A kind of picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shot {
+    /// Behind the hunter, looking where the quarry is seen.
+    Chase,
+    /// From the hunter's cockpit, looking where the quarry is seen.
+    Cockpit,
+    /// Behind the quarry, looking back at the hunter.
+    Quarry,
+    /// From far, at rest, with the hole in the middle.
+    Wide,
+}
+
+/// The shots of the flight, each with the share of it at which it ends.
+const PLAN: [(f64, Shot); 7] = [
+    (0.12, Shot::Wide),
+    (0.38, Shot::Chase),
+    (0.50, Shot::Cockpit),
+    (0.66, Shot::Chase),
+    (0.76, Shot::Quarry),
+    (0.86, Shot::Cockpit),
+    (1.0, Shot::Chase),
+];
+
+/// The shot at `share` of the flight, in [0, 1].
+pub fn shot_at(share: f64) -> Shot {
+    PLAN.iter().find(|(end, _)| share < *end).map_or(PLAN[PLAN.len() - 1].1, |(_, shot)| *shot)
+}
+
+/// Behind and above, in lengths of the ship.
+const BEHIND: DVec3 = DVec3::new(0.35, 1.0, 3.4);
+/// How much of the way to its new attitude a camera goes in a frame.
+const FOLLOW: f64 = 0.25;
+
+/// The camera of the demonstration.
+#[derive(Clone, Debug)]
+pub struct Director {
+    shot: Option<Shot>,
+    attitude: DQuat,
+}
+
+impl Default for Director {
+    fn default() -> Self {
+        Director { shot: None, attitude: DQuat::IDENTITY }
+    }
+}
+
+/// The ships of the demonstration: their worldlines, and the length of each in r_s.
+#[derive(Clone, Copy, Debug)]
+pub struct Cast<'a> {
+    /// The one that hunts.
+    pub hunter: (&'a History, f64),
+    /// The one that flees, if there is one.
+    pub quarry: Option<(&'a History, f64)>,
+    /// Index of the hunter among the scene's ships.
+    pub hunter_index: usize,
+}
+
+impl Director {
+    /// The camera at T = `time`, `share` of the way through the flight, and the ship that is not drawn.
+    pub fn camera(&mut self, cast: &Cast, time: f64, share: f64, field_of_view: f64) -> (Camera, Option<usize>) {
+        let shot = shot_at(share);
+        let (near, far) = match (shot, cast.quarry) {
+            (Shot::Quarry, Some(quarry)) => (quarry, Some(cast.hunter)),
+            (_, quarry) => (cast.hunter, quarry),
+        };
+        if shot == Shot::Wide {
+            self.shot = Some(shot);
+            return (wide(near.0.at(time).position, share, field_of_view), None);
+        }
+        let state = state_of(&near.0.at(time));
+        let wanted = look_at(&state, time, far.map(|far| far.0)).unwrap_or(state.attitude);
+        self.attitude = if self.shot == Some(shot) { self.attitude.slerp(wanted, FOLLOW).normalize() } else { wanted };
+        self.shot = Some(shot);
+        let turned = ShipState { attitude: self.attitude, ..state };
+        match shot {
+            Shot::Cockpit => (third_person(&turned, DVec3::ZERO, DQuat::IDENTITY, field_of_view), Some(cast.hunter_index)),
+            _ => (third_person(&turned, BEHIND * near.1, DQuat::IDENTITY, field_of_view), None),
+        }
+    }
+}
+
+/// The attitude of an observer in the ship who looks at the image of `other`, the disk's axis upwards.
+fn look_at(state: &ShipState, time: f64, other: Option<&History>) -> Option<DQuat> {
+    let resting = Camera { position: state.position, momentum: state.momentum, attitude: DQuat::IDENTITY, field_of_view: 1.0 };
+    let direction = apparition(&resting, time, other?, Order::ALL[0])?.direction;
+    frames::look(direction, DVec3::Z)
+}
+
+/// A hovering camera above the side of the hole where the ships are, the hole in the middle.
+fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Camera {
+    let azimuth = ship.y.atan2(ship.x) - 0.35 + share;
+    let position = DVec3::new(azimuth.cos(), azimuth.sin(), 0.32) * 15.0;
+    static_camera(position, -position, DVec3::Z, field_of_view)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::orbit::static_momentum;
+
+    #[test]
+    fn every_moment_has_a_shot() {
+        assert_eq!(shot_at(0.0), Shot::Wide);
+        assert_eq!(shot_at(1.0), Shot::Chase);
+        let kinds: Vec<Shot> = (0..=100).map(|k| shot_at(f64::from(k) / 100.0)).collect();
+        for shot in [Shot::Wide, Shot::Chase, Shot::Cockpit, Shot::Quarry] {
+            assert!(kinds.contains(&shot), "{shot:?}");
+        }
+    }
+
+    #[test]
+    fn the_quarry_is_in_the_middle_of_the_picture() {
+        let ship = |position: DVec3| ShipState::new(position, static_momentum(position).unwrap_or_default());
+        let (hunter, quarry) = (History::new(0.0, &ship(DVec3::X * 9.0)), History::new(0.0, &ship(DVec3::new(2.0, 7.0, 1.0))));
+        let cast = Cast { hunter: (&hunter, 0.25), quarry: Some((&quarry, 0.25)), hunter_index: 0 };
+        let (camera, hidden) = Director::default().camera(&cast, 0.0, 0.45, 1.0);
+        assert_eq!(hidden, Some(0));
+        let seen = apparition(&camera, 0.0, &quarry, Order::ALL[0]).expect("seen").direction;
+        assert!(seen.angle_between(DVec3::NEG_Z) < 1e-6, "{seen}");
+    }
+}

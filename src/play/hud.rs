@@ -1,0 +1,282 @@
+//! The HUD: dials and markers, painted with egui. The numbers come from [`super::instruments`].
+
+use bevy::prelude::*;
+use bevy_egui::EguiContexts;
+use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as Size, pos2, vec2};
+use glam::DVec3;
+
+use crate::render::frame::Camera;
+use crate::sim::{Chase, ChaseRules};
+
+use super::camera::View;
+use super::instruments::Scale;
+use super::live::Notice;
+use super::screens::Screen;
+use super::session::Session;
+use super::window::{Panel, Player1};
+
+/// What is read.
+const TEXT: Color32 = Color32::from_rgb(222, 232, 240);
+/// What explains it.
+const FAINT: Color32 = Color32::from_rgb(140, 156, 172);
+/// The image of the target.
+const SEEN: Color32 = Color32::from_rgb(96, 220, 255);
+/// The target itself.
+const TRUE: Color32 = Color32::from_rgb(255, 176, 72);
+/// One's own motion.
+const OWN: Color32 = Color32::from_rgb(150, 240, 150);
+/// Danger.
+const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
+/// Behind text, so that it stays readable before stars.
+const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 150);
+
+/// Space between the screen's edge and the dials, in points.
+const MARGIN: f32 = 18.0;
+
+/// Draws the HUD.
+#[allow(clippy::too_many_arguments)]
+pub fn draw(
+    mut contexts: EguiContexts,
+    screen: Res<State<Screen>>,
+    session: Res<Session>,
+    player: Res<Player1>,
+    panel: Res<Panel>,
+    chase: Option<Res<Chase>>,
+    rules: Res<ChaseRules>,
+    notice: Res<Notice>,
+    real: Res<Time<Real>>,
+) -> Result {
+    let context = contexts.ctx_mut()?;
+    let painter = context.layer_painter(egui::LayerId::background());
+    let rect = context.content_rect();
+    if real.elapsed_secs_f64() < notice.until {
+        plate(&painter, pos2(rect.center().x, rect.top() + 70.0), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
+    }
+    if player.bare || *screen.get() == Screen::Title {
+        return Ok(());
+    }
+    markers(&painter, rect, &panel, &player);
+    if let Some(chase) = chase.filter(|chase| chase.held > 0.0 && chase.outcome.is_none()) {
+        let share = (chase.held / rules.0.hold_time.max(1e-9)).clamp(0.0, 1.0);
+        arc(&painter, rect.center(), 46.0, share, Stroke::new(4.0, OWN));
+        text(&painter, rect.center() + vec2(0.0, 62.0), Align2::CENTER_TOP, "HOLD", 15.0, OWN);
+    }
+    dials(&painter, rect, &session, &player, &panel);
+    Ok(())
+}
+
+fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
+    painter.text(at + vec2(1.0, 1.0), anchor, words, FontId::proportional(size), Color32::from_black_alpha(200));
+    painter.text(at, anchor, words, FontId::proportional(size), colour)
+}
+
+/// Lines on a dark plate.
+fn plate(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color32)]) {
+    let galleys: Vec<_> = lines
+        .iter()
+        .map(|&(words, size, colour)| (painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour), colour))
+        .collect();
+    let inside = galleys.iter().fold(Size::ZERO, |sum, (galley, _)| vec2(sum.x.max(galley.size().x), sum.y + galley.size().y));
+    let frame = anchor.anchor_size(at, inside + vec2(20.0, 12.0));
+    painter.rect_filled(frame, 6.0, SHADE);
+    let mut corner = frame.min + vec2(10.0, 6.0);
+    for (galley, colour) in galleys {
+        let width = galley.size();
+        let x = if anchor.x() == egui::Align::RIGHT { frame.right() - 10.0 - width.x } else { corner.x };
+        painter.galley(pos2(x, corner.y), galley, colour);
+        corner.y += width.y;
+    }
+}
+
+fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Player1, panel: &Panel) {
+    let Some(read) = panel.instruments else { return };
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
+    let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
+
+    let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
+    plate(painter, pos2(left, top), Align2::LEFT_TOP, &[
+        ("OWN CLOCK", 11.0, FAINT),
+        (&scale.clock(read.own_time), 19.0, TEXT),
+        ("FAR CLOCK", 11.0, FAINT),
+        (&scale.clock(read.far_time), 19.0, TEXT),
+        (&rate, 12.0, FAINT),
+    ]);
+
+    let near = if read.radius < 1.0 { ALARM } else if read.radius < 3.0 { TRUE } else { TEXT };
+    plate(painter, pos2(right, top), Align2::RIGHT_TOP, &[
+        ("FROM THE HOLE  r", 11.0, FAINT),
+        (&format!("{:.2} r_s", read.radius), 19.0, near),
+        (&scale.kilometres(read.radius), 13.0, TEXT),
+        (&format!("camera L  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
+    ]);
+
+    let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
+    let gees = scale.gees(read.acceleration);
+    let load = format!("{gees:.1} g");
+    plate(painter, pos2(left, bottom), Align2::LEFT_BOTTOM, &[
+        ("SPEED", 11.0, FAINT),
+        (&speed, 30.0, TEXT),
+        ("LOAD", 11.0, FAINT),
+        (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),
+    ]);
+
+    if let Some(target) = read.target {
+        let closing = format!("{:+.3} c", target.closing);
+        plate(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, &[
+            ("RANGE", 11.0, FAINT),
+            (&format!("{:.2} r_s", target.range), 30.0, TEXT),
+            (&scale.kilometres(target.range), 12.0, FAINT),
+            ("CLOSING", 11.0, FAINT),
+            (&closing, 19.0, if target.closing > 0.0 { OWN } else { TRUE }),
+        ]);
+    }
+
+    fuel(painter, pos2(rect.center().x, bottom), read.fuel);
+    let assist = if session.config.assist.enabled { "ASSIST" } else { "FREE FLIGHT" };
+    let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
+    let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
+    let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
+    text(painter, pos2(rect.center().x, bottom - 34.0), Align2::CENTER_BOTTOM, &state, 12.0, FAINT);
+    if player.avoiding {
+        text(painter, pos2(rect.center().x, rect.bottom() - 110.0), Align2::CENTER_BOTTOM, "PULLING AWAY FROM THE HOLE", 18.0, ALARM);
+    } else if read.radius < 1.0 {
+        text(painter, pos2(rect.center().x, rect.bottom() - 110.0), Align2::CENTER_BOTTOM, "BELOW THE HORIZON", 18.0, ALARM);
+    }
+}
+
+fn fuel(painter: &Painter, bottom: Pos2, share: Option<f64>) {
+    let bar = Rect::from_center_size(bottom - vec2(0.0, 12.0), vec2(300.0, 12.0));
+    painter.rect_filled(bar.expand(2.0), 4.0, SHADE);
+    let share = share.map(|share| share as f32);
+    let colour = if share.is_some_and(|share| share < 0.15) { ALARM } else { OWN };
+    let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share.unwrap_or(1.0), bar.height()));
+    painter.rect_filled(filled, 3.0, colour.gamma_multiply(0.75));
+    painter.rect_stroke(bar, 3.0, Stroke::new(1.0, FAINT), StrokeKind::Outside);
+    let words = share.map_or("FUEL".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
+    text(painter, bar.center(), Align2::CENTER_CENTER, &words, 10.5, TEXT);
+}
+
+/// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// On the screen, in points from the upper left corner.
+    On([f64; 2]),
+    /// At the edge, with the unit vector towards it (x right, y down).
+    Edge([f64; 2], [f64; 2]),
+}
+
+/// See [`Place`]; `size` in points, `inset` the distance of arrows from the edge.
+pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -> Place {
+    let camera = Camera { position: DVec3::X, momentum: DVec3::ZERO, attitude: glam::DQuat::IDENTITY, field_of_view };
+    let whole = [1000, (1000.0 * size[1] / size[0]).round() as u32];
+    if let Some([x, y]) = camera.pixel(direction, whole) {
+        let at = [x * size[0] / 1000.0, y * size[0] / 1000.0];
+        if (0.0..=size[0]).contains(&at[0]) && (0.0..=size[1]).contains(&at[1]) {
+            return Place::On(at);
+        }
+    }
+    // The shortest turn that brings it into view goes along its projection across the line of sight.
+    let length = direction.x.hypot(direction.y);
+    let towards = if length > 1e-9 { [direction.x / length, -direction.y / length] } else { [0.0, 1.0] };
+    let room = [0.5 * size[0] - inset, 0.5 * size[1] - inset];
+    let reach = (room[0] / towards[0].abs().max(1e-9)).min(room[1] / towards[1].abs().max(1e-9));
+    Place::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
+}
+
+fn markers(painter: &Painter, rect: Rect, panel: &Panel, player: &Player1) {
+    let size = [f64::from(rect.width()), f64::from(rect.height())];
+    let find = |direction: DVec3| place(direction, panel.field_of_view, size, 60.0);
+    let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
+
+    // The ship's nose.
+    if player.view == View::Cockpit {
+        let c = rect.center();
+        for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
+            painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT));
+        }
+    }
+    if let Some(Place::On(at)) = panel.heading.map(find) {
+        let at = point(at);
+        painter.circle_stroke(at, 6.0, Stroke::new(1.5, OWN));
+        for (from, to) in [(vec2(-12.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(12.0, 0.0)), (vec2(0.0, -12.0), vec2(0.0, -6.0))] {
+            painter.line_segment([at + from, at + to], Stroke::new(1.5, OWN));
+        }
+    }
+    if let Some(Place::On(at)) = panel.truth.map(find) {
+        let at = point(at);
+        for quarter in 0..8 {
+            let begin = f64::from(quarter) / 8.0;
+            dash(painter, at, 13.0, begin, begin + 0.07, Stroke::new(1.8, TRUE));
+        }
+        text(painter, at + vec2(18.0, 10.0), Align2::LEFT_TOP, "now", 12.0, TRUE);
+    }
+    for (order, image) in panel.images.iter().enumerate() {
+        let Some(image) = image else { continue };
+        match (find(image.direction), order) {
+            (Place::On(at), 0) => {
+                diamond(painter, point(at), 13.0, Stroke::new(2.0, SEEN));
+                let label = format!("seen, {:.1} r_s/c ago", image.age);
+                text(painter, point(at) + vec2(18.0, -10.0), Align2::LEFT_BOTTOM, &label, 12.0, SEEN);
+            }
+            (Place::On(at), _) => {
+                diamond(painter, point(at), 7.0, Stroke::new(1.2, SEEN.gamma_multiply(0.7)));
+                text(painter, point(at) + vec2(11.0, 0.0), Align2::LEFT_CENTER, "2nd image", 10.5, SEEN.gamma_multiply(0.7));
+            }
+            (Place::Edge(at, towards), 0) => arrow(painter, point(at), vec2(towards[0] as f32, towards[1] as f32)),
+            _ => (),
+        }
+    }
+}
+
+fn diamond(painter: &Painter, at: Pos2, radius: f32, stroke: Stroke) {
+    let corners = [vec2(0.0, -radius), vec2(radius, 0.0), vec2(0.0, radius), vec2(-radius, 0.0)].map(|corner| at + corner);
+    painter.add(Shape::closed_line(corners.to_vec(), stroke));
+}
+
+fn arrow(painter: &Painter, at: Pos2, towards: Size) {
+    let side = vec2(-towards.y, towards.x);
+    let corners = vec![at + towards * 16.0, at - towards * 8.0 + side * 11.0, at - towards * 2.0, at - towards * 8.0 - side * 11.0];
+    painter.add(Shape::closed_line(corners, Stroke::new(2.0, SEEN)));
+    text(painter, at - towards * 26.0, Align2::CENTER_CENTER, "target", 11.0, SEEN);
+}
+
+fn dash(painter: &Painter, at: Pos2, radius: f32, from: f64, to: f64, stroke: Stroke) {
+    let on = |turn: f64| {
+        let angle = (turn - 0.25) * std::f64::consts::TAU;
+        at + vec2(angle.cos() as f32, angle.sin() as f32) * radius
+    };
+    let points = (0..=12).map(|k| on(from + (to - from) * f64::from(k) / 12.0)).collect();
+    painter.add(Shape::line(points, stroke));
+}
+
+fn arc(painter: &Painter, at: Pos2, radius: f32, share: f64, stroke: Stroke) {
+    painter.circle_stroke(at, radius, Stroke::new(1.0, FAINT));
+    dash(painter, at, radius, 0.0, share, stroke);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ahead_is_the_middle() {
+        assert_eq!(place(DVec3::NEG_Z, 1.0, [1280.0, 720.0], 50.0), Place::On([640.0, 360.0]));
+    }
+
+    #[test]
+    fn right_and_up_are_right_and_up() {
+        let Place::On([x, y]) = place(DVec3::new(0.1, 0.1, -1.0), 1.0, [1280.0, 720.0], 50.0) else { panic!("off the screen") };
+        assert!(x > 640.0 && y < 360.0, "{x} {y}");
+    }
+
+    #[test]
+    fn what_is_behind_has_an_arrow_at_the_edge() {
+        for direction in [DVec3::new(0.2, 0.1, 1.0), DVec3::new(3.0, -1.0, -0.1), DVec3::Z] {
+            let Place::Edge([x, y], towards) = place(direction, 1.0, [1280.0, 720.0], 50.0) else { panic!("on the screen") };
+            let at_edge = (x - 50.0).abs() < 1.0 || (x - 1230.0).abs() < 1.0 || (y - 50.0).abs() < 1.0 || (y - 670.0).abs() < 1.0;
+            assert!(at_edge && (49.0..1231.0).contains(&x) && (49.0..671.0).contains(&y), "{direction}: {x} {y}");
+            assert!(direction.x * towards[0] >= 0.0 && direction.y * towards[1] <= 0.0);
+        }
+    }
+}

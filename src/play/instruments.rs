@@ -1,0 +1,163 @@
+//! The numbers of the HUD: what a pilot reads, from the ships' states. The only place where r_s becomes kilometres.
+
+use crate::spacetime::matter::{ShipState, far_clock_rate, static_speed, velocity};
+
+/// GM☉/c², half of r_s per solar mass, in metres (IAU 2015 nominal GM☉ = 1.3271244e20 m³/s²).
+const HALF_RS_PER_SUN: f64 = 1476.625;
+/// The speed of light, in m/s (exact).
+const LIGHT_SPEED: f64 = 299_792_458.0;
+/// Standard gravity, in m/s² (exact).
+const STANDARD_GRAVITY: f64 = 9.80665;
+
+/// What one r_s is for a person.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// r_s in metres.
+    pub metres: f64,
+}
+
+impl Scale {
+    /// Of a hole with this mass, in solar masses.
+    pub fn of(mass_solar: f64) -> Scale {
+        Scale { metres: 2.0 * HALF_RS_PER_SUN * mass_solar }
+    }
+
+    /// A length of `r` r_s in words: `265.8 bn km`.
+    pub fn kilometres(&self, r: f64) -> String {
+        let km = r * self.metres * 1e-3;
+        let sizes = [(1e12, " tn"), (1e9, " bn"), (1e6, " m"), (1e3, " k")];
+        sizes
+            .iter()
+            .find(|(size, _)| km.abs() >= *size)
+            .map_or_else(|| format!("{km:.0} km"), |(size, name)| format!("{:.1}{name} km", km / size))
+    }
+
+    /// A time of `t` r_s/c in words: `12 d 03:45:10`.
+    pub fn clock(&self, t: f64) -> String {
+        let seconds = t * self.metres / LIGHT_SPEED;
+        if seconds < 60.0 {
+            return format!("{seconds:.3} s");
+        }
+        let whole = seconds as u64;
+        let (days, hours, minutes) = (whole / 86_400, whole / 3600 % 24, whole / 60 % 60);
+        format!("{days} d {hours:02}:{minutes:02}:{:02}", whole % 60)
+    }
+
+    /// A proper acceleration (c²/r_s) in g.
+    pub fn gees(&self, acceleration: f64) -> f64 {
+        acceleration * LIGHT_SPEED * LIGHT_SPEED / self.metres / STANDARD_GRAVITY
+    }
+}
+
+/// The target, as measured on the slice T = const.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bearing {
+    /// Distance, in r_s.
+    pub range: f64,
+    /// How fast the distance shrinks, in c of T.
+    pub closing: f64,
+}
+
+impl Bearing {
+    /// From `own` to `target` at the same T.
+    pub fn between(own: &ShipState, target: &ShipState) -> Bearing {
+        let apart = target.position - own.position;
+        let range = apart.length();
+        let parting = (velocity(target) - velocity(own)).dot(apart) / range.max(1e-9);
+        Bearing { range, closing: -parting }
+    }
+}
+
+/// Everything on the dials.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Instruments {
+    /// Against a hovering observer, in c; None inside the horizon, where none exists.
+    pub speed: Option<f64>,
+    /// r of the ship, in r_s.
+    pub radius: f64,
+    /// L of the camera, in r_s.
+    pub camera_radius: f64,
+    /// The ship's own clock τ, in r_s/c.
+    pub own_time: f64,
+    /// The far clock T, in r_s/c.
+    pub far_time: f64,
+    /// How fast a far clock goes against the ship's; None inside the horizon.
+    pub far_rate: Option<f64>,
+    /// Proper acceleration, c²/r_s.
+    pub acceleration: f64,
+    /// Left in the tanks: a share of 1; None for tanks without limit.
+    pub fuel: Option<f64>,
+    /// Where the target is, if there is one.
+    pub target: Option<Bearing>,
+}
+
+impl Instruments {
+    /// Reads them for a ship in `state` at T = `time` that accelerates by `thrust` (c²/r_s) with `fuel` of `capacity` (c).
+    pub fn read(state: &ShipState, time: f64, camera_radius: f64, thrust: f64, fuel: (f64, f64), target: Option<&ShipState>) -> Instruments {
+        let (left, capacity) = fuel;
+        Instruments {
+            speed: static_speed(state),
+            radius: state.position.length(),
+            camera_radius,
+            own_time: state.proper_time,
+            far_time: time,
+            far_rate: far_clock_rate(state),
+            acceleration: if left > 0.0 { thrust } else { 0.0 },
+            fuel: (capacity.is_finite() && capacity > 0.0).then(|| (left / capacity).clamp(0.0, 1.0)),
+            target: target.map(|target| Bearing::between(state, target)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::orbit::{circular_orbit, static_momentum};
+    use glam::DVec3;
+
+    #[test]
+    fn a_hovering_ship_has_no_speed_and_a_slow_clock() {
+        let x = DVec3::new(0.0, 2.0, 0.0);
+        let state = ShipState::new(x, static_momentum(x).expect("outside"));
+        let read = Instruments::read(&state, 5.0, 2.1, 0.02, (1.0, 4.0), None);
+        assert!(read.speed.expect("outside") < 1e-6);
+        assert!((read.far_rate.expect("outside") - 2f64.sqrt()).abs() < 1e-12);
+        assert_eq!((read.fuel, read.acceleration), (Some(0.25), 0.02));
+        assert_eq!(Instruments::read(&state, 5.0, 2.1, 0.02, (0.0, 4.0), None).acceleration, 0.0);
+    }
+
+    #[test]
+    fn range_and_closing_speed() {
+        let own = ShipState::new(DVec3::X * 100.0, DVec3::ZERO);
+        let mut target = own;
+        target.position = DVec3::X * 103.0;
+        // Both fall with the rain at r^-1/2: the outer falls slower, so they part.
+        let bearing = Bearing::between(&own, &target);
+        assert_eq!(bearing.range, 3.0);
+        assert!((bearing.closing - (103f64.powf(-0.5) - 0.1)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_inside_has_no_hovering_observer() {
+        let read = Instruments::read(&ShipState::new(DVec3::X * 0.5, DVec3::ZERO), 1.0, 0.5, 0.0, (1.0, f64::INFINITY), None);
+        assert_eq!((read.speed, read.far_rate, read.fuel), (None, None, None));
+    }
+
+    #[test]
+    fn a_circular_orbit_keeps_its_range() {
+        let a = circular_orbit(8.0, 0.0).expect("outside 1.5");
+        assert!(Bearing::between(&a, &ShipState::new(DVec3::ZERO.with_z(1e-3) + a.position, a.momentum)).closing.abs() < 1e-3);
+    }
+
+    #[test]
+    fn units_for_people() {
+        // A hole of 10^10 suns: r_s = 2.953e13 m.
+        let scale = Scale::of(1e10);
+        assert_eq!(scale.kilometres(9.0), "265.8 bn km");
+        assert_eq!(Scale::of(1.0).kilometres(2.0), "6 km");
+        // r_s/c = 98,510 s = 1 d 03:21:50.
+        assert_eq!(scale.clock(1.0), "1 d 03:21:50");
+        // c²/r_s = 3,043.3 m/s².
+        assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
+    }
+}

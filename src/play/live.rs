@@ -1,0 +1,97 @@
+//! The configuration while the game runs: `game.toml` is read again when it changes, and every change, from there or from the overlay, takes
+//! effect at once.
+
+use std::time::{Duration, SystemTime};
+
+use bevy::prelude::*;
+
+use crate::render::plugin::SharedRenderer;
+use crate::render::stage::Stage;
+use crate::scene::GameConfig;
+use crate::scene::config;
+use crate::scene::ship::Ai;
+use crate::sim::setup::skills;
+use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
+
+use super::input::Bindings;
+use super::session::Session;
+use super::window::{GameSet, Staged};
+
+/// Time between two looks at the file.
+const PERIOD: Duration = Duration::from_secs(1);
+
+/// A line for the player, and the wall time (s) at which it fades.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Notice {
+    /// The line.
+    pub text: String,
+    /// Until when it is shown.
+    pub until: f64,
+}
+
+/// Watches the file and applies changes.
+pub struct LivePlugin;
+
+impl Plugin for LivePlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Notice>().add_systems(Update, (reload, apply).chain().before(GameSet::Keys));
+    }
+}
+
+fn reload(mut session: ResMut<Session>, real: Res<Time<Real>>, mut notice: ResMut<Notice>, mut look: Local<(Duration, Option<SystemTime>)>) {
+    let (next, seen) = &mut *look;
+    let Some(file) = session.config_file.clone() else { return };
+    if real.elapsed() < *next {
+        return;
+    }
+    *next = real.elapsed() + PERIOD;
+    let Some(changed) = std::fs::metadata(&file).and_then(|data| data.modified()).ok() else { return };
+    if seen.replace(changed).is_none_or(|before| before == changed) {
+        return;
+    }
+    let text = match config::load(&file) {
+        Ok(config) => {
+            session.config = config;
+            format!("{} read again", file.display())
+        }
+        Err(error) => {
+            warn!("{error}; the last good values stay");
+            format!("{error}; the last good values stay")
+        }
+    };
+    *notice = Notice { text, until: real.elapsed_secs_f64() + 6.0 };
+}
+
+/// Whether the models of the scene are to be made again.
+fn restage(before: &GameConfig, now: &GameConfig) -> bool {
+    before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient
+}
+
+fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
+    let session = world.resource::<Session>();
+    if before.as_ref() == Some(&session.config) {
+        return;
+    }
+    let session = session.clone();
+    let config = &session.config;
+    world.insert_resource(Bindings::of(config));
+    world.insert_resource::<Skills>(skills(config));
+    world.insert_resource(ChaseRules(session.scene.rules(config)));
+    // The clock counts steps: a change of the step takes effect with the next chase, so that T never jumps.
+    let fleet = world.get_resource::<Fleet>().cloned().unwrap_or_default();
+    for (&ship, spec) in fleet.0.iter().zip(&session.scene.ships) {
+        if let Some(mut engine) = world.get_mut::<Engine>(ship) {
+            let thrust = if spec.ai == Ai::Flee && !spec.player { config.enemy.thrust } else { config.ship.thrust };
+            engine.max_thrust = spec.max_thrust.unwrap_or(thrust);
+            engine.max_rate = config.ship.turn_rate / config.clock.pace;
+        }
+    }
+    if before.as_ref().is_some_and(|before| restage(before, config))
+        && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()
+    {
+        let stage = Stage::new(&mut renderer.lock(), &session.scene, config);
+        world.insert_resource(Staged(stage));
+    }
+    *before = Some(session.config);
+    debug_assert!(world.get_resource::<Clock>().is_some());
+}

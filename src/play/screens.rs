@@ -1,0 +1,74 @@
+//! The screens and the ways between them.
+
+use bevy::prelude::*;
+
+/// What is before the player.
+#[derive(States, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Screen {
+    /// Title, warning and controls; behind them the autopilot plays.
+    #[default]
+    Title,
+    /// The chase.
+    Playing,
+    /// The chase stands still.
+    Paused,
+    /// How it ended.
+    Result,
+}
+
+impl Screen {
+    /// Whether game time passes.
+    pub fn runs(self) -> bool {
+        matches!(self, Screen::Title | Screen::Playing)
+    }
+}
+
+/// What a player can ask of the menus.
+#[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wish {
+    /// A new chase.
+    Start,
+    /// Stop, or go on.
+    Pause,
+    /// Back to the title.
+    Title,
+    /// Out.
+    Quit,
+}
+
+/// Where a wish leads, and whether the chase begins anew; None where it means nothing.
+pub fn answer(screen: Screen, wish: Wish) -> Option<(Screen, bool)> {
+    match (screen, wish) {
+        (_, Wish::Start) => Some((Screen::Playing, true)),
+        (Screen::Playing, Wish::Pause) => Some((Screen::Paused, false)),
+        (Screen::Paused, Wish::Pause) => Some((Screen::Playing, false)),
+        (Screen::Paused | Screen::Result, Wish::Title) => Some((Screen::Title, true)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pause_stops_and_goes_on() {
+        assert_eq!(answer(Screen::Playing, Wish::Pause), Some((Screen::Paused, false)));
+        assert_eq!(answer(Screen::Paused, Wish::Pause), Some((Screen::Playing, false)));
+        assert_eq!(answer(Screen::Title, Wish::Pause), None);
+        assert_eq!(answer(Screen::Result, Wish::Pause), None);
+    }
+
+    #[test]
+    fn every_screen_leads_to_a_new_chase() {
+        for screen in [Screen::Title, Screen::Playing, Screen::Paused, Screen::Result] {
+            assert_eq!(answer(screen, Wish::Start), Some((Screen::Playing, true)));
+        }
+    }
+
+    #[test]
+    fn time_passes_only_on_title_and_in_play() {
+        assert!(Screen::Title.runs() && Screen::Playing.runs());
+        assert!(!Screen::Paused.runs() && !Screen::Result.runs());
+    }
+}

@@ -1,0 +1,71 @@
+//! What is played: a scene, the configuration and where it came from, a seed.
+
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::Resource;
+use thiserror::Error;
+
+use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
+
+/// The configuration's file where none is named: beside the assets, as the game comes.
+pub const CONFIG_FILE: &str = "game.toml";
+/// The scene where none is named.
+pub const SCENE: &str = "chase";
+
+/// Why nothing can be played: all of it is wrong input.
+#[derive(Debug, Error)]
+pub enum SessionError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// `game.toml` is wrong.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// There is nobody to fly.
+    #[error("scene {0}: the game needs at least one [[ship]]; `shot` draws scenes without ships")]
+    NoShip(String),
+}
+
+/// A scene, its configuration, a seed.
+#[derive(Resource, Clone, Debug)]
+pub struct Session {
+    /// What exists.
+    pub scene: Scene,
+    /// Every tunable number.
+    pub config: GameConfig,
+    /// The file it was read from, if any.
+    pub config_file: Option<PathBuf>,
+    /// For everything left to chance.
+    pub seed: u64,
+}
+
+impl Session {
+    /// Reads configuration and scene. Without a named configuration, `game.toml` is read where there is one.
+    pub fn load(config: Option<&Path>, scene: Option<&str>, seed: u64) -> Result<Session, SessionError> {
+        let config_file = config.map(Path::to_path_buf).or_else(|| {
+            let beside_assets = scene::assets_folder().join("..").join(CONFIG_FILE);
+            [PathBuf::from(CONFIG_FILE), beside_assets].into_iter().find(|file| file.is_file())
+        });
+        let config = config_file.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
+        let scene = scene::load(scene.unwrap_or(SCENE))?;
+        if scene.ships.is_empty() {
+            return Err(SessionError::NoShip(scene.name));
+        }
+        Ok(Session { scene, config, config_file, seed })
+    }
+
+    /// Index of the ship that the player flies: the one marked so, else the first.
+    pub fn player(&self) -> usize {
+        self.scene.ships.iter().position(|ship| ship.player).unwrap_or(0)
+    }
+
+    /// Index of the ship that the player is after: the one its entry names, else the first other; None for a lone ship.
+    pub fn target(&self) -> Option<usize> {
+        let player = self.player();
+        let named = self.scene.ships[player].target.as_ref();
+        let ships = &self.scene.ships;
+        named
+            .and_then(|name| ships.iter().position(|ship| &ship.name == name))
+            .or_else(|| (0..ships.len()).find(|&other| other != player))
+    }
+}

@@ -1,0 +1,143 @@
+//! Shaders: each pass is valid WGSL, and what is written in both languages agrees when the shipped shader runs.
+
+use lensrunner::lensing::lookup::lens_lookup;
+use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
+use lensrunner::render::shaders::Pass;
+use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
+use lensrunner::render::{Gpu, layout, readback};
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+use std::sync::LazyLock;
+
+/// The software driver is installed by `./test`, so a machine without any adapter is a failure and not a reason to skip.
+pub static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::headless().expect("a Vulkan driver"));
+
+static TABLE: LazyLock<Table> = LazyLock::new(|| bake(Scheme::Residual, SMALL_NODES, |_| ()));
+
+/// Runs `entry` of a pass's shipped source with `tail` behind it: one thread per row of `input`, one row out.
+fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], outputs: usize) -> Vec<[f32; 4]> {
+    let source = format!("{}\n{tail}", pass.source());
+    let device = &GPU.device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("twin"),
+        layout: None,
+        module: &module,
+        entry_point: Some("twin"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let buffers = tables.map(|table| layout::storage(&GPU, "table", if table.is_empty() { &[[0.0; 4]] } else { table }));
+    let rows = layout::storage(&GPU, "rows", input);
+    let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
+    let tables_group = pipeline.get_bind_group_layout(0);
+    let which = if tables[0].is_empty() { 2 } else { 1 };
+    let group0 = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &tables_group,
+        entries: &[wgpu::BindGroupEntry { binding: which, resource: buffers[which as usize - 1].as_entire_binding() }],
+    });
+    let group3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);
+    let mut encoder = device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group0, &[]);
+        pass.set_bind_group(3, &group3, &[]);
+        pass.dispatch_workgroups(input.len().div_ceil(64) as u32, 1, 1);
+    }
+    GPU.queue.submit([encoder.finish()]);
+    let bytes = readback::buffer(&GPU, &out).unwrap();
+    bytemuck::cast_slice::<u8, [f32; 4]>(&bytes)[..input.len() * outputs].to_vec()
+}
+
+const ROWS: &str = "
+@group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
+@group(3) @binding(1) var<storage, read_write> twin_out: array<vec4<f32>>;
+";
+
+/// f32 sums in another order, and a driver's sin, log and exp, differ by a few units in the last place; near turning points that grows.
+fn close(got: f32, want: f32, relative: f32) -> bool {
+    (got - want).abs() <= relative * (1.0 + want.abs())
+}
+
+#[test]
+fn every_pass_compiles() {
+    for pass in Pass::ALL {
+        let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let _ = layout::module(&GPU.device, "pass", pass);
+        let error = lensrunner::render::device::wait(scope.pop());
+        assert!(error.is_none(), "{pass:?}: {}", error.unwrap());
+    }
+}
+
+#[test]
+fn the_lookup_is_the_same_in_both_languages() {
+    let tail = format!(
+        "{ROWS}
+@compute @workgroup_size(64)
+fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if id.x >= arrayLength(&twin_rows) {{ return; }}
+    let row = twin_rows[id.x];
+    let ray = lens_lookup(row.x, row.y, u32(row.z));
+    twin_out[2u * id.x] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.frequency);
+    twin_out[2u * id.x + 1u] = vec4<f32>(ray.emission_radial, ray.emission_tangential, ray.emission_frequency, f32(ray.valid));
+}}"
+    );
+    let mut random = StdRng::seed_from_u64(1);
+    for l in [0.3f64, 1.02, 1.5, 6.0, 40.0, 900.0] {
+        let slice = Slice::new(&TABLE, l);
+        let rows: Vec<[f32; 4]> = (0..3000)
+            .map(|i| {
+                let r = (1.001f64.ln() + random.random::<f64>() * (3000f64 / 1.001).ln()).exp();
+                let phi = std::f64::consts::PI * random.random::<f64>();
+                [(r * phi.cos() - l) as f32, (r * phi.sin()) as f32, (1 + i % 3) as f32, 0.0]
+            })
+            .collect();
+        let out = run(Pass::Vertices, &tail, [slice.texels(), &[]], &rows, 2);
+        let mut seen = 0;
+        for (row, pair) in rows.iter().zip(out.chunks_exact(2)) {
+            let want = lens_lookup(&slice, row[0], row[1], row[2] as u32);
+            let (a, b) = (pair[0], pair[1]);
+            assert_eq!(b[3] == 1.0, want.valid, "L = {l}, row {row:?}");
+            if !want.valid {
+                continue;
+            }
+            seen += 1;
+            for (name, got, want, relative) in [
+                ("cos ψ", a[0], want.cos_psi, 2e-5),
+                ("sin ψ", a[1], want.sin_psi, 2e-5),
+                ("delay", a[2], want.delay, 2e-4),
+                ("frequency", a[3], want.frequency, 1e-3),
+                ("frequency at the point", b[2], want.emission_frequency, 2e-2),
+            ] {
+                assert!(close(got, want, relative), "L = {l}, row {row:?}: {name} is {got} on the GPU, {want} in Rust");
+            }
+        }
+        assert!(seen > 1500, "only {seen} points were seen at L = {l}");
+    }
+}
+
+#[test]
+fn the_sky_is_the_same_in_both_languages() {
+    let tail = format!(
+        "{ROWS}
+@compute @workgroup_size(64)
+fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if id.x >= arrayLength(&twin_rows) {{ return; }}
+    let row = twin_rows[id.x];
+    twin_out[id.x] = vec4<f32>(sky_swept(row.x), sky_seen(row.y));
+}}"
+    );
+    for l in [0.5, 1.1, 8.0] {
+        let table = sky_table(l);
+        let rows: Vec<[f32; 4]> = (0..500).map(|k| [0.023 * k as f32, 0.0188 * k as f32, 0.0, 0.0]).collect();
+        let out = run(Pass::Background, &tail, [&[], &table], &rows, 1);
+        for (row, got) in rows.iter().zip(out) {
+            let want = [sky_swept(&table, row[0]), sky_seen(&table, row[1])].concat();
+            for k in 0..4 {
+                assert!(close(got[k], want[k], 1e-5), "L = {l}, row {row:?}, value {k}: {} on the GPU, {} in Rust", got[k], want[k]);
+            }
+        }
+    }
+}
