@@ -55,8 +55,8 @@ fn integrate(u: f64, w: f64, e: f64, swept: f64) -> State {
     let mut left = swept.abs();
     while left > 0.0 {
         let [u, w, ..] = y;
-        // Short against the distance to r = ∞, to r = 0 and to the past horizon.
-        let mut h: f64 = (0.15_f64).min(0.1 * u / w.abs()).min(0.1 / u.sqrt());
+        // Short against the distance to r = ∞, to r = 0, to where w = e and to the past horizon.
+        let mut h: f64 = (0.15_f64).min(0.1 * u / w.abs()).min(0.1 / u.sqrt()).min(0.3 * (w.abs() + e.abs()) / u);
         if e * w > 0.0 {
             h = h.min(0.1 * (1.0 - u).abs() / w.abs());
         }
@@ -253,8 +253,8 @@ proptest! {
         let c = connect(u_point, swept, u, Branch::Plus).expect("every point outside is seen");
         let v = judge(&c, u_point, swept, u);
         // The rounding of 1/r is felt where the light has hardly any way to go.
-        let limit = DELAY + 4e-15 * l / c.delay;
-        prop_assert!(v.angle < ANGLE && v.emission < 1e-9 && v.delay < limit, "{} {} {}", v.angle, v.emission, v.delay);
+        let rounding = 1e-14 * l / c.delay;
+        prop_assert!(v.angle < ANGLE + rounding && v.emission < 1e-9 + rounding && v.delay < DELAY + rounding, "{} {} {}", v.angle, v.emission, v.delay);
     }
 
     #[test]
@@ -273,9 +273,7 @@ proptest! {
         let (u_point, u, swept) = (1.0 / r, 1.0 / l, n.swept(phi));
         let c = connect(u_point, swept, u, Branch::Plus).expect("everything outside is seen from inside");
         let v = judge(&c, u_point, swept, u);
-        // A point just outside whose light nearly missed the horizon: the judge's own steps are what limits it.
-        let limit = if r < 1.1 { 1e-6 } else { 1e-9 };
-        prop_assert!(v.angle < ANGLE && v.emission < 1e-9 && v.delay < limit, "{} {} {}", v.angle, v.emission, v.delay);
+        prop_assert!(v.angle < ANGLE && v.emission < 1e-9 && v.delay < 1e-9, "{} {} {}", v.angle, v.emission, v.delay);
         prop_assert!(connect(u_point, swept, u, Branch::Minus).is_none());
     }
 

@@ -126,8 +126,9 @@ impl Path {
         sum
     }
 
-    /// Camera inside: panels from the point on, shorter towards the singularity that lies 2/√u behind the camera. From the
-    /// camera's end it would not do: there w² − u³ has lost the e² that decides about the rest.
+    /// Camera inside: panels from the point on, shorter towards the singularity that lies 2/√u behind the camera. Along the way
+    /// w² − u³ loses the e² that decides about the rest, so in the camera's half every panel starts anew from the camera, with the
+    /// d that has not lost it.
     fn integral_inwards(&self, narrow: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
         let beyond = 2.0 / self.u_camera.sqrt();
         let f = |u: f64, w: f64| f(u, -w);
@@ -135,8 +136,9 @@ impl Path {
         let mut left = self.swept;
         let mut sum = 0.0;
         loop {
-            let last = left <= narrow.min(0.4 * (left + beyond));
-            let step = if last { left } else { narrow.min(0.4 * (left + beyond)) };
+            let longest = narrow.min(0.4 * (left + beyond));
+            let last = left <= longest;
+            let step = if last { left } else { longest };
             let Some(panel) = Panel::new(step, self.d) else {
                 return f64::NAN;
             };
@@ -144,8 +146,16 @@ impl Path {
             if last {
                 return sum;
             }
-            (u, w) = ahead_by(u, w, &panel.whole);
             left -= step;
+            if left > 0.5 * self.swept {
+                (u, w) = ahead_by(u, w, &panel.whole);
+            } else {
+                let Some(pole) = pole_orbit(left, self.d) else {
+                    return f64::NAN;
+                };
+                let (there, slope) = ahead_by(self.u_camera, self.slope, &pole);
+                (u, w) = (there, -slope);
+            }
         }
     }
 }

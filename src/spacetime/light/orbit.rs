@@ -15,6 +15,9 @@ pub(super) const CRITICAL_ENERGY_SQUARED: f64 = 4.0 / 27.0;
 /// u of the photon sphere.
 pub(super) const PHOTON_SPHERE: f64 = 2.0 / 3.0;
 
+/// p beyond which the pole orbit counts as back in the singularity: r = 2.5e-11, while 1e-6 is the smallest radius in use.
+const NEXT_SINGULARITY: f64 = 1e10;
+
 /// The pole orbit at one Φ: p and p′, and their derivatives by d.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pole {
@@ -74,7 +77,7 @@ fn laurent(z: f64, t: f64, d: f64) -> Pole {
     Pole { p: inverse - 1.0 / 12.0 + t * value, y: -2.0 * inverse / z + z * slope, p_d: t * value_3 * C3_D, y_d: z * slope_3 * C3_D }
 }
 
-/// From Φ to 2Φ. None where p′² ≤ 0, which rounding can make of the half period itself.
+/// From Φ to 2Φ. None at the full period.
 fn double(pole: &Pole, d: f64) -> Option<Pole> {
     let Pole { p, y, p_d, y_d } = *pole;
     let p2 = p * p;
@@ -87,6 +90,10 @@ fn double(pole: &Pole, d: f64) -> Option<Pole> {
     let top = p2 * p2 - d * (2.0 * p + 0.25);
     let top_d = (4.0 * p2 * p - 2.0 * d) * p_d - (2.0 * p + 0.25);
     let new_p = top * over_square;
+    // So near the full period rounding decides what is seen; the singularity is nearer than any u in use.
+    if new_p > p && new_p > NEXT_SINGULARITY {
+        return None;
+    }
 
     let p3 = p2 * p;
     let inner = 20.0 * p3 + 5.0 * p2 + 0.5 * p;
