@@ -2,13 +2,13 @@
 //!
 //! The floors of the house, from the ground up; each knows only those before it (`docs/architecture.md` has the map).
 
-pub mod spacetime;
 pub mod lensing;
-pub mod scene;
-pub mod sim;
-pub mod reference;
 pub mod measure;
 #[cfg(feature = "game")]
-pub mod render;
-#[cfg(feature = "game")]
 pub mod play;
+pub mod reference;
+#[cfg(feature = "game")]
+pub mod render;
+pub mod scene;
+pub mod sim;
+pub mod spacetime;

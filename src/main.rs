@@ -219,12 +219,7 @@ fn run_bake(args: BakeArgs) -> ExitCode {
         SchemeArg::Paper => Scheme::Paper,
         SchemeArg::PaperUniform => Scheme::PaperUniform,
     };
-    let request = lensing::command::Request {
-        nodes: usize::from(args.nodes),
-        scheme,
-        output: args.output,
-        points: args.points,
-    };
+    let request = lensing::command::Request { nodes: usize::from(args.nodes), scheme, output: args.output, points: args.points };
     match lensing::command::run(&request) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail(&error, 1),

@@ -67,11 +67,7 @@ fn shoot(a: f64, w: f64, sweep: f64) -> End {
             return End::Low;
         }
         if sweep - p < 1e-14 {
-            return End::At {
-                u: u[0],
-                w: u[1],
-                du: y[0],
-            };
+            return End::At { u: u[0], w: u[1], du: y[0] };
         }
     }
 }
@@ -79,11 +75,7 @@ fn shoot(a: f64, w: f64, sweep: f64) -> End {
 /// dT/dΦ: the photon's rain-frame energy over u².
 fn time_rate([u, w]: [f64; 2], e: f64) -> f64 {
     let b = u.sqrt();
-    let momentum = if w > 0.0 {
-        (w + b * e) / (1.0 - u)
-    } else {
-        (u * u - e * e) / (b * e - w)
-    };
+    let momentum = if w > 0.0 { (w + b * e) / (1.0 - u) } else { (u * u - e * e) / (b * e - w) };
     (e + b * momentum) / (u * u)
 }
 
@@ -104,19 +96,12 @@ fn delay(a: f64, w: f64, e: f64, sweep: f64, c: f64) -> f64 {
             h = h.min(0.15 * (1.0 - u[0]) / u[1]);
         }
         let h = h.max(1e-9).min(sweep - p);
-        t += NODES
-            .iter()
-            .map(|(x, weight)| 0.5 * h * weight * time_rate(horner(&su, 0.5 * h * (1.0 + x)), e))
-            .sum::<f64>();
+        t += NODES.iter().map(|(x, weight)| 0.5 * h * weight * time_rate(horner(&su, 0.5 * h * (1.0 + x)), e)).sum::<f64>();
         u = horner(&su, h);
         p += h;
     }
     // Far away the last digits of u count for much: the rest of the way along the same ray.
-    if c < 0.05 && u[1] < 0.0 {
-        t + (c - u[0]) / u[1] * time_rate(u, e)
-    } else {
-        t
-    }
+    if c < 0.05 && u[1] < 0.0 { t + (c - u[0]) / u[1] * time_rate(u, e) } else { t }
 }
 
 /// The ray from u = c to the camera at u = a over `sweep`, all at or outside the horizon but for the camera.
@@ -154,22 +139,14 @@ pub fn connect(c: f64, sweep: f64, a: f64) -> Truth {
         w = slope(0.5 * (low + high));
     }
     let energy = (w * w + a * a - a * a * a).max(0.0).sqrt();
-    Truth {
-        slope: w,
-        emission_slope: emission,
-        energy,
-        delay: delay(a, w, energy, sweep, c),
-    }
+    Truth { slope: w, emission_slope: emission, energy, delay: delay(a, w, energy, sweep, c) }
 }
 
 /// ψ in the rain frame from the outward radial.
 pub fn rain_angle(t: &Truth, a: f64) -> f64 {
     let b = a.sqrt();
-    let radial = if t.slope > 0.0 {
-        (t.slope + b * t.energy) / (1.0 - a)
-    } else {
-        (a * a - t.energy * t.energy) / (b * t.energy - t.slope)
-    };
+    let radial =
+        if t.slope > 0.0 { (t.slope + b * t.energy) / (1.0 - a) } else { (a * a - t.energy * t.energy) / (b * t.energy - t.slope) };
     a.atan2(-radial)
 }
 
@@ -187,15 +164,8 @@ fn the_judge_agrees_with_independent_values() {
     for (r, degrees, l, b, t) in rows {
         let truth = connect(1.0 / r, f64::to_radians(degrees), 1.0 / l);
         let to_rain = |r: f64| 2.0 * r.sqrt() + ((r.sqrt() - 1.0) / (r.sqrt() + 1.0)).ln();
-        assert!(
-            (1.0 / truth.energy - b).abs() < 1e-9 * b,
-            "b at {r}, {degrees}, {l}"
-        );
+        assert!((1.0 / truth.energy - b).abs() < 1e-9 * b, "b at {r}, {degrees}, {l}");
         let delay = t + to_rain(l) - to_rain(r);
-        assert!(
-            (truth.delay - delay).abs() < 1e-7 * delay,
-            "delay at {r}, {degrees}, {l}: {} {delay}",
-            truth.delay
-        );
+        assert!((truth.delay - delay).abs() < 1e-7 * delay, "delay at {r}, {degrees}, {l}: {} {delay}", truth.delay);
     }
 }

@@ -4,10 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::Path;
 use std::sync::OnceLock;
 
-use lensrunner::lensing::{
-    Scheme, Slice, Table, TableError, double, grid, lens_lookup, lens_lookup_at, load_or_bake,
-    paper, score,
-};
+use lensrunner::lensing::{Scheme, Slice, Table, TableError, double, grid, lens_lookup, lens_lookup_at, load_or_bake, paper, score};
 use lensrunner::spacetime::light::Order;
 use proptest::prelude::*;
 use rand::SeedableRng;
@@ -18,11 +15,7 @@ use crate::lensing_integrator as judge;
 fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
-        Table::load(
-            Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tables/default.lut")),
-            Scheme::Residual,
-        )
-        .expect("the committed table")
+        Table::load(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tables/default.lut")), Scheme::Residual).expect("the committed table")
     })
 }
 
@@ -32,17 +25,11 @@ fn errors(row: [f64; 3], order: Order) -> (f64, f64) {
     let truth = judge::connect(1.0 / r, order.swept(phi), 1.0 / l);
     let seen = score::look_up_row(&Slice::new(table(), l), row, order);
     assert!(seen.valid, "no answer at {row:?}");
-    let angle = (f64::from(seen.sin_psi).atan2(f64::from(seen.cos_psi))
-        - judge::rain_angle(&truth, 1.0 / l))
-    .abs();
+    let angle = (f64::from(seen.sin_psi).atan2(f64::from(seen.cos_psi)) - judge::rain_angle(&truth, 1.0 / l)).abs();
     let tilt = |slope: f64| (1.0 / r).atan2(-slope);
     let emission = (tilt(f64::from(seen.emission_slope)) - tilt(truth.emission_slope)).abs();
     assert!(emission < 2e-4, "emission off by {emission} at {row:?}");
-    let allowed = if r < 1.05 {
-        0.02
-    } else {
-        0.002 + 3e-7 * truth.delay
-    };
+    let allowed = if r < 1.05 { 0.02 } else { 0.002 + 3e-7 * truth.delay };
     (angle, (f64::from(seen.delay) - truth.delay).abs() / allowed)
 }
 
@@ -56,15 +43,9 @@ fn every_mapping_comes_back() {
         for j in 0..=20 {
             let x = j as f64 / 20.0;
             let c = grid::point(&cam, x);
-            assert!(
-                (double::point_axis(&cam, c, 1.0 - c) - x).abs() < 1e-9,
-                "c = {c}, L = {l}"
-            );
+            assert!((double::point_axis(&cam, c, 1.0 - c) - x).abs() < 1e-9, "c = {c}, L = {l}");
             let sweep = grid::sweep(&cam, c, x);
-            assert!(
-                (double::sweep_axis(&cam, c, sweep) - x).abs() < 1e-12,
-                "Φ = {sweep}, L = {l}"
-            );
+            assert!((double::sweep_axis(&cam, c, sweep) - x).abs() < 1e-12, "Φ = {sweep}, L = {l}");
         }
     }
     for scheme in [Scheme::Paper, Scheme::PaperUniform] {
@@ -90,15 +71,8 @@ fn the_lookup_agrees_with_an_integrator_of_its_own() {
         for _ in 0..400 {
             let row = score::draw(score::Points::Adversarial, &mut rng);
             let (angle, delay) = errors(row, order);
-            assert!(
-                angle.to_degrees() < 0.004,
-                "{row:?} {order:?}: {}°",
-                angle.to_degrees()
-            );
-            assert!(
-                delay < 2.0,
-                "{row:?} {order:?}: delay {delay} times what is allowed"
-            );
+            assert!(angle.to_degrees() < 0.004, "{row:?} {order:?}: {}°", angle.to_degrees());
+            assert!(delay < 2.0, "{row:?} {order:?}: delay {delay} times what is allowed");
         }
     }
 }
@@ -109,22 +83,10 @@ fn nothing_happens_at_the_singular_edges() {
     for order in Order::ALL {
         for l in [0.3, 0.999, 1.001, 1.499, 1.501, 10.0, 1000.0] {
             for phi in [tiny, 0.3, PI - tiny] {
-                for r in [
-                    1.001,
-                    1.0 + tiny + 5e-4,
-                    1.499,
-                    1.501,
-                    l * (1.0 - 1e-3),
-                    l * (1.0 + 1e-3),
-                    9e3,
-                ] {
+                for r in [1.001, 1.0 + tiny + 5e-4, 1.499, 1.501, l * (1.0 - 1e-3), l * (1.0 + 1e-3), 9e3] {
                     if r > 1.0005 && (r / l - 1.0).abs() > 1e-4 {
                         let (angle, _) = errors([r, phi, l], order);
-                        assert!(
-                            angle.to_degrees() < 0.004,
-                            "r {r} φ {phi} L {l} {order:?}: {}°",
-                            angle.to_degrees()
-                        );
+                        assert!(angle.to_degrees() < 0.004, "r {r} φ {phi} L {l} {order:?}: {}°", angle.to_degrees());
                     }
                 }
             }
@@ -139,23 +101,11 @@ fn the_orders_meet_at_the_axis() {
         let slice = Slice::new(table(), l);
         for r in [1.01, 1.5, 7.0, 4000.0] {
             let angle = |order: u32, phi: f64| {
-                let seen = lens_lookup_at(
-                    &slice,
-                    (r * phi.cos() - l) as f32,
-                    (r * phi.sin()) as f32,
-                    (r * phi.cos()) as f32,
-                    order,
-                );
+                let seen = lens_lookup_at(&slice, (r * phi.cos() - l) as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, order);
                 f64::from(seen.sin_psi).atan2(f64::from(seen.cos_psi))
             };
-            assert!(
-                (angle(1, PI) - angle(2, PI)).abs() < 1e-6,
-                "r {r} L {l} at π"
-            );
-            assert!(
-                (angle(2, 0.0) - angle(3, 0.0)).abs() < 1e-6,
-                "r {r} L {l} at 0"
-            );
+            assert!((angle(1, PI) - angle(2, PI)).abs() < 1e-6, "r {r} L {l} at π");
+            assert!((angle(2, 0.0) - angle(3, 0.0)).abs() < 1e-6, "r {r} L {l} at 0");
         }
     }
 }
@@ -168,11 +118,7 @@ fn falling_through_the_horizon_shows_no_seam() {
             for i in 0..60 {
                 let l = 1.003 - 1e-4 * f64::from(i);
                 let (angle, delay) = errors([r, phi, l], order);
-                assert!(
-                    angle.to_degrees() < 0.001 && delay < 1.0,
-                    "{}°, {delay} at r {r} φ {phi} L {l}",
-                    angle.to_degrees()
-                );
+                assert!(angle.to_degrees() < 0.001 && delay < 1.0, "{}°, {delay} at r {r} φ {phi} L {l}", angle.to_degrees());
             }
         }
     }
@@ -192,24 +138,15 @@ fn a_file_gives_back_the_table_and_says_what_is_wrong() {
         change(&mut bytes);
         Table::from_bytes(&path, &bytes, Scheme::Residual).unwrap_err()
     };
-    assert!(matches!(
-        Table::load(&folder.path().join("none"), Scheme::Residual),
-        Err(TableError::Missing(_))
-    ));
+    assert!(matches!(Table::load(&folder.path().join("none"), Scheme::Residual), Err(TableError::Missing(_))));
     for length in [0, 5, 10, 60, good.len() - 1] {
-        assert!(
-            matches!(broken(&|b| b.truncate(length)), TableError::Short(..)),
-            "cut at {length}"
-        );
+        assert!(matches!(broken(&|b| b.truncate(length)), TableError::Short(..)), "cut at {length}");
     }
     assert!(matches!(broken(&|b| b[0] = b'X'), TableError::Magic(_)));
     assert!(matches!(broken(&|b| b[8] = 99), TableError::Version(_, 99)));
     assert!(matches!(broken(&|b| b[500] ^= 1), TableError::Checksum(_)));
     assert!(matches!(broken(&|b| b.push(0)), TableError::Layout(_)));
-    assert!(matches!(
-        Table::load(&path, Scheme::Paper),
-        Err(TableError::Scheme(..))
-    ));
+    assert!(matches!(Table::load(&path, Scheme::Paper), Err(TableError::Scheme(..))));
 }
 
 #[test]
@@ -231,21 +168,9 @@ fn a_damaged_file_is_named_and_never_used() {
 /// meshes of its table 2 fail.
 #[test]
 fn paper_ones_meshes_beat_its_uniform_ones() {
-    let rms = |scheme| {
-        score::score(
-            &lensrunner::lensing::bake(scheme, 24, |_| ()),
-            score::Points::Friendly,
-            2000,
-            3,
-        )[0]
-        .angle
-        .rms
-    };
+    let rms = |scheme| score::score(&lensrunner::lensing::bake(scheme, 24, |_| ()), score::Points::Friendly, 2000, 3)[0].angle.rms;
     let (uniform, good) = (rms(Scheme::PaperUniform), rms(Scheme::Paper));
-    assert!(
-        good < 6.0 && uniform > 10.0,
-        "uniform {uniform}°, optimised {good}°"
-    );
+    assert!(good < 6.0 && uniform > 10.0, "uniform {uniform}°, optimised {good}°");
 }
 
 proptest! {
@@ -286,18 +211,9 @@ fn nearer_points_are_seen_deeper() {
             let mut last = -1.0;
             for i in 0..60 {
                 let r = (9.0 - 0.15 * f64::from(i)).exp().max(1.001);
-                let seen = lens_lookup_at(
-                    &slice,
-                    (r * phi.cos() - l) as f32,
-                    (r * phi.sin()) as f32,
-                    (r * phi.cos()) as f32,
-                    order,
-                );
+                let seen = lens_lookup_at(&slice, (r * phi.cos() - l) as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, order);
                 let psi = f64::from(seen.sin_psi).atan2(f64::from(seen.cos_psi));
-                assert!(
-                    psi > last - 2e-5 || r <= 1.001,
-                    "L {l} Φ {sweep} r {r}: {psi} after {last}"
-                );
+                assert!(psi > last - 2e-5 || r <= 1.001, "L {l} Φ {sweep} r {r}: {psi} after {last}");
                 last = psi;
             }
         }
@@ -314,34 +230,17 @@ fn the_shader_is_valid() {
          @compute @workgroup_size(1) fn main() {{ let ray = lens_lookup(1.0, 2.0, 1u); out[0] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.slope); }}",
         include_str!("../shaders/functions/lensing.wgsl")
     );
-    let module = naga::front::wgsl::parse_str(&source)
-        .unwrap_or_else(|wrong| panic!("{}", wrong.emit_to_string(&source)));
-    naga::valid::Validator::new(
-        naga::valid::ValidationFlags::all(),
-        naga::valid::Capabilities::empty(),
-    )
-    .validate(&module)
-    .expect("valid");
+    let module = naga::front::wgsl::parse_str(&source).unwrap_or_else(|wrong| panic!("{}", wrong.emit_to_string(&source)));
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty()).validate(&module).expect("valid");
 }
 
 /// Constants and names that the shader and its twin share.
 #[test]
 fn the_shader_has_every_function_of_its_twin() {
     let shader = include_str!("../shaders/functions/lensing.wgsl");
-    for twin in [
-        include_str!("../src/lensing/formulas.rs"),
-        include_str!("../src/lensing/lookup.rs"),
-    ] {
-        for name in twin
-            .split("pub fn ")
-            .skip(1)
-            .filter_map(|rest| rest.split('(').next())
-            .filter(|name| *name != "camera")
-        {
-            assert!(
-                shader.contains(&format!("fn {name}(")),
-                "the shader lacks {name}"
-            );
+    for twin in [include_str!("../src/lensing/formulas.rs"), include_str!("../src/lensing/lookup.rs")] {
+        for name in twin.split("pub fn ").skip(1).filter_map(|rest| rest.split('(').next()).filter(|name| *name != "camera") {
+            assert!(shader.contains(&format!("fn {name}(")), "the shader lacks {name}");
         }
     }
 }

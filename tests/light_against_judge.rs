@@ -37,11 +37,7 @@ fn angle(rng: &mut StdRng) -> f64 {
 /// L: log-uniform over 0.05 to 5000, a third in [0.95, 1.6]; on the asked side of the horizon.
 fn camera(rng: &mut StdRng, outside: bool) -> f64 {
     loop {
-        let camera = if rng.random_range(0..3) == 0 {
-            rng.random_range(0.95..1.6)
-        } else {
-            log_uniform(rng, 0.05, 5000.0)
-        };
+        let camera = if rng.random_range(0..3) == 0 { rng.random_range(0.95..1.6) } else { log_uniform(rng, 0.05, 5000.0) };
         if (camera > 1.0) == outside {
             return camera;
         }
@@ -55,17 +51,9 @@ fn point(rng: &mut StdRng, outside: bool) -> Point {
         log_uniform(rng, 1.0005, 1e4)
     } else {
         let apart = log_uniform(rng, 1e-4, 1.0);
-        if rng.random() {
-            camera * (1.0 + apart)
-        } else {
-            camera / (1.0 + apart)
-        }
+        if rng.random() { camera * (1.0 + apart) } else { camera / (1.0 + apart) }
     };
-    Point {
-        r,
-        phi: angle(rng),
-        camera,
-    }
+    Point { r, phi: angle(rng), camera }
 }
 
 /// The largest disagreements of a group, in ψ, delay, and the slope of the ray where it leaves the point.
@@ -77,13 +65,8 @@ fn compare(points: Vec<Point>, order: u32, branch: light::Branch) -> usize {
     let judged: Vec<_> = points
         .par_iter()
         .map(|&p| {
-            let exact =
-                light::connect(1.0 / p.r, swept_angle(order, p.phi), 1.0 / p.camera, branch);
-            (
-                p,
-                exact,
-                shoot(p.r, p.phi, p.camera, order, judged_branch, 1e-17),
-            )
+            let exact = light::connect(1.0 / p.r, swept_angle(order, p.phi), 1.0 / p.camera, branch);
+            (p, exact, shoot(p.r, p.phi, p.camera, order, judged_branch, 1e-17))
         })
         .collect();
     let mut seen = 0;
@@ -102,21 +85,17 @@ fn compare(points: Vec<Point>, order: u32, branch: light::Branch) -> usize {
         let delay = (exact.delay - judge.delay) / (1.0 + judge.delay);
         // du/dΦ where the light leaves: −u (dr/dτ)/(r dΦ/dτ), from the judge's momentum there.
         let u = 1.0 / p.r;
-        let slope =
-            -u * (judge.emission.length() * u.sqrt() - judge.emission.x) / -judge.emission.y;
+        let slope = -u * (judge.emission.length() * u.sqrt() - judge.emission.x) / -judge.emission.y;
         let slope = (exact.emission_slope - slope) / (exact.emission_slope.abs() + u);
         let size = psi.abs().max(delay.abs());
         // NaN must fail too. The slope of a nearly radial ray is 1/φ, so its rounding is worth more.
         if !(size <= TOLERANCE && slope.abs() <= 1e-7) {
-            wrong.push(format!("{p:?} order {order} {branch:?}: psi off {psi:.2e}, delay off {delay:.2e} (of 1 + delay), slope off {slope:.2e}"));
+            wrong.push(format!(
+                "{p:?} order {order} {branch:?}: psi off {psi:.2e}, delay off {delay:.2e} (of 1 + delay), slope off {slope:.2e}"
+            ));
         }
     }
-    assert!(
-        wrong.is_empty(),
-        "{} of {seen} disagree:\n{}",
-        wrong.len(),
-        wrong.join("\n")
-    );
+    assert!(wrong.is_empty(), "{} of {seen} disagree:\n{}", wrong.len(), wrong.join("\n"));
     seen
 }
 
@@ -148,16 +127,8 @@ fn both_inside() {
                 let r = rng.random_range(camera..1.0);
                 let limit = (1.0 - 2.0 * r).acos() - (1.0 - 2.0 * camera).acos();
                 // Half of them close to the end of what is seen, where E is nearly zero; some beyond it.
-                let part = if rng.random() {
-                    rng.random_range(0.0..1.1)
-                } else {
-                    1.0 - log_uniform(&mut rng, 1e-3, 1.0)
-                };
-                Point {
-                    r,
-                    phi: (part * limit).min(PI),
-                    camera,
-                }
+                let part = if rng.random() { rng.random_range(0.0..1.1) } else { 1.0 - log_uniform(&mut rng, 1e-3, 1.0) };
+                Point { r, phi: (part * limit).min(PI), camera }
             })
             .filter(|p| p.phi > 0.0)
             .collect();
@@ -168,30 +139,12 @@ fn both_inside() {
 #[test]
 fn the_sky() {
     let mut rng = StdRng::seed_from_u64(14);
-    let points: Vec<_> = (0..2 * COUNT)
-        .map(|i| {
-            (
-                1 + i as u32 % 3,
-                angle(&mut rng),
-                camera(&mut rng, i % 2 == 0),
-            )
-        })
-        .collect();
+    let points: Vec<_> = (0..2 * COUNT).map(|i| (1 + i as u32 % 3, angle(&mut rng), camera(&mut rng, i % 2 == 0))).collect();
     points.par_iter().for_each(|&(order, phi, camera)| {
-        let exact = light::connect(
-            0.0,
-            swept_angle(order, phi),
-            1.0 / camera,
-            light::Branch::Plus,
-        )
-        .unwrap();
+        let exact = light::connect(0.0, swept_angle(order, phi), 1.0 / camera, light::Branch::Plus).unwrap();
         let judge = shoot_sky(phi, camera, order, 1e-17).unwrap();
         let psi = light::rain_angle(exact.slope, exact.energy, 1.0 / camera);
-        assert!(
-            (psi - judge.psi_rain).abs() <= TOLERANCE,
-            "phi {phi} L {camera} order {order}: {psi} and {}",
-            judge.psi_rain
-        );
+        assert!((psi - judge.psi_rain).abs() <= TOLERANCE, "phi {phi} L {camera} order {order}: {psi} and {}", judge.psi_rain);
         assert!(exact.delay.is_infinite());
     });
 }
@@ -205,11 +158,7 @@ fn the_shadow() {
         // The shadow is the cone from this angle to π; both sides of its edge, and anywhere.
         let edge = light::shadow_angle(1.0 / camera);
         let apart = log_uniform(&mut rng, 1e-9, 1e-3);
-        for psi in [
-            edge - apart * (PI - edge),
-            edge + apart * (PI - edge),
-            rng.random_range(0.0..PI),
-        ] {
+        for psi in [edge - apart * (PI - edge), edge + apart * (PI - edge), rng.random_range(0.0..PI)] {
             let look = DVec3::new(f64::cos(psi), f64::sin(psi), 0.0);
             let exact = light::sky_angle(psi, 1.0 / camera);
             match (exact, reference::fate(DVec3::X * camera, look, 1e-17)) {
@@ -217,10 +166,7 @@ fn the_shadow() {
                 (Some(exact), reference::Fate::Escaped { swept, .. }) => {
                     // Near the edge the swept angle is a logarithm of the distance from it, and ψ itself has been rounded.
                     let rounding = 1e-14 / (psi - edge).abs() * (PI / (PI - edge));
-                    assert!(
-                        (exact - swept).abs() <= TOLERANCE + rounding,
-                        "L {camera} psi {psi}: {exact} and {swept}"
-                    );
+                    assert!((exact - swept).abs() <= TOLERANCE + rounding, "L {camera} psi {psi}: {exact} and {swept}");
                 }
                 other => panic!("L {camera} psi {psi} (edge {edge}): {other:?}"),
             }

@@ -57,11 +57,7 @@ fn deflection(b: f64) -> f64 {
 
 #[track_caller]
 fn close(found: f64, expected: f64, tolerance: f64) {
-    assert!(
-        (found - expected).abs() <= tolerance,
-        "found {found:.15}, expected {expected:.15}, off by {:.2e}",
-        found - expected
-    );
+    assert!((found - expected).abs() <= tolerance, "found {found:.15}, expected {expected:.15}, off by {:.2e}", found - expected);
 }
 
 #[test]
@@ -159,19 +155,11 @@ fn points_seen_by_a_hovering_camera() {
     ];
     for (r, degrees, l, psi, time) in rows {
         let swept = f64::to_radians(degrees);
-        let (order, phi) = if swept > PI {
-            (2, TAU - swept)
-        } else {
-            (1, swept)
-        };
+        let (order, phi) = if swept > PI { (2, TAU - swept) } else { (1, swept) };
         let seen = shoot(r, phi, l, order, Branch::Plus, FINE).unwrap();
         close(static_angle(seen.psi_rain, l), psi, 2e-13);
         // The table has 13 digits.
-        close(
-            seen.delay - clock_offset(l) + clock_offset(r),
-            time,
-            1e-8f64.min(1e-12 * time + 6e-11).max(time * 5e-12),
-        );
+        close(seen.delay - clock_offset(l) + clock_offset(r), time, 1e-8f64.min(1e-12 * time + 6e-11).max(time * 5e-12));
     }
 }
 
@@ -186,11 +174,7 @@ fn a_camera_sees_its_own_flash_as_rings() {
     for (turns, degrees, closest, trip) in rows {
         // A flash at the camera's own place, `turns` times around: order 2·turns with φ = 0.
         let seen = shoot(10.0, 0.0, 10.0, 2 * turns, Branch::Plus, FINE).unwrap();
-        close(
-            180.0 - static_angle(seen.psi_rain, 10.0).to_degrees(),
-            degrees,
-            1e-10,
-        );
+        close(180.0 - static_angle(seen.psi_rain, 10.0).to_degrees(), degrees, 1e-10);
         close(seen.delay, trip, 2e-10);
         let look = DVec3::new(seen.psi_rain.cos(), seen.psi_rain.sin(), 0.0);
         let ray = Ray::trace(DVec3::X * 10.0, look, FINE, &Stop::default());
@@ -204,10 +188,7 @@ fn energy_and_angular_momentum_are_kept() {
     for l in [0.05, 0.7, 0.999, 1.001, 1.4, 1.6, 30.0, 4000.0] {
         for i in 0..24 {
             let psi = PI * (f64::from(i) + 0.5) / 24.0;
-            let stop = Stop {
-                radius: 1e4,
-                ..Stop::default()
-            };
+            let stop = Stop { radius: 1e4, ..Stop::default() };
             let ray = Ray::trace_in_plane(l, DVec2::new(psi.cos(), psi.sin()), FINE, &stop);
             let first = ray.segments[0].at(0.0);
             let (energy, spin) = (first.energy(), first.angular_momentum());
@@ -218,16 +199,8 @@ fn energy_and_angular_momentum_are_kept() {
                     let state = segment.at(part * segment.length);
                     // E is a difference of terms of size |p|, L a product of size r|p|, and where a ray clings to the horizon |p| has no bound.
                     size = size.max(state.momentum.length());
-                    close(
-                        state.energy(),
-                        energy,
-                        1e-13 * size * (1.0 + 1.0 / l.sqrt()),
-                    );
-                    close(
-                        state.angular_momentum(),
-                        spin,
-                        1e-14 * size * state.position.length().max(1.0),
-                    );
+                    close(state.energy(), energy, 1e-13 * size * (1.0 + 1.0 / l.sqrt()));
+                    close(state.angular_momentum(), spin, 1e-14 * size * state.position.length().max(1.0));
                 }
             }
         }
@@ -239,15 +212,7 @@ fn halving_the_tolerance_converges() {
     // The error stays under a fixed multiple of the tolerance all the way to rounding, on a ray that winds around the photon sphere.
     let look = look_for(0.5 * 5.2279386085338, 8.0, true);
     let sky = |tolerance: f64| {
-        let ray = Ray::trace_in_plane(
-            8.0,
-            look,
-            tolerance,
-            &Stop {
-                radius: 60.0,
-                ..Stop::default()
-            },
-        );
+        let ray = Ray::trace_in_plane(8.0, look, tolerance, &Stop { radius: 60.0, ..Stop::default() });
         ray.sky_swept().unwrap()
     };
     let exact = sky(1e-18);
@@ -290,37 +255,13 @@ fn radial_light() {
     let out = |r: f64| r - 2.0 * r.sqrt() + 2.0 * (1.0 + r.sqrt()).ln();
     let back = |r: f64| r + 2.0 * r.sqrt() + 2.0 * (r.sqrt() - 1.0).abs().ln();
     let seen = |r, l, branch| shoot(r, 0.0, l, 1, branch, FINE).unwrap();
-    close(
-        seen(9.0, 4.0, Branch::Plus).delay,
-        out(9.0) - out(4.0),
-        1e-13,
-    );
-    close(
-        seen(4.0, 9.0, Branch::Plus).delay,
-        back(9.0) - back(4.0),
-        1e-13,
-    );
-    close(
-        seen(1.001, 9.0, Branch::Plus).delay,
-        back(9.0) - back(1.001),
-        1e-11,
-    );
+    close(seen(9.0, 4.0, Branch::Plus).delay, out(9.0) - out(4.0), 1e-13);
+    close(seen(4.0, 9.0, Branch::Plus).delay, back(9.0) - back(4.0), 1e-13);
+    close(seen(1.001, 9.0, Branch::Plus).delay, back(9.0) - back(1.001), 1e-11);
     // Through the horizon, and below it on both branches.
-    close(
-        seen(5.0, 0.2, Branch::Plus).delay,
-        out(5.0) - out(0.2),
-        1e-13,
-    );
-    close(
-        seen(0.8, 0.2, Branch::Plus).delay,
-        out(0.8) - out(0.2),
-        1e-13,
-    );
-    close(
-        seen(0.8, 0.2, Branch::Minus).delay,
-        back(0.2) - back(0.8),
-        1e-13,
-    );
+    close(seen(5.0, 0.2, Branch::Plus).delay, out(5.0) - out(0.2), 1e-13);
+    close(seen(0.8, 0.2, Branch::Plus).delay, out(0.8) - out(0.2), 1e-13);
+    close(seen(0.8, 0.2, Branch::Minus).delay, back(0.2) - back(0.8), 1e-13);
     assert_eq!(seen(0.8, 0.2, Branch::Minus).psi_rain, PI);
     assert_eq!(seen(0.8, 0.2, Branch::Plus).psi_rain, 0.0);
 }
@@ -340,11 +281,7 @@ fn what_is_seen_from_below_the_horizon() {
                     assert!(plus.energy > 0.0 && minus.energy < 0.0);
                     assert!(plus.delay > 0.0 && minus.delay > plus.delay);
                     // E² = b²-term: the same orbit up to the sign of E.
-                    close(
-                        plus.angular_momentum / plus.energy,
-                        -minus.angular_momentum / minus.energy,
-                        1e-9 / minus.energy.abs().min(1.0),
-                    );
+                    close(plus.angular_momentum / plus.energy, -minus.angular_momentum / minus.energy, 1e-9 / minus.energy.abs().min(1.0));
                 }
             }
         }
@@ -353,8 +290,7 @@ fn what_is_seen_from_below_the_horizon() {
             for phi in [0.3, 2.0, PI] {
                 let mut before = 0.0;
                 for order in 1..=3 {
-                    let seen = shoot(r, phi, l, order, Branch::Plus, FINE)
-                        .unwrap_or_else(|| panic!("L {l} r {r} phi {phi} order {order}"));
+                    let seen = shoot(r, phi, l, order, Branch::Plus, FINE).unwrap_or_else(|| panic!("L {l} r {r} phi {phi} order {order}"));
                     assert!(seen.delay >= before - 1e-9 && seen.energy > 0.0);
                     before = seen.delay;
                 }
@@ -376,14 +312,8 @@ fn the_sky_is_the_limit_of_far_points() {
                 let far = shoot(1e8, phi, l, order, Branch::Plus, FINE).unwrap();
                 close(far.psi_rain, sky.psi_rain, 3e-7);
                 let look = DVec3::new(sky.psi_rain.cos(), sky.psi_rain.sin(), 0.0);
-                let Fate::Escaped { swept, .. } = fate(DVec3::X * l, look, FINE) else {
-                    panic!("the sky is in the shadow")
-                };
-                close(
-                    swept,
-                    lensrunner::reference::shoot::swept_angle(order, phi),
-                    1e-7,
-                );
+                let Fate::Escaped { swept, .. } = fate(DVec3::X * l, look, FINE) else { panic!("the sky is in the shadow") };
+                close(swept, lensrunner::reference::shoot::swept_angle(order, phi), 1e-7);
             }
         }
     }

@@ -11,18 +11,9 @@ const TOLERANCE: f64 = 1e-15;
 
 /// A small triangle around `centre`, facing any which way.
 fn small_triangle(centre: DVec3, size: f64, rng: &mut StdRng) -> Mesh {
-    let spin = DQuat::from_xyzw(
-        rng.random_range(-1.0..1.0),
-        rng.random_range(-1.0..1.0),
-        rng.random_range(-1.0..1.0),
-        1.0,
-    )
-    .normalize();
+    let spin = DQuat::from_xyzw(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), 1.0).normalize();
     let corner = |angle: f64| centre + size * (spin * DVec3::new(angle.cos(), angle.sin(), 0.0));
-    Mesh {
-        vertices: [0.3, 2.4, 4.5].map(corner).to_vec(),
-        triangles: vec![[0, 1, 2]],
-    }
+    Mesh { vertices: [0.3, 2.4, 4.5].map(corner).to_vec(), triangles: vec![[0, 1, 2]] }
 }
 
 #[test]
@@ -40,12 +31,7 @@ fn a_triangle_is_met_where_shooting_says() {
         let side = if order == 2 { -1.0 } else { 1.0 };
         let look = DVec3::new(side * seen.psi_rain.sin(), 0.0, seen.psi_rain.cos());
         let mesh = small_triangle(point, 1e-3 * r, &mut rng);
-        let Seen::Hit(hit) = trace(
-            &[Mesh::default(), mesh.clone()],
-            l * DVec3::Z,
-            look,
-            TOLERANCE,
-        ) else {
+        let Seen::Hit(hit) = trace(&[Mesh::default(), mesh.clone()], l * DVec3::Z, look, TOLERANCE) else {
             panic!("missed: L {l} r {r} phi {phi} order {order}");
         };
         // Exactly through the centre, where all three weights are 1/3 (the corners are not evenly spread, but the centre is inside).
@@ -54,11 +40,7 @@ fn a_triangle_is_met_where_shooting_says() {
             assert!((hit.delay - seen.delay).abs() < 1e-3 * r * 10.0);
             let at: DVec3 = (0..3).map(|k| hit.barycentrics[k] * mesh.vertices[k]).sum();
             assert!(at.distance(hit.position) < 1e-9 * r);
-            assert!(
-                hit.position.distance(point) < 1e-6 * r,
-                "L {l} r {r} phi {phi} order {order}: {}",
-                hit.position.distance(point) / r
-            );
+            assert!(hit.position.distance(point) < 1e-6 * r, "L {l} r {r} phi {phi} order {order}: {}", hit.position.distance(point) / r);
             met += 1;
         }
     }
@@ -68,48 +50,20 @@ fn a_triangle_is_met_where_shooting_says() {
 #[test]
 fn a_closed_shell_is_never_missed() {
     // An octahedron around hole and camera: every escaping ray must meet it, every captured one must not, with the first hit from inside.
-    let corners = [
-        DVec3::X,
-        -DVec3::X,
-        DVec3::Y,
-        -DVec3::Y,
-        DVec3::Z,
-        -DVec3::Z,
-    ]
-    .map(|v| 15.0 * v);
+    let corners = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z].map(|v| 15.0 * v);
     let shell = Mesh {
         vertices: corners.to_vec(),
-        triangles: vec![
-            [0, 2, 4],
-            [2, 1, 4],
-            [1, 3, 4],
-            [3, 0, 4],
-            [2, 0, 5],
-            [1, 2, 5],
-            [3, 1, 5],
-            [0, 3, 5],
-        ],
+        triangles: vec![[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]],
     };
     let mut rng = StdRng::seed_from_u64(6);
     for i in 0..600 {
-        let position = [
-            DVec3::new(0.0, 0.0, 0.5),
-            DVec3::new(3.0, 1.0, -1.0),
-            DVec3::new(0.0, 1.3, 0.0),
-        ][i % 3];
+        let position = [DVec3::new(0.0, 0.0, 0.5), DVec3::new(3.0, 1.0, -1.0), DVec3::new(0.0, 1.3, 0.0)][i % 3];
         // A third of the rays in the plane of an edge.
-        let mut look = DVec3::new(
-            rng.random_range(-1.0..1.0),
-            rng.random_range(-1.0..1.0),
-            rng.random_range(-1.0..1.0),
-        );
+        let mut look = DVec3::new(rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0), rng.random_range(-1.0..1.0));
         if i % 3 == 0 {
             look.x = 0.0;
         }
-        match (
-            trace(&[], position, look, TOLERANCE),
-            trace(std::slice::from_ref(&shell), position, look, TOLERANCE),
-        ) {
+        match (trace(&[], position, look, TOLERANCE), trace(std::slice::from_ref(&shell), position, look, TOLERANCE)) {
             (Seen::Sky(_), Seen::Hit(hit)) => {
                 assert!((hit.barycentrics.iter().sum::<f64>() - 1.0).abs() < 1e-9);
                 assert_eq!(hit.order, (hit.swept / PI) as u32 + 1);
@@ -123,23 +77,11 @@ fn a_closed_shell_is_never_missed() {
 #[test]
 fn the_nearer_of_two_is_seen() {
     let square = |x: f64| Mesh {
-        vertices: vec![
-            DVec3::new(x, -1.0, -1.0),
-            DVec3::new(x, 1.0, -1.0),
-            DVec3::new(x, 1.0, 1.0),
-            DVec3::new(x, -1.0, 1.0),
-        ],
+        vertices: vec![DVec3::new(x, -1.0, -1.0), DVec3::new(x, 1.0, -1.0), DVec3::new(x, 1.0, 1.0), DVec3::new(x, -1.0, 1.0)],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
     };
     let meshes = [square(12.0), square(14.0), square(9.0)];
-    let look = |x: f64| {
-        trace(
-            &meshes,
-            DVec3::X * 10.0,
-            DVec3::new(x, 0.02, 0.01),
-            TOLERANCE,
-        )
-    };
+    let look = |x: f64| trace(&meshes, DVec3::X * 10.0, DVec3::new(x, 0.02, 0.01), TOLERANCE);
     assert!(matches!(look(1.0), Seen::Hit(hit) if hit.object == 0));
     assert!(matches!(look(-1.0), Seen::Hit(hit) if hit.object == 2));
 }
@@ -158,10 +100,7 @@ fn a_ship_camera_aberrates() {
     };
     let (ahead, blue) = camera.look(100.0, 50.0);
     assert!(ahead.distance(-DVec3::Z) < 1e-15);
-    assert!(
-        (blue - 2.0).abs() < 1e-14,
-        "the Doppler factor √((1+v)/(1−v)) is 2 at v = 0.6"
-    );
+    assert!((blue - 2.0).abs() < 1e-14, "the Doppler factor √((1+v)/(1−v)) is 2 at v = 0.6");
     let (right, _) = camera.look(200.0, 50.0);
     // 45° in the ship's frame: in the rain frame cos θ = (cos 45° − v)/(1 − v cos 45°).
     let c = 0.5f64.sqrt();
@@ -170,13 +109,7 @@ fn a_ship_camera_aberrates() {
     let (up, _) = camera.look(100.0, 0.0);
     assert!(up.y > 0.0 && up.x.abs() < 1e-15);
     // At rest in the rain nothing is turned.
-    let still = Camera {
-        momentum: DVec3::ZERO,
-        ..camera
-    };
+    let still = Camera { momentum: DVec3::ZERO, ..camera };
     let (corner, same) = still.look(200.0, 0.0);
-    assert!(
-        corner.distance(DVec3::new(1.0, 0.5, -1.0).normalize()) < 1e-15
-            && (same - 1.0).abs() < 1e-15
-    );
+    assert!(corner.distance(DVec3::new(1.0, 0.5, -1.0).normalize()) < 1e-15 && (same - 1.0).abs() < 1e-15);
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
+use lensrunner::lensing::Slice;
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::placements::{Motion, Object, Surroundings as Light, View, place};
@@ -10,14 +11,17 @@ use lensrunner::render::readback::{self, Picture};
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
-use lensrunner::lensing::Slice;
 use lensrunner::scene::{self, Body, GameConfig};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
 
 fn surroundings() -> Surroundings {
-    Surroundings { table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())), stars: Vec::new(), milky_way: vec![(1, 1, vec![[0.0; 3]])] }
+    Surroundings {
+        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
+        stars: Vec::new(),
+        milky_way: vec![(1, 1, vec![[0.0; 3]])],
+    }
 }
 
 fn renderer(size: [u32; 2]) -> Renderer {

@@ -2,9 +2,7 @@
 
 use std::path::Path;
 
-use lensrunner::scene::config::{
-    Allowed, GameConfig, Value, load, parse, setting, settings, template,
-};
+use lensrunner::scene::config::{Allowed, GameConfig, Value, load, parse, setting, settings, template};
 
 const COMMITTED: &str = include_str!("../game.toml");
 
@@ -12,23 +10,15 @@ const COMMITTED: &str = include_str!("../game.toml");
 fn the_committed_file_says_every_value_with_its_unit_and_range() {
     let lines: Vec<&str> = COMMITTED.lines().collect();
     for setting in settings() {
-        let start = lines
-            .iter()
-            .position(|line| *line == format!("[{}]", setting.section))
-            .unwrap_or_else(|| panic!("no [{}]", setting.section));
+        let start =
+            lines.iter().position(|line| *line == format!("[{}]", setting.section)).unwrap_or_else(|| panic!("no [{}]", setting.section));
         let line = lines[start + 1..]
             .iter()
             .take_while(|line| !line.starts_with('['))
             .find(|line| line.starts_with(&format!("{} = ", setting.key)))
             .unwrap_or_else(|| panic!("{} is missing", setting.path()));
-        let comment = line
-            .split_once('#')
-            .unwrap_or_else(|| panic!("{} has no comment", setting.path()))
-            .1;
-        assert!(
-            comment.contains(setting.unit) && comment.contains(&setting.allowed_text()),
-            "{line}"
-        );
+        let comment = line.split_once('#').unwrap_or_else(|| panic!("{} has no comment", setting.path())).1;
+        assert!(comment.contains(setting.unit) && comment.contains(&setting.allowed_text()), "{line}");
     }
     parse(Path::new("game.toml"), COMMITTED).unwrap();
 }
@@ -37,22 +27,14 @@ fn the_committed_file_says_every_value_with_its_unit_and_range() {
 fn defaults_are_allowed_and_survive_a_round_trip() {
     let mut config = GameConfig::default();
     for setting in settings() {
-        setting
-            .check(setting.get(&config))
-            .unwrap_or_else(|problem| panic!("{}: {problem}", setting.path()));
+        setting.check(setting.get(&config)).unwrap_or_else(|problem| panic!("{}: {problem}", setting.path()));
     }
     config.render.orders = 3;
     config.controls.boost = "KeyX".into();
     config.disk.inner = 4.25;
     config.sky.star_brightness = 0.1 + 0.2;
-    assert_eq!(
-        parse(Path::new("a.toml"), &template(&config)).unwrap(),
-        config
-    );
-    assert_eq!(
-        parse(Path::new("a.toml"), "").unwrap(),
-        GameConfig::default()
-    );
+    assert_eq!(parse(Path::new("a.toml"), &template(&config)).unwrap(), config);
+    assert_eq!(parse(Path::new("a.toml"), "").unwrap(), GameConfig::default());
 }
 
 /// The table reaches every field: setting each to another allowed value changes the configuration's text in that one line.
@@ -61,27 +43,17 @@ fn every_setting_sets_its_own_field() {
     let default = GameConfig::default();
     for setting in settings() {
         let other = match (setting.allowed, setting.get(&default)) {
-            (Allowed::Number { min, max }, Value::Number(now)) => {
-                Value::Number(if now == max { min } else { max })
-            }
-            (Allowed::Integer { min, max }, Value::Integer(now)) => {
-                Value::Integer(if now == max { min } else { max })
-            }
+            (Allowed::Number { min, max }, Value::Number(now)) => Value::Number(if now == max { min } else { max }),
+            (Allowed::Integer { min, max }, Value::Integer(now)) => Value::Integer(if now == max { min } else { max }),
             (Allowed::Switch, Value::Switch(now)) => Value::Switch(!now),
-            (Allowed::Choice(words), Value::Word(now)) => {
-                Value::Word(words.iter().find(|word| **word != now).unwrap().to_string())
-            }
+            (Allowed::Choice(words), Value::Word(now)) => Value::Word(words.iter().find(|word| **word != now).unwrap().to_string()),
             (Allowed::Key, Value::Word(_)) => Value::Word("Numpad7".into()),
             (allowed, value) => panic!("{}: {value:?} against {allowed:?}", setting.path()),
         };
         let mut changed = default.clone();
         setting.set(&mut changed, other.clone()).unwrap();
         assert_eq!(setting.get(&changed), other, "{}", setting.path());
-        let differing: Vec<String> = settings()
-            .iter()
-            .filter(|s| s.get(&changed) != s.get(&default))
-            .map(|s| s.path())
-            .collect();
+        let differing: Vec<String> = settings().iter().filter(|s| s.get(&changed) != s.get(&default)).map(|s| s.path()).collect();
         assert_eq!(differing, [setting.path()]);
         // The struct as a whole, seen through Debug, differs too: the getter is not a copy of the setter's mistake.
         assert_ne!(format!("{changed:?}"), format!("{default:?}"));
@@ -92,102 +64,32 @@ fn every_setting_sets_its_own_field() {
 #[test]
 fn the_table_covers_every_field() {
     let shown = format!("{:?}", GameConfig::default());
-    let sections = settings()
-        .iter()
-        .map(|setting| setting.section)
-        .collect::<std::collections::BTreeSet<_>>()
-        .len();
-    assert_eq!(
-        shown.matches(": ").count(),
-        settings().len() + sections,
-        "{shown}"
-    );
+    let sections = settings().iter().map(|setting| setting.section).collect::<std::collections::BTreeSet<_>>().len();
+    assert_eq!(shown.matches(": ").count(), settings().len() + sections, "{shown}");
 }
 
 #[test]
 fn complaints_name_file_line_key_and_range() {
     for (text, parts) in [
-        (
-            "[render]\norders = 7\n",
-            [
-                "game.toml:2:",
-                "render.orders",
-                "7 is out of range",
-                "whole numbers 1 to 3",
-            ],
-        ),
-        (
-            "[clock]\n\npace = 0\n",
-            [
-                "game.toml:3:",
-                "clock.pace",
-                "0 is out of range",
-                "0.01 to 50 r_s/c per second",
-            ],
-        ),
-        (
-            "[render]\nbloom = nan\n",
-            ["game.toml:2:", "render.bloom", "NaN", "0 to 1"],
-        ),
-        (
-            "[render]\norders = 2.5\n",
-            ["game.toml:2:", "render.orders", "2.5", "whole numbers"],
-        ),
-        (
-            "[render]\nordrs = 2\n",
-            ["game.toml:2:", "render.ordrs", "unknown key", "orders"],
-        ),
-        (
-            "[rander]\norders = 2\n",
-            ["game.toml:1:", "rander", "unknown section", "render"],
-        ),
-        (
-            "[hole]\nmass_solar = \"big\"\n",
-            ["game.toml:2:", "hole.mass_solar", "\"big\"", "solar masses"],
-        ),
-        (
-            "[hole]\nmass_solar = [1]\n",
-            ["game.toml:2:", "hole.mass_solar", "array", "solar masses"],
-        ),
-        (
-            "[render]\nmethod = \"magic\"\n",
-            ["game.toml:2:", "render.method", "\"magic\"", "\"table\""],
-        ),
-        (
-            "[controls]\nboost = \"Shift\"\n",
-            ["game.toml:2:", "controls.boost", "\"Shift\"", "KeyA"],
-        ),
-        (
-            "[disk]\nseed = 99999999999\n",
-            ["game.toml:2:", "disk.seed", "99999999999", "4294967295"],
-        ),
-        (
-            "[video]\nvsync = 1\n",
-            ["game.toml:2:", "video.vsync", "1", "true or false"],
-        ),
-        (
-            "[video]\nvsync = true\nvsync = true\n",
-            ["game.toml:3:", "duplicate", "", ""],
-        ),
-        (
-            "pace = 3\n",
-            ["game.toml:1:", "pace", "unknown section", "clock"],
-        ),
+        ("[render]\norders = 7\n", ["game.toml:2:", "render.orders", "7 is out of range", "whole numbers 1 to 3"]),
+        ("[clock]\n\npace = 0\n", ["game.toml:3:", "clock.pace", "0 is out of range", "0.01 to 50 r_s/c per second"]),
+        ("[render]\nbloom = nan\n", ["game.toml:2:", "render.bloom", "NaN", "0 to 1"]),
+        ("[render]\norders = 2.5\n", ["game.toml:2:", "render.orders", "2.5", "whole numbers"]),
+        ("[render]\nordrs = 2\n", ["game.toml:2:", "render.ordrs", "unknown key", "orders"]),
+        ("[rander]\norders = 2\n", ["game.toml:1:", "rander", "unknown section", "render"]),
+        ("[hole]\nmass_solar = \"big\"\n", ["game.toml:2:", "hole.mass_solar", "\"big\"", "solar masses"]),
+        ("[hole]\nmass_solar = [1]\n", ["game.toml:2:", "hole.mass_solar", "array", "solar masses"]),
+        ("[render]\nmethod = \"magic\"\n", ["game.toml:2:", "render.method", "\"magic\"", "\"table\""]),
+        ("[controls]\nboost = \"Shift\"\n", ["game.toml:2:", "controls.boost", "\"Shift\"", "KeyA"]),
+        ("[disk]\nseed = 99999999999\n", ["game.toml:2:", "disk.seed", "99999999999", "4294967295"]),
+        ("[video]\nvsync = 1\n", ["game.toml:2:", "video.vsync", "1", "true or false"]),
+        ("[video]\nvsync = true\nvsync = true\n", ["game.toml:3:", "duplicate", "", ""]),
+        ("pace = 3\n", ["game.toml:1:", "pace", "unknown section", "clock"]),
     ] {
-        let said = parse(Path::new("game.toml"), text)
-            .expect_err("must be refused")
-            .to_string();
-        assert!(
-            parts.iter().all(|part| said.contains(part)),
-            "{text:?} gave {said:?}, lacking one of {parts:?}"
-        );
+        let said = parse(Path::new("game.toml"), text).expect_err("must be refused").to_string();
+        assert!(parts.iter().all(|part| said.contains(part)), "{text:?} gave {said:?}, lacking one of {parts:?}");
     }
-    assert!(
-        load(Path::new("no/game.toml"))
-            .unwrap_err()
-            .to_string()
-            .contains("no/game.toml")
-    );
+    assert!(load(Path::new("no/game.toml")).unwrap_err().to_string().contains("no/game.toml"));
 }
 
 #[test]

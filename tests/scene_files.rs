@@ -6,57 +6,31 @@ use lensrunner::scene::config::GameConfig;
 use lensrunner::scene::{Mount, Scene, load, names};
 
 fn complaint(text: &str) -> String {
-    Scene::from_toml(Path::new("some/scene.toml"), text)
-        .expect_err("must be refused")
-        .to_string()
+    Scene::from_toml(Path::new("some/scene.toml"), text).expect_err("must be refused").to_string()
 }
 
 #[test]
 fn every_scene_loads_and_assembles_without_a_warning() {
     let names = names();
-    for wanted in [
-        "chase",
-        "parade",
-        "galaxy",
-        "galaxy-20000",
-        "galaxy-axis",
-        "galaxy-axis-edge",
-        "galaxy-axis-vertex",
-        "ring",
-    ] {
-        assert!(
-            names.iter().any(|name| name == wanted),
-            "{wanted} is missing from {names:?}"
-        );
+    for wanted in ["chase", "parade", "galaxy", "galaxy-20000", "galaxy-axis", "galaxy-axis-edge", "galaxy-axis-vertex", "ring"] {
+        assert!(names.iter().any(|name| name == wanted), "{wanted} is missing from {names:?}");
     }
     for name in names {
         let scene = load(&name).unwrap_or_else(|error| panic!("{name}: {error}"));
         let assembly = scene.assemble(&GameConfig::default());
         assert_eq!(assembly.warnings, Vec::<String>::new(), "{name}");
-        assert!(
-            assembly.models.iter().all(|model| model.fault().is_none()),
-            "{name}"
-        );
+        assert!(assembly.models.iter().all(|model| model.fault().is_none()), "{name}");
     }
 }
 
 #[test]
 fn scenes_have_the_triangles_they_promise() {
-    let triangles = |name: &str| {
-        load(name)
-            .unwrap()
-            .assemble(&GameConfig::default())
-            .triangles()
-    };
+    let triangles = |name: &str| load(name).unwrap().assemble(&GameConfig::default()).triangles();
     assert_eq!(triangles("galaxy"), 2_000);
     assert_eq!(triangles("galaxy-axis"), 2_000);
     assert_eq!(triangles("galaxy-20000"), 20_000);
     assert_eq!(triangles("ring"), 1_224);
-    assert!(
-        (40_000..60_000).contains(&triangles("parade")),
-        "{}",
-        triangles("parade")
-    );
+    assert!((40_000..60_000).contains(&triangles("parade")), "{}", triangles("parade"));
 }
 
 #[test]
@@ -78,15 +52,9 @@ fn the_axis_meets_the_square_where_the_scene_says() {
     // The camera and the origin of the square lie on the z axis, bit by bit, so the axis pierces the square at its own origin.
     let vertices_and_triangles = |name: &str| {
         let scene = load(name).unwrap();
-        let Mount::Static(camera) = scene.camera.mount else {
-            panic!("{name}: the camera must be static")
-        };
+        let Mount::Static(camera) = scene.camera.mount else { panic!("{name}: the camera must be static") };
         assert_eq!((camera.position.x, camera.position.y), (0.0, 0.0), "{name}");
-        assert_eq!(
-            (scene.props[0].positions[0].x, scene.props[0].positions[0].y),
-            (0.0, 0.0),
-            "{name}"
-        );
+        assert_eq!((scene.props[0].positions[0].x, scene.props[0].positions[0].y), (0.0, 0.0), "{name}");
         scene.props[0].model().unwrap()
     };
     // For each triangle the three edge functions at the origin; zeros tell edge (one) from vertex (two).
@@ -94,8 +62,7 @@ fn the_axis_meets_the_square_where_the_scene_says() {
         let model = vertices_and_triangles(name);
         let mut found = Vec::new();
         for triangle in &model.triangles {
-            let [a, b, c] =
-                triangle.map(|index| model.vertices[index as usize].position.map(f64::from));
+            let [a, b, c] = triangle.map(|index| model.vertices[index as usize].position.map(f64::from));
             let edge = |p: [f64; 3], q: [f64; 3]| p[0] * q[1] - p[1] * q[0];
             let edges = [edge(a, b), edge(b, c), edge(c, a)];
             if edges.iter().all(|&value| value >= 0.0) {
@@ -117,135 +84,50 @@ fn the_disk_of_a_scene_goes_before_the_configuration() {
     let scene = Scene::from_toml(Path::new("a.toml"), text).unwrap();
     let disk = scene.disk(&config).unwrap();
     assert_eq!((disk.inner, disk.arcs, disk.outer), (4.5, 570, 33.0));
-    assert!(
-        Scene::from_toml(Path::new("a.toml"), "")
-            .unwrap()
-            .disk(&config)
-            .is_none()
-    );
+    assert!(Scene::from_toml(Path::new("a.toml"), "").unwrap().disk(&config).is_none());
 }
 
 #[test]
 fn an_unknown_scene_names_what_is_known() {
     let error = load("nowhere").unwrap_err().to_string();
-    assert!(
-        error.contains("nowhere") && error.contains("parade") && error.contains("ring"),
-        "{error}"
-    );
-    assert!(
-        load("no/such/file.toml")
-            .unwrap_err()
-            .to_string()
-            .contains("no/such/file.toml")
-    );
+    assert!(error.contains("nowhere") && error.contains("parade") && error.contains("ring"), "{error}");
+    assert!(load("no/such/file.toml").unwrap_err().to_string().contains("no/such/file.toml"));
 }
 
 #[test]
 fn complaints_name_file_line_key_and_range() {
     for (text, parts) in [
-        (
-            "[camera]\nposition = [0.0, 0.0, 15.0]\nfov = 200\n",
-            ["some/scene.toml:3:", "camera.fov", "1 to 170", "degrees"],
-        ),
-        (
-            "\n[camera]\nposition = [0.0, 0.0, 15.0]\nzoom = 3\n",
-            ["some/scene.toml:4:", "camera.zoom", "unknown field", "fov"],
-        ),
-        (
-            "[camera]\nposition = [0.0, 0.0]\n",
-            ["some/scene.toml:2:", "camera.position", "length", "3"],
-        ),
-        (
-            "[camera]\nposition = [0.0, 0.0, 1e9]\n",
-            ["some/scene.toml:2:", "camera.position", "10000", "r_s"],
-        ),
-        (
-            "[camera]\nposition = [nan, 0.0, 5.0]\n",
-            ["some/scene.toml:2:", "camera.position", "finite", "NaN"],
-        ),
-        (
-            "[[prop]]\nmodel = \"sphere\"\nposition = [0.0, 0.0, 0.5]\n",
-            ["some/scene.toml:3:", "prop[0].position", "0.5", "1.001"],
-        ),
-        (
-            "[[prop]]\nmodel = \"cube\"\n",
-            ["some/scene.toml:2:", "prop[0].model", "\"cube\"", "lattice"],
-        ),
+        ("[camera]\nposition = [0.0, 0.0, 15.0]\nfov = 200\n", ["some/scene.toml:3:", "camera.fov", "1 to 170", "degrees"]),
+        ("\n[camera]\nposition = [0.0, 0.0, 15.0]\nzoom = 3\n", ["some/scene.toml:4:", "camera.zoom", "unknown field", "fov"]),
+        ("[camera]\nposition = [0.0, 0.0]\n", ["some/scene.toml:2:", "camera.position", "length", "3"]),
+        ("[camera]\nposition = [0.0, 0.0, 1e9]\n", ["some/scene.toml:2:", "camera.position", "10000", "r_s"]),
+        ("[camera]\nposition = [nan, 0.0, 5.0]\n", ["some/scene.toml:2:", "camera.position", "finite", "NaN"]),
+        ("[[prop]]\nmodel = \"sphere\"\nposition = [0.0, 0.0, 0.5]\n", ["some/scene.toml:3:", "prop[0].position", "0.5", "1.001"]),
+        ("[[prop]]\nmodel = \"cube\"\n", ["some/scene.toml:2:", "prop[0].model", "\"cube\"", "lattice"]),
         (
             "[[prop]]\nmodel = \"square\"\nposition = [0,0,5]\n[[prop]]\nmodel = \"sphere\"\nposition = [0,0,5]\nsize = -1\n",
             ["some/scene.toml:7:", "prop[1].size", "-1", "0.0001"],
         ),
-        (
-            "[disk]\ninner = 3.0\nglow = 1\n",
-            [
-                "some/scene.toml:3:",
-                "disk.glow",
-                "unknown key",
-                "turbulence",
-            ],
-        ),
-        (
-            "[disk]\narcs = 4\n",
-            [
-                "some/scene.toml:2:",
-                "disk.arcs",
-                "4 is out of range",
-                "16 to 50000",
-            ],
-        ),
-        (
-            "[disk]\ninner = \"three\"\n",
-            [
-                "some/scene.toml:2:",
-                "disk.inner",
-                "wrong type",
-                "1.05 to 50 r_s",
-            ],
-        ),
-        (
-            "[planet]\norbit_radius = 2.0\nradius = 0.5\n",
-            ["some/scene.toml:2:", "planet.orbit_radius", "2", "r_s"],
-        ),
-        (
-            "[rules]\nhold_time = -1.0\n",
-            ["some/scene.toml:2:", "rules.hold_time", "-1", "r_s/c"],
-        ),
-        (
-            "[sky]\nstars = 3\n",
-            ["some/scene.toml:2:", "sky.stars", "boolean", "3"],
-        ),
+        ("[disk]\ninner = 3.0\nglow = 1\n", ["some/scene.toml:3:", "disk.glow", "unknown key", "turbulence"]),
+        ("[disk]\narcs = 4\n", ["some/scene.toml:2:", "disk.arcs", "4 is out of range", "16 to 50000"]),
+        ("[disk]\ninner = \"three\"\n", ["some/scene.toml:2:", "disk.inner", "wrong type", "1.05 to 50 r_s"]),
+        ("[planet]\norbit_radius = 2.0\nradius = 0.5\n", ["some/scene.toml:2:", "planet.orbit_radius", "2", "r_s"]),
+        ("[rules]\nhold_time = -1.0\n", ["some/scene.toml:2:", "rules.hold_time", "-1", "r_s/c"]),
+        ("[sky]\nstars = 3\n", ["some/scene.toml:2:", "sky.stars", "boolean", "3"]),
         ("[camera\n", ["some/scene.toml:1:", "", "", ""]),
-        (
-            "[camera]\nfollow = \"ghost\"\n",
-            ["some/scene.toml:2:", "camera.follow", "ghost", "no ship"],
-        ),
+        ("[camera]\nfollow = \"ghost\"\n", ["some/scene.toml:2:", "camera.follow", "ghost", "no ship"]),
     ] {
         let said = complaint(text);
-        assert!(
-            parts.iter().all(|part| said.contains(part)),
-            "{text:?} gave {said:?}, lacking one of {parts:?}"
-        );
+        assert!(parts.iter().all(|part| said.contains(part)), "{text:?} gave {said:?}, lacking one of {parts:?}");
     }
 }
 
 #[test]
 fn a_camera_without_momentum_is_at_rest() {
-    let scene = Scene::from_toml(
-        Path::new("a.toml"),
-        "[camera]\nposition = [3.0, 0.0, 4.0]\n",
-    )
-    .unwrap();
-    let Mount::Static(state) = scene.camera.mount else {
-        panic!()
-    };
+    let scene = Scene::from_toml(Path::new("a.toml"), "[camera]\nposition = [3.0, 0.0, 4.0]\n").unwrap();
+    let Mount::Static(state) = scene.camera.mount else { panic!() };
     assert!(lensrunner::spacetime::matter::velocity(&state).length() < 1e-15);
-    let inside = Scene::from_toml(
-        Path::new("a.toml"),
-        "[camera]\nposition = [0.3, 0.0, 0.4]\n",
-    )
-    .unwrap();
-    let Mount::Falling(state) = inside.camera.mount else {
-        panic!()
-    };
+    let inside = Scene::from_toml(Path::new("a.toml"), "[camera]\nposition = [0.3, 0.0, 0.4]\n").unwrap();
+    let Mount::Falling(state) = inside.camera.mount else { panic!() };
     assert_eq!(state.momentum.length(), 0.0);
 }

@@ -5,11 +5,7 @@ use lensrunner::scene::{assets_folder, blackbody, milky_way, stars};
 
 fn towards(ra_degrees: f64, dec_degrees: f64) -> Vec3 {
     let (ra, dec) = (ra_degrees.to_radians(), dec_degrees.to_radians());
-    Vec3::new(
-        (dec.cos() * ra.cos()) as f32,
-        (dec.cos() * ra.sin()) as f32,
-        dec.sin() as f32,
-    )
+    Vec3::new((dec.cos() * ra.cos()) as f32, (dec.cos() * ra.sin()) as f32, dec.sin() as f32)
 }
 
 #[test]
@@ -18,35 +14,16 @@ fn the_catalogue_is_whole_and_sirius_the_brightest() {
     assert_eq!(stars.len(), 117_955);
     assert!(stars.windows(2).all(|pair| pair[0].flux >= pair[1].flux));
     assert!(
-        stars
-            .iter()
-            .all(|star| (star.direction.length() - 1.0).abs() < 1e-6
-                && star.temperature > 2000.0
-                && star.temperature < 40_000.0)
+        stars.iter().all(|star| (star.direction.length() - 1.0).abs() < 1e-6 && star.temperature > 2000.0 && star.temperature < 40_000.0)
     );
     // Sirius, ICRS at epoch 1991.25 (SIMBAD): 06h 45m 09.25s, −16° 42′ 47″; B−V = 0.01, effective temperature 9,940 K.
     let sirius = stars[0];
-    assert!(
-        sirius.direction.distance(towards(101.288_54, -16.713_14)) < 2e-5,
-        "{:?}",
-        sirius.direction
-    );
+    assert!(sirius.direction.distance(towards(101.288_54, -16.713_14)) < 2e-5, "{:?}", sirius.direction);
     assert!((sirius.flux - 2.72).abs() < 0.02, "{}", sirius.flux);
-    assert!(
-        (sirius.temperature / 9940.0 - 1.0).abs() < 0.06,
-        "{}",
-        sirius.temperature
-    );
+    assert!((sirius.temperature / 9940.0 - 1.0).abs() < 0.06, "{}", sirius.temperature);
     // Betelgeuse is among the twenty brightest and red (3,600 K; B−V of so cool a star is reddened, hence the width).
-    let betelgeuse = stars[..20]
-        .iter()
-        .find(|star| star.direction.distance(towards(88.792_94, 7.407_06)) < 1e-4)
-        .unwrap();
-    assert!(
-        (betelgeuse.temperature - 3500.0).abs() < 300.0,
-        "{}",
-        betelgeuse.temperature
-    );
+    let betelgeuse = stars[..20].iter().find(|star| star.direction.distance(towards(88.792_94, 7.407_06)) < 1e-4).unwrap();
+    assert!((betelgeuse.temperature - 3500.0).abs() < 300.0, "{}", betelgeuse.temperature);
 }
 
 #[test]
@@ -75,12 +52,7 @@ fn a_damaged_catalogue_is_refused_by_reason() {
     assert!(refused(&whole[..whole.len() - 1]).contains("117955 stars"));
     assert!(refused(&changed(5000)).contains("checksum"));
     std::fs::remove_file(&path).unwrap();
-    assert!(
-        stars::load(&path)
-            .unwrap_err()
-            .to_string()
-            .contains("stars.bin")
-    );
+    assert!(stars::load(&path).unwrap_err().to_string().contains("stars.bin"));
 }
 
 #[test]
@@ -88,24 +60,11 @@ fn the_milky_way_lies_where_it_does() {
     let (sky, error) = milky_way::load_or_dark();
     assert!(error.is_none(), "{error:?}");
     assert_eq!((sky.levels[0].width, sky.levels[0].height), (2048, 1024));
-    assert_eq!(
-        (
-            sky.levels.last().unwrap().width,
-            sky.levels.last().unwrap().height
-        ),
-        (1, 1)
-    );
+    assert_eq!((sky.levels.last().unwrap().width, sky.levels.last().unwrap().height), (1, 1));
     let at = |ra, dec| sky.sample(towards(ra, dec), 3);
     let (pole, bulge) = (at(192.86, 27.13), at(270.9, -28.5));
-    assert!(
-        bulge > 0.3 && pole < 0.02,
-        "galactic pole {pole}, Sagittarius star cloud {bulge}"
-    );
-    for (place, ra, dec) in [
-        ("Cygnus", 305.0, 40.0),
-        ("Carina", 161.0, -59.0),
-        ("Scutum", 280.0, -6.0),
-    ] {
+    assert!(bulge > 0.3 && pole < 0.02, "galactic pole {pole}, Sagittarius star cloud {bulge}");
+    for (place, ra, dec) in [("Cygnus", 305.0, 40.0), ("Carina", 161.0, -59.0), ("Scutum", 280.0, -6.0)] {
         assert!(at(ra, dec) > 4.0 * pole, "{place}: {}", at(ra, dec));
     }
     // The Coalsack is darker than the band on both sides of it.
@@ -125,10 +84,7 @@ fn the_milky_way_has_no_seam_and_no_steps() {
     for row in 1..level.height {
         for column in 0..level.width {
             let (here, above) = (pixel(row, column), pixel(row - 1, column));
-            assert!(
-                (here - above).abs() < 0.01 + 0.13 * here.max(above),
-                "step at row {row}, column {column}: {above} to {here}"
-            );
+            assert!((here - above).abs() < 0.01 + 0.13 * here.max(above), "step at row {row}, column {column}: {above} to {here}");
         }
     }
 }
@@ -137,15 +93,10 @@ fn the_milky_way_has_no_seam_and_no_steps() {
 fn smaller_copies_keep_the_light() {
     let sky = milky_way::load_or_dark().0;
     let mean = |level: &milky_way::Level| {
-        let weight =
-            |row: usize| (std::f64::consts::PI * (row as f64 + 0.5) / level.height as f64).sin();
+        let weight = |row: usize| (std::f64::consts::PI * (row as f64 + 0.5) / level.height as f64).sin();
         let (mut total, mut weights) = (0.0, 0.0);
         for row in 0..level.height {
-            total += weight(row)
-                * level.brightness[row * level.width..][..level.width]
-                    .iter()
-                    .map(|&b| f64::from(b))
-                    .sum::<f64>();
+            total += weight(row) * level.brightness[row * level.width..][..level.width].iter().map(|&b| f64::from(b)).sum::<f64>();
             weights += weight(row) * level.width as f64;
         }
         total / weights
@@ -176,20 +127,11 @@ fn black_bodies_have_their_published_light() {
     // CIE standard illuminant A is a black body at 2,856 K with x = 0.44758, y = 0.40745; the fits are good to 0.003.
     let [x, y, z] = blackbody::blackbody_xyz(2856.0);
     let sum = x + y + z;
-    assert!(
-        (x / sum - 0.447_58).abs() < 0.004 && (y / sum - 0.407_45).abs() < 0.004,
-        "{} {}",
-        x / sum,
-        y / sum
-    );
+    assert!((x / sum - 0.447_58).abs() < 0.004 && (y / sum - 0.407_45).abs() < 0.004, "{} {}", x / sum, y / sum);
     // 6,504 K on the Planckian locus is within 0.006 of D65 (x = 0.3127, y = 0.3290), so nearly white.
     let rgb = blackbody::blackbody_rgb(6504.0);
     let luminance = blackbody::luminance(rgb);
-    assert!(
-        rgb.iter()
-            .all(|channel| (channel / luminance - 1.0).abs() < 0.06),
-        "{rgb:?}"
-    );
+    assert!(rgb.iter().all(|channel| (channel / luminance - 1.0).abs() < 0.06), "{rgb:?}");
     assert!((blackbody::luminance(blackbody::blackbody_rgb(5772.0)) - 1.0).abs() < 1e-5);
 }
 
@@ -201,14 +143,7 @@ fn colder_is_redder_and_darker() {
         let [r, g, b] = blackbody::blackbody_rgb(temperature);
         let now = (blackbody::luminance([r, g, b]), b / r);
         // Below 1,000 K both green and blue leave sRGB, and what is brought in has no meaning but "deep red".
-        assert!(
-            now.0 < last.0
-                && (now.1 <= last.1 || temperature < 1000.0)
-                && r >= 0.0
-                && g >= 0.0
-                && b >= 0.0,
-            "{temperature} K"
-        );
+        assert!(now.0 < last.0 && (now.1 <= last.1 || temperature < 1000.0) && r >= 0.0 && g >= 0.0 && b >= 0.0, "{temperature} K");
         last = now;
     }
     assert_eq!(blackbody::blackbody_rgb(f64::NAN), [0.0; 3]);
@@ -227,14 +162,8 @@ fn the_table_keeps_to_the_integral() {
         // leaves sRGB is zero, in the table a ten-thousandth; between the two entries at its end it is off by 0.1 % of the luminance.
         let scale = blackbody::luminance(exact);
         for (a, b) in exact.iter().zip(near) {
-            assert!(
-                (a - b).abs() < 0.005 * scale.max(*a),
-                "{temperature} K: {exact:?} against {near:?}"
-            );
+            assert!((a - b).abs() < 0.005 * scale.max(*a), "{temperature} K: {exact:?} against {near:?}");
         }
     }
-    assert_eq!(
-        blackbody::lookup(&table, coldest, hottest, 1.0),
-        blackbody::lookup(&table, coldest, hottest, coldest)
-    );
+    assert_eq!(blackbody::lookup(&table, coldest, hottest, 1.0), blackbody::lookup(&table, coldest, hottest, coldest));
 }

@@ -11,10 +11,7 @@ use lensrunner::sim::flight::{Flight, fly};
 use lensrunner::sim::pilot::plan::{SAFE_RADIUS, fall_risk};
 use lensrunner::sim::pilot::rollout::Point;
 use lensrunner::sim::simulate::app_of;
-use lensrunner::sim::{
-    Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, SimulationPlugins, outcome,
-    set_manual,
-};
+use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, SimulationPlugins, outcome, set_manual};
 use lensrunner::spacetime::matter::{ShipState, energy, step};
 use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 
@@ -55,10 +52,7 @@ fn play(scene: &Scene, seed: u64, mut look: impl FnMut(&World)) -> (Outcome, f64
 }
 
 fn motion(world: &World, index: usize) -> ShipState {
-    world
-        .get::<ShipMotion>(world.resource::<Fleet>().0[index])
-        .expect("a ship")
-        .0
+    world.get::<ShipMotion>(world.resource::<Fleet>().0[index]).expect("a ship").0
 }
 
 #[test]
@@ -69,11 +63,7 @@ fn a_whole_chase_has_the_same_bits_every_time() {
     assert!(rows.len() > 4, "{log}");
     assert_eq!(one.hash, two.hash);
     assert_ne!(one.hash, other.hash, "the seed matters");
-    assert_eq!(
-        one.hash.to_string(),
-        "d201718eec71c14c",
-        "the chase of seed 7 has changed: {log}"
-    );
+    assert_eq!(one.hash.to_string(), "d201718eec71c14c", "the chase of seed 7 has changed: {log}");
 }
 
 #[test]
@@ -84,36 +74,23 @@ fn the_quarry_flees_without_falling_in_and_is_caught_more_often_than_not() {
     for seed in 0..seeds {
         let (mut lowest, mut burnt, start) = (f64::INFINITY, 0.0f64, chase.ships[1].fuel);
         let (end, time) = play(&chase, seed, |world| {
-            lowest = lowest
-                .min(motion(world, 0).position.length())
-                .min(motion(world, 1).position.length());
+            lowest = lowest.min(motion(world, 0).position.length()).min(motion(world, 1).position.length());
             let quarry = world.resource::<Chase>().quarry;
             burnt = start - world.get::<Fuel>(quarry).expect("a tank").left;
         });
-        assert!(
-            matches!(end, Outcome::Caught | Outcome::TimeOut),
-            "seed {seed}: {end} at {time}"
-        );
+        assert!(matches!(end, Outcome::Caught | Outcome::TimeOut), "seed {seed}: {end} at {time}");
         assert!(lowest > 1.5, "seed {seed}: came down to {lowest}");
-        assert!(
-            burnt > 0.2,
-            "seed {seed}: the quarry hardly moved, {burnt} c burnt by {time}"
-        );
+        assert!(burnt > 0.2, "seed {seed}: the quarry hardly moved, {burnt} c burnt by {time}");
         caught += usize::from(end == Outcome::Caught);
     }
-    assert!(
-        caught * 4 >= seeds as usize * 3,
-        "caught {caught} of {seeds}"
-    );
+    assert!(caught * 4 >= seeds as usize * 3, "caught {caught} of {seeds}");
 }
 
 #[test]
 fn the_autopilot_catches_a_passive_target() {
-    for (seed, orbit) in [
-        (0, "radius = 5"),
-        (1, "radius = 8, inclination = 0.4, phase = 2"),
-        (2, "semi_latus_rectum = 6, eccentricity = 0.3, phase = 4"),
-    ] {
+    for (seed, orbit) in
+        [(0, "radius = 5"), (1, "radius = 8, inclination = 0.4, phase = 2"), (2, "semi_latus_rectum = 6, eccentricity = 0.3, phase = 4")]
+    {
         let text = format!(
             "[[ship]]\nname = \"hunter\"\norbit = {{ radius = 6, phase = -1.2 }}\nai = \"pursue\"\n[[ship]]\nname = \"target\"\norbit = {{ {orbit} }}\n"
         );
@@ -187,14 +164,8 @@ fn a_hunter_that_falls_in_has_lost_and_one_that_dawdles_too() {
         )
     };
     // Rain from 5 r_s is at the horizon at T = 6.787; the first step after ends at 6.8125.
-    assert_eq!(
-        play(&scene(&text("[-5, 0, 0]", 100.0)), 0, |_| ()),
-        (Outcome::HunterLost, 6.8125)
-    );
-    assert_eq!(
-        play(&scene(&text("[-50, 0, 0]", 2.0)), 0, |_| ()),
-        (Outcome::TimeOut, 2.0)
-    );
+    assert_eq!(play(&scene(&text("[-5, 0, 0]", 100.0)), 0, |_| ()), (Outcome::HunterLost, 6.8125));
+    assert_eq!(play(&scene(&text("[-50, 0, 0]", 2.0)), 0, |_| ()), (Outcome::TimeOut, 2.0));
 }
 
 #[test]
@@ -205,18 +176,12 @@ fn a_ship_flown_by_hand_is_left_alone_by_its_pilot() {
     for _ in 0..200 {
         app.world_mut().run_schedule(FixedUpdate);
     }
-    assert!(
-        (energy(&motion(app.world(), 0)) - before).abs() < 1e-12,
-        "it coasted"
-    );
+    assert!((energy(&motion(app.world(), 0)) - before).abs() < 1e-12, "it coasted");
     set_manual(app.world_mut(), false);
     for _ in 0..200 {
         app.world_mut().run_schedule(FixedUpdate);
     }
-    assert!(
-        (energy(&motion(app.world(), 0)) - before).abs() > 1e-3,
-        "its pilot flies again"
-    );
+    assert!((energy(&motion(app.world(), 0)) - before).abs() > 1e-3, "its pilot flies again");
 }
 
 #[test]
@@ -224,18 +189,12 @@ fn the_fixed_step_leaves_nothing_to_chance() {
     let mut app = App::new();
     app.add_plugins(SimulationPlugins);
     app.edit_schedule(FixedUpdate, |schedule| {
-        schedule.set_build_settings(ScheduleBuildSettings {
-            ambiguity_detection: LogLevel::Error,
-            ..default()
-        });
+        schedule.set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..default() });
     });
-    app.world_mut()
-        .schedule_scope(FixedUpdate, |world, schedule| {
-            schedule
-                .initialize(world)
-                .expect("no two systems that could run in either order touch the same data");
-            assert!(schedule.systems_len() >= 4);
-        });
+    app.world_mut().schedule_scope(FixedUpdate, |world, schedule| {
+        schedule.initialize(world).expect("no two systems that could run in either order touch the same data");
+        assert!(schedule.systems_len() >= 4);
+    });
 }
 
 #[test]
@@ -246,16 +205,10 @@ fn the_history_is_the_flight() {
         app.world_mut().run_schedule(FixedUpdate);
         seen.push((app.world().resource::<Clock>().time, motion(app.world(), 1)));
     }
-    let history = app
-        .world()
-        .get::<History>(app.world().resource::<Fleet>().0[1])
-        .expect("a history");
+    let history = app.world().get::<History>(app.world().resource::<Fleet>().0[1]).expect("a history");
     for (time, state) in seen.iter().step_by(37) {
         let sample = history.at(*time);
-        assert!(
-            sample.position.distance(state.position) < 1e-12
-                && sample.momentum.distance(state.momentum) < 1e-12
-        );
+        assert!(sample.position.distance(state.position) < 1e-12 && sample.momentum.distance(state.momentum) < 1e-12);
     }
     assert!(seen[0].1.position.distance(seen[640].1.position) > 1.0);
     // Between nodes: velocity is the change of position.
@@ -288,61 +241,31 @@ fn before_the_start_a_ship_was_on_its_free_orbit() {
     let slow = history.at(turns);
     history.reach_back(turns);
     let quick = history.at(turns);
-    assert!(
-        quick.position.distance(start.position) < 1e-5,
-        "{}",
-        quick.position.distance(start.position)
-    );
+    assert!(quick.position.distance(start.position) < 1e-5, "{}", quick.position.distance(start.position));
     assert!(slow.position.distance(quick.position) < 1e-6);
-    assert!(
-        history
-            .at(0.5 * turns / 20.0)
-            .position
-            .distance(start.position)
-            > 7.9,
-        "half a turn ago it was opposite"
-    );
+    assert!(history.at(0.5 * turns / 20.0).position.distance(start.position) > 7.9, "half a turn ago it was opposite");
 }
 
 #[test]
 fn what_came_out_of_the_white_hole_is_held_at_its_rim() {
-    let start = ShipState::new(
-        DVec3::X * 5.0,
-        static_momentum(DVec3::X * 5.0).expect("outside"),
-    );
+    let start = ShipState::new(DVec3::X * 5.0, static_momentum(DVec3::X * 5.0).expect("outside"));
     let mut history = History::new(0.0, &start);
     history.reach_back(-1e4);
     for time in [-30.0, -300.0, -9999.0, -1e6] {
         let sample = history.at(time);
         assert!(sample.position.is_finite() && sample.momentum.is_finite());
-        assert!(
-            sample.position.length() > 1.0 && sample.position.length() < 5.0,
-            "{time}: {}",
-            sample.position.length()
-        );
+        assert!(sample.position.length() > 1.0 && sample.position.length() < 5.0, "{time}: {}", sample.position.length());
     }
     assert!(history.at(-9999.0).position.length() < 1.0 + 1e-5);
 }
 
 fn engine() -> Engine {
-    Engine {
-        max_thrust: 0.06,
-        max_rate: 1.0,
-    }
+    Engine { max_thrust: 0.06, max_rate: 1.0 }
 }
 
 /// Flies with the assist for `time`, hands off unless `stick` says otherwise.
-fn fly_assisted(
-    start: ShipState,
-    time: f64,
-    stick: Stick,
-    reference: Reference,
-    settings: &AssistSettings,
-) -> ShipState {
-    let mut flight = Flight {
-        state: start,
-        fuel: f64::INFINITY,
-    };
+fn fly_assisted(start: ShipState, time: f64, stick: Stick, reference: Reference, settings: &AssistSettings) -> ShipState {
+    let mut flight = Flight { state: start, fuel: f64::INFINITY };
     let h = 0.03125;
     for index in 0..(time / h) as u64 {
         let command = assisted(&flight.state, &stick, &engine(), reference, settings).command;
@@ -353,80 +276,40 @@ fn fly_assisted(
     flight.state
 }
 
-const FREE: AssistSettings = AssistSettings {
-    damping_time: 3.0,
-    avoid_radius: None,
-};
+const FREE: AssistSettings = AssistSettings { damping_time: 3.0, avoid_radius: None };
 
 #[test]
 fn the_assist_lets_drift_fade_against_each_reference() {
     let orbit = circular_orbit(8.0, 0.0).expect("an orbit");
     let target = DVec3::new(0.0, 0.2, 0.05);
-    for reference in [
-        Reference::Static,
-        Reference::Orbit,
-        Reference::Target(target),
-    ] {
+    for reference in [Reference::Static, Reference::Orbit, Reference::Target(target)] {
         // The nose points along −z and drift in that direction is kept: start with none.
-        let start = ShipState {
-            momentum: orbit.momentum * 1.05 + DVec3::new(0.1, 0.0, 0.02),
-            ..orbit
-        };
+        let start = ShipState { momentum: orbit.momentum * 1.05 + DVec3::new(0.1, 0.0, 0.02), ..orbit };
         let before = drift(&start, reference).truncate().length();
-        let after = drift(
-            &fly_assisted(start, 25.0, Stick::default(), reference, &FREE),
-            reference,
-        )
-        .truncate()
-        .length();
+        let after = drift(&fly_assisted(start, 25.0, Stick::default(), reference, &FREE), reference).truncate().length();
         // A target that is not in free fall leaves the pull of the hole, 0.008 c²/r_s, times the damping time.
-        assert!(
-            before > 0.03 && after < 0.1 * before + 0.01,
-            "{reference:?}: {before} to {after}"
-        );
+        assert!(before > 0.03 && after < 0.1 * before + 0.01, "{reference:?}: {before} to {after}");
     }
 }
 
 #[test]
 fn the_assist_keeps_forward_motion_and_the_stick_has_its_way() {
-    let hover =
-        |position: DVec3| ShipState::new(position, static_momentum(position).expect("outside"));
+    let hover = |position: DVec3| ShipState::new(position, static_momentum(position).expect("outside"));
     let start = hover(DVec3::new(30.0, 0.0, 0.0));
-    let moving = ShipState {
-        momentum: start.momentum - DVec3::Z * 0.3,
-        ..start
-    };
+    let moving = ShipState { momentum: start.momentum - DVec3::Z * 0.3, ..start };
     let end = fly_assisted(moving, 10.0, Stick::default(), Reference::Static, &FREE);
     assert!(drift(&end, Reference::Static).z < -0.25);
-    let pushed = fly_assisted(
-        start,
-        5.0,
-        Stick {
-            thrust: DVec3::X,
-            turn: DVec3::ZERO,
-        },
-        Reference::Static,
-        &FREE,
-    );
+    let pushed = fly_assisted(start, 5.0, Stick { thrust: DVec3::X, turn: DVec3::ZERO }, Reference::Static, &FREE);
     let sideways = drift(&pushed, Reference::Static).x;
-    assert!(
-        (sideways - 0.29).abs() < 0.03,
-        "0.06 c²/r_s for 5 r_s/c: {sideways}"
-    );
+    assert!((sideways - 0.29).abs() < 0.03, "0.06 c²/r_s for 5 r_s/c: {sideways}");
 }
 
 #[test]
 fn the_assist_keeps_off_the_hole() {
     let start = ShipState::new(DVec3::new(7.0, 0.0, 0.0), DVec3::new(0.2, 0.25, 0.0));
-    let falls = step(&start, 40.0, DVec3::ZERO, DVec3::ZERO)
-        .position
-        .length()
-        < 1.0;
+    let falls = step(&start, 40.0, DVec3::ZERO, DVec3::ZERO).position.length() < 1.0;
     assert!(falls, "left alone it falls in");
-    let settings = AssistSettings {
-        avoid_radius: Some(2.0),
-        ..FREE
-    };
+    let settings = AssistSettings { avoid_radius: Some(2.0), ..FREE };
     let mut now = start;
     let mut lowest = f64::INFINITY;
     for _ in 0..100 {

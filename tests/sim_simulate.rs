@@ -14,19 +14,12 @@ pub struct Row {
 impl Row {
     /// By column name.
     pub fn get(&self, column: &str) -> f64 {
-        let index = COLUMNS
-            .split(',')
-            .position(|name| name == column)
-            .expect("a column");
+        let index = COLUMNS.split(',').position(|name| name == column).expect("a column");
         self.numbers[index - 1]
     }
 
     pub fn radius(&self) -> f64 {
-        ["x", "y", "z"]
-            .map(|column| self.get(column).powi(2))
-            .iter()
-            .sum::<f64>()
-            .sqrt()
+        ["x", "y", "z"].map(|column| self.get(column).powi(2)).iter().sum::<f64>().sqrt()
     }
 }
 
@@ -34,13 +27,8 @@ impl Row {
 pub fn run(text: &str, until: f64, every: f64, seed: u64) -> (Vec<Row>, String, Summary) {
     let scene = Scene::from_toml(Path::new("test.toml"), text).expect("a scene");
     let (mut out, mut log) = (Vec::new(), Vec::new());
-    let request = Request {
-        until: Some(until),
-        every,
-        seed,
-    };
-    let summary =
-        simulate(&scene, &GameConfig::default(), &request, &mut out, &mut log).expect("a run");
+    let request = Request { until: Some(until), every, seed };
+    let summary = simulate(&scene, &GameConfig::default(), &request, &mut out, &mut log).expect("a run");
     let csv = String::from_utf8(out).expect("text");
     let mut lines = csv.lines();
     assert_eq!(lines.next(), Some(COLUMNS));
@@ -48,12 +36,7 @@ pub fn run(text: &str, until: f64, every: f64, seed: u64) -> (Vec<Row>, String, 
         .map(|line| {
             let mut fields = line.split(',');
             let ship = fields.next().expect("a name").to_owned();
-            Row {
-                ship,
-                numbers: fields
-                    .map(|field| field.parse().expect("a number"))
-                    .collect(),
-            }
+            Row { ship, numbers: fields.map(|field| field.parse().expect("a number")).collect() }
         })
         .collect();
     (rows, String::from_utf8(log).expect("text"), summary)
@@ -70,12 +53,7 @@ fn rows_come_at_the_times_asked_for_and_the_last_one_at_the_end() {
     assert_eq!(summary.steps, 32);
     let last = log.lines().last().expect("a last line");
     let hash = last.split_whitespace().last().expect("a hash");
-    assert!(
-        last.contains("steps per second")
-            && hash.len() == 16
-            && u64::from_str_radix(hash, 16).is_ok(),
-        "{last}"
-    );
+    assert!(last.contains("steps per second") && hash.len() == 16 && u64::from_str_radix(hash, 16).is_ok(), "{last}");
     assert_eq!(hash, summary.hash.to_string());
 }
 
@@ -95,10 +73,7 @@ fn a_turn_on_the_last_stable_orbit_is_a_turn() {
     let (rows, _, _) = run(CIRCLE, period, period, 0);
     let (start, end) = (&rows[0], &rows[1]);
     for column in ["x", "y", "z", "px", "py", "pz", "E", "Lz"] {
-        assert!(
-            (end.get(column) - start.get(column)).abs() < 1e-9,
-            "{column}"
-        );
+        assert!((end.get(column) - start.get(column)).abs() < 1e-9, "{column}");
     }
     assert!((end.get("tau") - 65.2967771124 / 2.0).abs() < 1e-9);
     assert!((2.0 * end.get("qz").atan2(end.get("qw")) - 1.84030236902).abs() < 1e-9);
@@ -127,13 +102,7 @@ fn rows_read_back_as_a_scene_go_on_to_the_same_place() {
     let text = "[[ship]]\nname = \"a\"\nposition = [4, 1, -2]\nmomentum = [0.1, 0.5, 0.2]\nattitude = [0.5, -0.5, 0.5, 0.5]\n";
     let (rows, _, _) = run(text, 8.0, 4.0, 0);
     let number = |column: &str| format!("{:?}", rows[1].get(column));
-    let list = |columns: &[&str]| {
-        columns
-            .iter()
-            .map(|column| number(column))
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
+    let list = |columns: &[&str]| columns.iter().map(|column| number(column)).collect::<Vec<_>>().join(", ");
     let again = format!(
         "[[ship]]\nname = \"a\"\nposition = [{}]\nmomentum = [{}]\nattitude = [{}]\n",
         list(&["x", "y", "z"]),
@@ -145,36 +114,21 @@ fn rows_read_back_as_a_scene_go_on_to_the_same_place() {
         assert_eq!(resumed[1].get(column), rows[2].get(column), "{column}");
     }
     for column in ["qw", "qx", "qy", "qz"] {
-        assert!(
-            (resumed[1].get(column) - rows[2].get(column)).abs() < 1e-14,
-            "{column}"
-        );
+        assert!((resumed[1].get(column) - rows[2].get(column)).abs() < 1e-14, "{column}");
     }
 }
 
 #[test]
 fn a_ship_that_ends_says_why_and_stops_appearing_while_others_go_on() {
-    let text = format!(
-        "[[ship]]\nname = \"faller\"\nposition = [5, 0, 0]\nmomentum = [0, 0, 0]\n{CIRCLE}"
-    );
+    let text = format!("[[ship]]\nname = \"faller\"\nposition = [5, 0, 0]\nmomentum = [0, 0, 0]\n{CIRCLE}");
     let (rows, log, _) = run(&text, 10.0, 1.0, 0);
     // 14.9071198499986 M of τ = T to the centre.
-    let last = rows
-        .iter()
-        .filter(|row| row.ship == "faller")
-        .map(|row| row.get("T"))
-        .fold(0.0, f64::max);
+    let last = rows.iter().filter(|row| row.ship == "faller").map(|row| row.get("T")).fold(0.0, f64::max);
     assert_eq!(last, 7.0);
     assert_eq!(rows.iter().filter(|row| row.ship == "a").count(), 11);
-    assert!(
-        log.contains("faller: reached the singularity at T = 7.45"),
-        "{log}"
-    );
+    assert!(log.contains("faller: reached the singularity at T = 7.45"), "{log}");
     // 13.5737865166653 M to the horizon.
-    assert!(
-        log.contains("faller: crossed the horizon at T = 6.78689325833"),
-        "{log}"
-    );
+    assert!(log.contains("faller: crossed the horizon at T = 6.78689325833"), "{log}");
     let names: Vec<&str> = rows[..4].iter().map(|row| row.ship.as_str()).collect();
     assert_eq!(names, ["faller", "a", "faller", "a"]);
 }
@@ -186,10 +140,7 @@ fn rules_never_stop_a_scene_without_ai() {
     );
     let (rows, log, _) = run(&text, 5.0, 5.0, 0);
     assert_eq!(rows.last().map(|row| row.get("T")), Some(5.0));
-    assert!(
-        !log.contains("caught") && !log.contains("time is out"),
-        "{log}"
-    );
+    assert!(!log.contains("caught") && !log.contains("time is out"), "{log}");
 }
 
 #[test]
@@ -199,11 +150,7 @@ fn an_empty_tank_coasts() {
     let (rows, log, _) = run(text, 4.0, 0.25, 0);
     assert!(log.contains("a: out of fuel"), "{log}");
     // 0.1 c at 0.2 c²/r_s lasts 0.5 r_s/c of proper time.
-    let dry: Vec<f64> = rows
-        .iter()
-        .filter(|row| row.get("tau") > 0.5)
-        .map(|row| row.get("E"))
-        .collect();
+    let dry: Vec<f64> = rows.iter().filter(|row| row.get("tau") > 0.5).map(|row| row.get("E")).collect();
     assert!(dry.len() > 10 && dry.iter().all(|e| (e - dry[0]).abs() < 1e-13));
     assert!(dry[0] > rows[0].get("E") + 0.01);
     assert!(rows.last().expect("rows").radius() > 10.0);
@@ -213,44 +160,13 @@ fn an_empty_tank_coasts() {
 fn what_cannot_be_run_is_refused_with_the_range() {
     let scene = Scene::from_toml(Path::new("test.toml"), CIRCLE).expect("a scene");
     let refuse = |request: Request| {
-        let result = simulate(
-            &scene,
-            &GameConfig::default(),
-            &request,
-            &mut Vec::new(),
-            &mut Vec::new(),
-        );
+        let result = simulate(&scene, &GameConfig::default(), &request, &mut Vec::new(), &mut Vec::new());
         result.expect_err("refused").to_string()
     };
-    assert!(
-        refuse(Request {
-            until: Some(-1.0),
-            ..Request::default()
-        })
-        .contains("--until -1 must be from 0")
-    );
-    assert!(
-        refuse(Request {
-            until: Some(f64::NAN),
-            ..Request::default()
-        })
-        .contains("--until NaN must be from 0")
-    );
-    assert!(
-        refuse(Request {
-            every: 0.0,
-            ..Request::default()
-        })
-        .contains("--every 0 must be above 0")
-    );
+    assert!(refuse(Request { until: Some(-1.0), ..Request::default() }).contains("--until -1 must be from 0"));
+    assert!(refuse(Request { until: Some(f64::NAN), ..Request::default() }).contains("--until NaN must be from 0"));
+    assert!(refuse(Request { every: 0.0, ..Request::default() }).contains("--every 0 must be above 0"));
     let empty = Scene::from_toml(Path::new("empty.toml"), "").expect("a scene");
-    let error = simulate(
-        &empty,
-        &GameConfig::default(),
-        &Request::default(),
-        &mut Vec::new(),
-        &mut Vec::new(),
-    )
-    .expect_err("refused");
+    let error = simulate(&empty, &GameConfig::default(), &Request::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");
     assert!(error.to_string().contains("at least one [[ship]]"));
 }

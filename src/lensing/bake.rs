@@ -17,19 +17,11 @@ pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let [w0, w_e0] = slope_guess(cam, c - cam.a, bent);
     let ray = join_near(c, sweep, cam.a, Branch::Plus, Some(w0))?;
     let time = delay(&ray, c, sweep, cam.a);
-    let Ray {
-        slope: w,
-        emission_slope: w_e,
-        energy: e,
-    } = ray;
+    let Ray { slope: w, emission_slope: w_e, energy: e } = ray;
     let r = 1.0 / c;
     let scale = emission_scale(cam, c);
     let parts = delay_parts(cam, r, 1.0 - c, r - cam.l, bent, w, e, w_e);
-    Some([
-        cam.a.atan2(-w) - cam.a.atan2(-w0),
-        (time - parts[0]) / parts[2] - parts[1],
-        scale.atan2(-w_e) - scale.atan2(-w_e0),
-    ])
+    Some([cam.a.atan2(-w) - cam.a.atan2(-w0), (time - parts[0]) / parts[2] - parts[1], scale.atan2(-w_e) - scale.atan2(-w_e0)])
 }
 
 /// How many nodes along r, Φ and L a table of `nodes` has: the interpolation in L needs the most.
@@ -41,21 +33,11 @@ pub fn size(nodes: usize) -> [usize; 3] {
 /// that is finished; the shares add up to 1.
 pub fn residual_table(nodes: usize, done: impl Fn(f64) + Sync) -> Table {
     let [nx, ny, nz] = size(nodes);
-    let (mx, my, mz) = (
-        spline::coefficients(nx),
-        spline::coefficients(ny),
-        spline::coefficients(nz),
-    );
+    let (mx, my, mz) = (spline::coefficients(nx), spline::coefficients(ny), spline::coefficients(nz));
     let layers: Vec<Vec<[f64; 3]>> = (0..nz)
         .into_par_iter()
         .map(|iz| {
-            let coefficients = layer(
-                &grid::camera_at(iz as f64 / (nz - 1) as f64),
-                nx,
-                ny,
-                &mx,
-                &my,
-            );
+            let coefficients = layer(&grid::camera_at(iz as f64 / (nz - 1) as f64), nx, ny, &mx, &my);
             done(1.0 / nz as f64);
             coefficients
         })
@@ -69,17 +51,10 @@ pub fn residual_table(nodes: usize, done: impl Fn(f64) + Sync) -> Table {
             for (weight, layer) in row.iter().zip(&layers) {
                 add_scaled(&mut sum, *weight, layer);
             }
-            sum.into_iter()
-                .flatten()
-                .map(|v| v as f32)
-                .collect::<Vec<f32>>()
+            sum.into_iter().flatten().map(|v| v as f32).collect::<Vec<f32>>()
         })
         .collect();
-    Table {
-        scheme: Scheme::Residual,
-        size: [nx as u32, ny as u32, nz as u32],
-        values,
-    }
+    Table { scheme: Scheme::Residual, size: [nx as u32, ny as u32, nz as u32], values }
 }
 
 /// The coefficients, (nx + 2) × (ny + 2), of the residuals seen by one camera.
@@ -90,23 +65,14 @@ pub(super) fn layer(cam: &Camera, nx: usize, ny: usize, mx: &[f64], my: &[f64]) 
         for iy in 0..ny {
             let sweep = grid::sweep(cam, c, iy as f64 / (ny - 1) as f64).max(SMALLEST_BAKED_SWEEP);
             // Every point outside is seen in every order: a missing ray would be a fault of the solver, and its neighbour serves.
-            samples[iy * nx + ix] = residual(cam, c, sweep).unwrap_or_else(|| {
-                if iy > 0 {
-                    samples[(iy - 1) * nx + ix]
-                } else {
-                    [0.0; 3]
-                }
-            });
+            samples[iy * nx + ix] = residual(cam, c, sweep).unwrap_or_else(|| if iy > 0 { samples[(iy - 1) * nx + ix] } else { [0.0; 3] });
         }
     }
     let wide = nx + 2;
     let mut rows = vec![[0.0; 3]; wide * ny];
     for iy in 0..ny {
         for i in 0..wide {
-            for (weight, v) in mx[i * nx..(i + 1) * nx]
-                .iter()
-                .zip(&samples[iy * nx..(iy + 1) * nx])
-            {
+            for (weight, v) in mx[i * nx..(i + 1) * nx].iter().zip(&samples[iy * nx..(iy + 1) * nx]) {
                 (0..3).for_each(|h| rows[iy * wide + i][h] += weight * v[h]);
             }
         }
@@ -115,11 +81,7 @@ pub(super) fn layer(cam: &Camera, nx: usize, ny: usize, mx: &[f64], my: &[f64]) 
     for j in 0..ny + 2 {
         for iy in 0..ny {
             let weight = my[j * ny + iy];
-            add_scaled(
-                &mut coefficients[j * wide..(j + 1) * wide],
-                weight,
-                &rows[iy * wide..(iy + 1) * wide],
-            );
+            add_scaled(&mut coefficients[j * wide..(j + 1) * wide], weight, &rows[iy * wide..(iy + 1) * wide]);
         }
     }
     coefficients

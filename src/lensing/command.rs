@@ -21,11 +21,9 @@ pub struct Request {
 
 /// Bakes with a progress bar, writes the file, prints size, time and the error on fresh random points.
 pub fn run(args: &Request) -> Result<(), super::TableError> {
-    let style = indicatif::ProgressStyle::with_template("{bar:40} {percent} % {msg}")
-        .unwrap_or_else(|_| indicatif::ProgressStyle::default_bar());
-    let bar = indicatif::ProgressBar::new(1000)
-        .with_style(style)
-        .with_message("baking");
+    let style =
+        indicatif::ProgressStyle::with_template("{bar:40} {percent} % {msg}").unwrap_or_else(|_| indicatif::ProgressStyle::default_bar());
+    let bar = indicatif::ProgressBar::new(1000).with_style(style).with_message("baking");
     let finished = std::sync::Mutex::new(0.0);
     let start = Instant::now();
     let table = bake(args.scheme, args.nodes, |share| {
@@ -38,26 +36,13 @@ pub fn run(args: &Request) -> Result<(), super::TableError> {
     bar.finish_and_clear();
     table.save(&args.output)?;
     let size = table.to_bytes().len() as f64 / (1024.0 * 1024.0);
-    println!(
-        "{}: scheme {}, {:?} nodes, {size:.2} MiB, baked in {seconds:.1} s",
-        args.output.display(),
-        args.scheme.name(),
-        table.size
-    );
-    let seed = std::time::SystemTime::now()
-        .duration_since(std::time::UNIX_EPOCH)
-        .map_or(0, |d| d.as_nanos() as u64);
-    for (points, name) in [
-        (Points::Adversarial, "adversarial"),
-        (Points::Friendly, "friendly"),
-    ] {
+    println!("{}: scheme {}, {:?} nodes, {size:.2} MiB, baked in {seconds:.1} s", args.output.display(), args.scheme.name(), table.size);
+    let seed = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
+    for (points, name) in [(Points::Adversarial, "adversarial"), (Points::Friendly, "friendly")] {
         if points == Points::Adversarial && args.scheme != Scheme::Residual {
             continue;
         }
-        println!(
-            "{name} points, {} for each order: max, 99.9 %, rms; at r, φ, L",
-            args.points
-        );
+        println!("{name} points, {} for each order: max, 99.9 %, rms; at r, φ, L", args.points);
         for (i, s) in score(&table, points, args.points, seed).iter().enumerate() {
             let order = i + 1;
             line(order, "angle, degrees", s.angle);
@@ -74,8 +59,5 @@ pub fn run(args: &Request) -> Result<(), super::TableError> {
 
 fn line(order: usize, what: &str, s: Spread) {
     let [r, phi, l] = s.worst;
-    println!(
-        "  order {order}  {what:18} {:10.6} {:10.6} {:10.7}   at {r:.5}, {phi:.5}, {l:.5}",
-        s.max, s.most, s.rms
-    );
+    println!("  order {order}  {what:18} {:10.6} {:10.6} {:10.7}   at {r:.5}, {phi:.5}, {l:.5}", s.max, s.most, s.rms);
 }

@@ -20,11 +20,7 @@ pub fn camera_axis(l: f64) -> f64 {
 fn invert(f: impl Fn(f64) -> f64, value: f64, [mut lo, mut hi]: [f64; 2]) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (lo + hi);
-        if f(middle) < value {
-            lo = middle
-        } else {
-            hi = middle
-        }
+        if f(middle) < value { lo = middle } else { hi = middle }
     }
     0.5 * (lo + hi)
 }

@@ -62,9 +62,7 @@ const NOTHING: LensRay = LensRay {
 pub fn angle(sine: f32, cosine: f32) -> f32 {
     if sine < 0.25 {
         let y = sine * sine;
-        let x = sine
-            * (1.0
-                + y * (1.0 / 6.0 + y * (3.0 / 40.0 + y * (15.0 / 336.0 + y * (105.0 / 3456.0)))));
+        let x = sine * (1.0 + y * (1.0 / 6.0 + y * (3.0 / 40.0 + y * (15.0 / 336.0 + y * (105.0 / 3456.0)))));
         return if cosine < 0.0 { HALF_TURN - x } else { x };
     }
     sine.atan2(cosine)
@@ -78,30 +76,15 @@ pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     let phi = angle(across / r, height / r);
     if square < 0.25 * cam.l * cam.l {
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        return Place {
-            r,
-            room: cam.room + dr / (r * cam.l),
-            dr,
-            phi,
-        };
+        return Place { r, room: cam.room + dr / (r * cam.l), dr, phi };
     }
-    Place {
-        r,
-        room: (r - 1.0) / r,
-        dr: r - cam.l,
-        phi,
-    }
+    Place { r, room: (r - 1.0) / r, dr: r - cam.l, phi }
 }
 
 /// The weights of the four B-spline coefficients around the place `t` in 0..=1 between two nodes.
 pub fn spline_weights(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
-    [
-        s * s * s / 6.0,
-        (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
-        (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
-        t * t * t / 6.0,
-    ]
+    [s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0]
 }
 
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
@@ -141,15 +124,7 @@ pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
     // Away from a turning point the energy gives the magnitude more precisely.
     let square = e * e - c * c * room;
     if square > 0.3 * e * e {
-        return [
-            w,
-            e,
-            if w_e < 0.0 {
-                -square.sqrt()
-            } else {
-                square.sqrt()
-            },
-        ];
+        return [w, e, if w_e < 0.0 { -square.sqrt() } else { square.sqrt() }];
     }
     [w, e, w_e]
 }
@@ -166,25 +141,15 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
     let bent = bent_sweep(swept);
     let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
     let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let [w, e, w_e] = joined(
-        turned_slope(guess[0], cam.a, table[0]),
-        turned_slope(guess[1], emission_scale(cam, c), table[2]),
-        cam,
-        c,
-        room,
-    );
+    let [w, e, w_e] =
+        joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
     let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
     let delay = parts[0] + parts[2] * (parts[1] + table[1]);
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
     let frequency = (radial * radial + cam.a * cam.a).sqrt();
     let leaving = radial_momentum(w_e, e, c, c.sqrt(), room);
     let emission_frequency = (leaving * leaving + c * c).sqrt();
-    if !(finite(frequency)
-        && finite(emission_frequency)
-        && finite(w)
-        && finite(w_e)
-        && finite(delay))
-    {
+    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
         return NOTHING;
     }
     LensRay {

@@ -16,11 +16,7 @@ pub mod spline;
 pub mod table;
 
 /// The formulas in f64, for the bake.
-#[allow(
-    clippy::unnecessary_cast,
-    clippy::too_many_arguments,
-    clippy::excessive_precision
-)]
+#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod double {
     /// The precision of this copy.
     pub type Real = f64;
@@ -28,11 +24,7 @@ pub mod double {
 }
 
 /// The formulas in f32, the twins of the shader's.
-#[allow(
-    clippy::unnecessary_cast,
-    clippy::too_many_arguments,
-    clippy::excessive_precision
-)]
+#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod single {
     /// The precision of this copy.
     pub type Real = f32;
@@ -62,11 +54,5 @@ pub const DEFAULT_PATH: &str = "tables/default.lut";
 /// The committed table; where its file cannot be used, says why on stderr and bakes it again.
 pub fn default_table() -> Table {
     let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
-    load_or_bake(
-        std::path::Path::new(DEFAULT_PATH),
-        Scheme::Residual,
-        SMALL_NODES,
-        complain,
-        |_| (),
-    )
+    load_or_bake(std::path::Path::new(DEFAULT_PATH), Scheme::Residual, SMALL_NODES, complain, |_| ())
 }

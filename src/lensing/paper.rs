@@ -14,14 +14,7 @@ const EPSILON: f64 = 0.005;
 /// r_max of the paper's table 1, in r_s; L ends at half of it.
 const LARGEST_R: f64 = 1e4;
 /// The ranges of L, r and φ.
-pub const RANGES: [f64; 6] = [
-    1.0 + 2.0 * EPSILON,
-    LARGEST_R / 2.0,
-    1.0 + EPSILON,
-    LARGEST_R,
-    0.0,
-    std::f64::consts::PI,
-];
+pub const RANGES: [f64; 6] = [1.0 + 2.0 * EPSILON, LARGEST_R / 2.0, 1.0 + EPSILON, LARGEST_R, 0.0, std::f64::consts::PI];
 /// The smallest φ at which a ray is asked for, in radians; ψ at φ = 0 is its limit.
 const SMALLEST_ANGLE: f64 = 1e-9;
 /// Values at a node: ψ and the delay, for each of the four tables.
@@ -38,22 +31,14 @@ pub struct Mesh {
 impl Mesh {
     /// The place at `z` in 0..=1.
     pub fn place(self, z: f64) -> f64 {
-        let share = if self.bias == 0.0 {
-            z
-        } else {
-            (self.bias * z).exp_m1() / self.bias.exp_m1()
-        };
+        let share = if self.bias == 0.0 { z } else { (self.bias * z).exp_m1() / self.bias.exp_m1() };
         self.first + (self.last - self.first) * share
     }
 
     /// The z of a place.
     pub fn coordinate(self, x: f64) -> f64 {
         let share = (x - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);
-        if self.bias == 0.0 {
-            share
-        } else {
-            (share * self.bias.exp_m1()).ln_1p() / self.bias
-        }
+        if self.bias == 0.0 { share } else { (share * self.bias.exp_m1()).ln_1p() / self.bias }
     }
 }
 
@@ -66,11 +51,7 @@ pub fn camera_mesh(scheme: Scheme, inside: bool) -> Mesh {
     } else {
         8.54
     };
-    Mesh {
-        bias,
-        first: RANGES[0],
-        last: RANGES[1],
-    }
+    Mesh { bias, first: RANGES[0], last: RANGES[1] }
 }
 
 /// The meshes of r and φ at the camera radius `l`: equations 3 to 6.
@@ -78,29 +59,11 @@ pub fn slice_meshes(scheme: Scheme, inside: bool, l: f64) -> [Mesh; 2] {
     let x = (l / RANGES[0]).ln() / (RANGES[1] / RANGES[0]).ln();
     let [radial, angular] = match (scheme, inside) {
         (Scheme::PaperUniform, _) => [0.0, 0.0],
-        (_, true) => [
-            -4.70 * x - 2.12 + 0.123 / (x + 0.00605),
-            4.38 * x + 3.56 + 0.000130 / (x + 0.000250),
-        ],
+        (_, true) => [-4.70 * x - 2.12 + 0.123 / (x + 0.00605), 4.38 * x + 3.56 + 0.000130 / (x + 0.000250)],
         (_, false) => [-7.95 * x + 14.4, 3.72 * x + 3.70],
     };
-    let [first, last] = if inside {
-        [RANGES[2], l]
-    } else {
-        [l, RANGES[3]]
-    };
-    [
-        Mesh {
-            bias: radial,
-            first,
-            last,
-        },
-        Mesh {
-            bias: angular,
-            first: 0.0,
-            last: RANGES[5],
-        },
-    ]
+    let [first, last] = if inside { [RANGES[2], l] } else { [l, RANGES[3]] };
+    [Mesh { bias: radial, first, last }, Mesh { bias: angular, first: 0.0, last: RANGES[5] }]
 }
 
 /// ψ and the delay at one node of the table inside or outside; at the camera itself and on the axis, their limits.
@@ -112,12 +75,7 @@ fn node(inside: bool, order: Order, r: f64, phi: f64, l: f64) -> [f32; 2] {
         return [limit as f32, 0.0];
     }
     connect(1.0 / r, swept, 1.0 / l, Branch::Plus)
-        .and_then(|ray| {
-            Some([
-                static_angle(ray.slope, ray.energy, 1.0 / l)? as f32,
-                ray.delay as f32,
-            ])
-        })
+        .and_then(|ray| Some([static_angle(ray.slope, ray.energy, 1.0 / l)? as f32, ray.delay as f32]))
         .unwrap_or([limit as f32, 0.0])
 }
 
@@ -143,11 +101,7 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
             layer
         })
         .collect();
-    Table {
-        scheme,
-        size: [nodes as u32; 3],
-        values,
-    }
+    Table { scheme, size: [nodes as u32; 3], values }
 }
 
 /// Static ψ in radians and the delay in r_s/c at (r, φ, L) for order 1 or 2, trilinear in f32; clamped to the table's range.
@@ -156,8 +110,7 @@ pub fn lookup(table: &Table, [r, phi, l]: [f64; 3], order: u8) -> [f64; 2] {
     let inside = r <= l;
     let z = camera_mesh(table.scheme, inside).coordinate(l);
     let [radial, angular] = slice_meshes(table.scheme, inside, l);
-    let cells = [radial.coordinate(r), angular.coordinate(phi), z]
-        .map(|v| super::spline::cell(if v.is_finite() { v } else { 0.0 }, n));
+    let cells = [radial.coordinate(r), angular.coordinate(phi), z].map(|v| super::spline::cell(if v.is_finite() { v } else { 0.0 }, n));
     let channel = if inside { 0 } else { 4 } + 2 * (order as usize - 1);
     let mut sum = [0.0f32; 2];
     for corner in 0..8usize {
@@ -166,11 +119,7 @@ pub fn lookup(table: &Table, [r, phi, l]: [f64; 3], order: u8) -> [f64; 2] {
         for axis in (0..3).rev() {
             let bit = corner >> axis & 1;
             index = index * n + cells[axis].0 + bit;
-            weight *= if bit == 1 {
-                cells[axis].1 as f32
-            } else {
-                1.0 - cells[axis].1 as f32
-            };
+            weight *= if bit == 1 { cells[axis].1 as f32 } else { 1.0 - cells[axis].1 as f32 };
         }
         (0..2).for_each(|h| sum[h] += weight * table.values[index * CHANNELS + channel + h]);
     }

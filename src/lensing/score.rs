@@ -22,9 +22,7 @@ pub enum Points {
 
 /// A point and a camera: r, φ, L.
 pub fn draw(points: Points, rng: &mut SmallRng) -> [f64; 3] {
-    let between = |rng: &mut SmallRng, lo: f64, hi: f64| {
-        (lo.ln() + rng.random::<f64>() * (hi / lo).ln()).exp()
-    };
+    let between = |rng: &mut SmallRng, lo: f64, hi: f64| (lo.ln() + rng.random::<f64>() * (hi / lo).ln()).exp();
     let adversarial = points == Points::Adversarial;
     let least_r = if adversarial { 1.0005 } else { 1.005 };
     loop {
@@ -36,21 +34,9 @@ pub fn draw(points: Points, rng: &mut SmallRng) -> [f64; 3] {
         let mut sign = || if rng.random_bool(0.5) { 1.0 } else { -1.0 };
         let (up, side) = (sign(), sign());
         let clustered = rng.random_bool(0.5);
-        let mut r = if clustered {
-            l * (1.0 + up * between(rng, 1e-4, 1.0))
-        } else {
-            between(rng, least_r, 1e4)
-        };
-        let near = if adversarial {
-            rng.random_bool(0.5)
-        } else {
-            clustered
-        };
-        let mut phi = if near {
-            std::f64::consts::PI * between(rng, 1e-5, 1.0)
-        } else {
-            std::f64::consts::PI * rng.random::<f64>()
-        };
+        let mut r = if clustered { l * (1.0 + up * between(rng, 1e-4, 1.0)) } else { between(rng, least_r, 1e4) };
+        let near = if adversarial { rng.random_bool(0.5) } else { clustered };
+        let mut phi = if near { std::f64::consts::PI * between(rng, 1e-5, 1.0) } else { std::f64::consts::PI * rng.random::<f64>() };
         if near && adversarial && side > 0.0 {
             phi = std::f64::consts::PI - phi;
         }
@@ -59,11 +45,7 @@ pub fn draw(points: Points, rng: &mut SmallRng) -> [f64; 3] {
         }
         let half = (0.5 * phi).sin();
         let distance = ((r - l).powi(2) + 4.0 * r * l * half * half).sqrt();
-        let least = if adversarial {
-            1e-4 * l
-        } else {
-            0.01 * l.sqrt()
-        };
+        let least = if adversarial { 1e-4 * l } else { 0.01 * l.sqrt() };
         if (least_r..=1e4).contains(&r) && distance >= least {
             return [r, phi, l];
         }
@@ -106,12 +88,7 @@ fn spread(mut values: Vec<(f64, [f64; 3])>) -> Spread {
     let n = values.len();
     let (max, worst) = values[n - 1];
     let rms = (values.iter().map(|v| v.0 * v.0).sum::<f64>() / n as f64).sqrt();
-    Spread {
-        max,
-        most: values[((n as f64 * 0.999) as usize).min(n - 1)].0,
-        rms,
-        worst,
-    }
+    Spread { max, most: values[((n as f64 * 0.999) as usize).min(n - 1)].0, rms, worst }
 }
 
 /// The table's answer for one row through the f32 lookup, positions differenced in f64 first.
@@ -119,27 +96,13 @@ pub fn look_up_row(slice: &Slice, [r, phi, l]: [f64; 3], order: Order) -> LensRa
     let half = (0.5 * phi).sin();
     // r cos φ − L in a form that keeps its digits near the camera.
     let along = (r - l) - 2.0 * r * half * half;
-    lens_lookup_at(
-        slice,
-        along as f32,
-        (r * phi.sin()) as f32,
-        (r * phi.cos()) as f32,
-        u32::from(order.number()),
-    )
+    lens_lookup_at(slice, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, u32::from(order.number()))
 }
 
 /// The errors of `table` for each order on `count` points of each, drawn from `seed`.
 pub fn score(table: &Table, points: Points, count: usize, seed: u64) -> Vec<Score> {
-    let orders = if table.scheme == Scheme::Residual {
-        3
-    } else {
-        2
-    };
-    Order::ALL
-        .into_iter()
-        .take(orders)
-        .map(|order| score_order(table, points, count, seed, order))
-        .collect()
+    let orders = if table.scheme == Scheme::Residual { 3 } else { 2 };
+    Order::ALL.into_iter().take(orders).map(|order| score_order(table, points, count, seed, order)).collect()
 }
 
 /// r, φ, L, and the errors: angle in degrees, delay in r_s/c, the delay itself, emission in degrees.
@@ -149,68 +112,30 @@ fn score_order(table: &Table, points: Points, count: usize, seed: u64, order: Or
     let rows: Vec<Row> = (0..count)
         .into_par_iter()
         .filter_map(|i| {
-            let mut rng = SmallRng::seed_from_u64(
-                seed.wrapping_mul(0x9e37_79b9_7f4a_7c15)
-                    ^ ((order.number() as u64) << 40 | i as u64),
-            );
+            let mut rng = SmallRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ ((order.number() as u64) << 40 | i as u64));
             let row = draw(points, &mut rng);
             let [r, phi, l] = row;
             let exact = connect(1.0 / r, order.swept(phi), 1.0 / l, Branch::Plus)?;
             if table.scheme != Scheme::Residual {
                 let exact_angle = static_angle(exact.slope, exact.energy, 1.0 / l)?;
                 let seen = paper::lookup(table, row, order.number());
-                return Some((
-                    row,
-                    [
-                        (seen[0] - exact_angle).abs().to_degrees(),
-                        (seen[1] - exact.delay).abs(),
-                        exact.delay,
-                        0.0,
-                    ],
-                ));
+                return Some((row, [(seen[0] - exact_angle).abs().to_degrees(), (seen[1] - exact.delay).abs(), exact.delay, 0.0]));
             }
             let seen = look_up_row(&Slice::new(table, l), row, order);
             let psi = rain_angle(exact.slope, exact.energy, 1.0 / l);
             let (cos, sin) = (seen.cos_psi as f64, seen.sin_psi as f64);
-            let angle = (sin * psi.cos() - cos * psi.sin())
-                .atan2(cos * psi.cos() + sin * psi.sin())
-                .abs();
-            let angle = if seen.valid {
-                angle
-            } else {
-                std::f64::consts::PI
-            };
-            let emission = ((1.0 / r).atan2(-seen.emission_slope as f64)
-                - (1.0 / r).atan2(-exact.emission_slope))
-            .abs();
-            Some((
-                row,
-                [
-                    angle.to_degrees(),
-                    (seen.delay as f64 - exact.delay).abs(),
-                    exact.delay,
-                    emission.to_degrees(),
-                ],
-            ))
+            let angle = (sin * psi.cos() - cos * psi.sin()).atan2(cos * psi.cos() + sin * psi.sin()).abs();
+            let angle = if seen.valid { angle } else { std::f64::consts::PI };
+            let emission = ((1.0 / r).atan2(-seen.emission_slope as f64) - (1.0 / r).atan2(-exact.emission_slope)).abs();
+            Some((row, [angle.to_degrees(), (seen.delay as f64 - exact.delay).abs(), exact.delay, emission.to_degrees()]))
         })
         .collect();
-    let pick = |f: &dyn Fn(&Row) -> Option<f64>| {
-        spread(rows.iter().filter_map(|x| Some((f(x)?, x.0))).collect())
-    };
+    let pick = |f: &dyn Fn(&Row) -> Option<f64>| spread(rows.iter().filter_map(|x| Some((f(x)?, x.0))).collect());
     Score {
         angle: pick(&|x| Some(x.1[0])),
         delay: pick(&|x| (x.0[0] >= 1.05).then_some(x.1[1])),
         delay_near: pick(&|x| (x.0[0] < 1.05).then_some(x.1[1])),
-        delay_share: pick(&|x| {
-            Some(
-                x.1[1]
-                    / if x.0[0] < 1.05 {
-                        0.02
-                    } else {
-                        0.002 + 3e-7 * x.1[2]
-                    },
-            )
-        }),
+        delay_share: pick(&|x| Some(x.1[1] / if x.0[0] < 1.05 { 0.02 } else { 0.002 + 3e-7 * x.1[2] })),
         emission: pick(&|x| Some(x.1[3])),
     }
 }

@@ -25,23 +25,13 @@ impl Slice {
     pub fn new(table: &Table, l: f64) -> Slice {
         debug_assert_eq!(table.scheme, Scheme::Residual);
         let [nx, ny, nz] = table.size.map(|n| n as usize);
-        let l = if l.is_finite() {
-            l.clamp(grid::CAMERA_RANGE[0], grid::CAMERA_RANGE[1])
-        } else {
-            grid::CAMERA_RANGE[1]
-        };
+        let l = if l.is_finite() { l.clamp(grid::CAMERA_RANGE[0], grid::CAMERA_RANGE[1]) } else { grid::CAMERA_RANGE[1] };
         let (layer, t) = spline::cell(grid::camera_axis(l), nz);
         let weights = spline::weights(t).map(|w| w as f32);
         let size = (nx + 2) * (ny + 2) * 3;
-        let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|k| {
-            table.values[(layer + k) * size..(layer + k + 1) * size]
-                .as_chunks::<3>()
-                .0
-        });
+        let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|k| table.values[(layer + k) * size..(layer + k + 1) * size].as_chunks::<3>().0);
         let coefficients = s0.iter().zip(s1).zip(s2).zip(s3).map(|(((a, b), c), d)| {
-            let sum = |h: usize| {
-                weights[0] * a[h] + weights[1] * b[h] + weights[2] * c[h] + weights[3] * d[h]
-            };
+            let sum = |h: usize| weights[0] * a[h] + weights[1] * b[h] + weights[2] * c[h] + weights[3] * d[h];
             [sum(0), sum(1), sum(2), 0.0]
         });
         Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
@@ -50,16 +40,8 @@ impl Slice {
     /// The exact slice at `l`, baked on the spot with the same layout: what the interpolation in L is judged by.
     pub fn bake(nodes: usize, l: f64) -> Slice {
         let [nx, ny, _] = bake::size(nodes);
-        let layer = bake::layer(
-            &double::camera(l),
-            nx,
-            ny,
-            &spline::coefficients(nx),
-            &spline::coefficients(ny),
-        );
-        let coefficients = layer
-            .into_iter()
-            .map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]);
+        let layer = bake::layer(&double::camera(l), nx, ny, &spline::coefficients(nx), &spline::coefficients(ny));
+        let coefficients = layer.into_iter().map(|v| [v[0] as f32, v[1] as f32, v[2] as f32, 0.0]);
         Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
     }
 
@@ -68,21 +50,13 @@ impl Slice {
         &self.texels
     }
 
-    fn assembled(
-        cam: Camera,
-        size: [u32; 2],
-        coefficients: impl Iterator<Item = [f32; 4]>,
-    ) -> Slice {
+    fn assembled(cam: Camera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
         let header = [
             [cam.l, cam.room, cam.a, cam.beta],
             [cam.fade, cam.bend, cam.rate, cam.force],
             [cam.soft, cam.start, cam.scale, 0.0],
             [size[0] as f32, size[1] as f32, 0.0, 0.0],
         ];
-        Slice {
-            camera: cam,
-            size,
-            texels: header.into_iter().chain(coefficients).collect(),
-        }
+        Slice { camera: cam, size, texels: header.into_iter().chain(coefficients).collect() }
     }
 }

@@ -20,9 +20,7 @@ pub fn coefficients(n: usize) -> Vec<f64> {
         rows[m - 1][m - 5 + j] = fourth_difference;
     }
     for column in 0..m {
-        let pivot = (column..m)
-            .max_by(|&x, &y| rows[x][column].abs().total_cmp(&rows[y][column].abs()))
-            .unwrap_or(column);
+        let pivot = (column..m).max_by(|&x, &y| rows[x][column].abs().total_cmp(&rows[y][column].abs())).unwrap_or(column);
         rows.swap(column, pivot);
         let scale = 1.0 / rows[column][column];
         rows[column].iter_mut().for_each(|v| *v *= scale);
@@ -30,26 +28,17 @@ pub fn coefficients(n: usize) -> Vec<f64> {
         for (i, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
             if i != column && factor != 0.0 {
-                row.iter_mut()
-                    .zip(&lead)
-                    .for_each(|(v, l)| *v -= factor * l);
+                row.iter_mut().zip(&lead).for_each(|(v, l)| *v -= factor * l);
             }
         }
     }
-    rows.iter()
-        .flat_map(|row| row[m..].iter().copied())
-        .collect()
+    rows.iter().flat_map(|row| row[m..].iter().copied()).collect()
 }
 
 /// The weights of the four coefficients that reach the place `t` in 0..=1 between two nodes.
 pub fn weights(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
-    [
-        s * s * s / 6.0,
-        (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0,
-        (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0,
-        t * t * t / 6.0,
-    ]
+    [s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0]
 }
 
 /// The cell that holds the place `x` in 0..=1 among `n` nodes, and the place within it; clamped at the ends.

@@ -63,14 +63,7 @@ impl Scheme {
             Scheme::Residual => {
                 let [far, near] = super::double::POINT_RANGE;
                 let [low, high] = super::grid::CAMERA_RANGE;
-                [
-                    low,
-                    high,
-                    1.0 / near,
-                    1.0 / far,
-                    0.0,
-                    super::double::LARGEST_SWEEP,
-                ]
+                [low, high, 1.0 / near, 1.0 / far, 0.0, super::double::LARGEST_SWEEP]
             }
             _ => super::paper::RANGES,
         }
@@ -117,18 +110,11 @@ impl Table {
         bytes.extend_from_slice(MAGIC);
         bytes.extend_from_slice(&VERSION.to_le_bytes());
         bytes.extend_from_slice(&padded::<16>(self.scheme.name()));
-        self.size
-            .iter()
-            .for_each(|n| bytes.extend_from_slice(&n.to_le_bytes()));
-        self.scheme
-            .ranges()
-            .iter()
-            .for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
+        self.size.iter().for_each(|n| bytes.extend_from_slice(&n.to_le_bytes()));
+        self.scheme.ranges().iter().for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
         bytes.extend_from_slice(&padded::<32>(UNITS));
         bytes.extend_from_slice(&(self.values.len() as u64).to_le_bytes());
-        self.values
-            .iter()
-            .for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
+        self.values.iter().for_each(|v| bytes.extend_from_slice(&v.to_le_bytes()));
         bytes.extend_from_slice(&crc32fast::hash(&bytes).to_le_bytes());
         bytes
     }
@@ -150,10 +136,7 @@ impl Table {
             return Err(TableError::Short(path(), bytes.len(), HEADER + 4));
         }
         let count = u64::from_le_bytes(array(bytes, HEADER - 8));
-        let whole = usize::try_from(count)
-            .ok()
-            .and_then(|n| n.checked_mul(4))
-            .and_then(|n| n.checked_add(HEADER + 4));
+        let whole = usize::try_from(count).ok().and_then(|n| n.checked_mul(4)).and_then(|n| n.checked_add(HEADER + 4));
         let whole = whole.ok_or_else(|| TableError::Layout(path()))?;
         if bytes.len() < whole {
             return Err(TableError::Short(path(), bytes.len(), whole));
@@ -164,31 +147,18 @@ impl Table {
         if crc32fast::hash(&bytes[..whole - 4]) != u32::from_le_bytes(array(bytes, whole - 4)) {
             return Err(TableError::Checksum(path()));
         }
-        let name = String::from_utf8_lossy(&bytes[12..28])
-            .trim_end_matches('\0')
-            .to_string();
+        let name = String::from_utf8_lossy(&bytes[12..28]).trim_end_matches('\0').to_string();
         if name != wanted.name() {
             return Err(TableError::Scheme(path(), name, wanted.name()));
         }
         let size = [0, 1, 2].map(|i| u32::from_le_bytes(array(bytes, 28 + 4 * i)));
         let ranges = [0, 1, 2, 3, 4, 5].map(|i| f64::from_le_bytes(array(bytes, 40 + 8 * i)));
-        let fits = wanted.count(size) == Some(count as usize)
-            && ranges == wanted.ranges()
-            && bytes[88..120] == padded::<32>(UNITS);
+        let fits = wanted.count(size) == Some(count as usize) && ranges == wanted.ranges() && bytes[88..120] == padded::<32>(UNITS);
         if !fits {
             return Err(TableError::Layout(path()));
         }
-        let values = bytes[HEADER..whole - 4]
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .map(|b| f32::from_le_bytes(*b))
-            .collect();
-        Ok(Table {
-            scheme: wanted,
-            size,
-            values,
-        })
+        let values = bytes[HEADER..whole - 4].as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
+        Ok(Table { scheme: wanted, size, values })
     }
 
     /// Writes the file `path`.
@@ -211,13 +181,7 @@ impl Table {
 
 /// The table of `path`; where that cannot be used, `complain` is told why, the table is baked with `nodes` and written there
 /// (`complain` is told if that fails), and never anything drawn from the file.
-pub fn load_or_bake(
-    path: &Path,
-    scheme: Scheme,
-    nodes: usize,
-    complain: impl Fn(&TableError),
-    done: impl Fn(f64) + Sync,
-) -> Table {
+pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
     let wrong = match Table::load(path, scheme) {
         Ok(table) => return table,
         Err(wrong) => wrong,

@@ -225,7 +225,9 @@ impl Writer {
 
     fn finish(self) -> Result<(), FlightError> {
         drop(self.queue);
-        self.thread.join().unwrap_or_else(|_| Err(FlightError::Write { path: PathBuf::new(), reason: "the writing thread ended early".into() }))
+        self.thread
+            .join()
+            .unwrap_or_else(|_| Err(FlightError::Write { path: PathBuf::new(), reason: "the writing thread ended early".into() }))
     }
 }
 

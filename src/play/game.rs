@@ -171,7 +171,13 @@ fn goes_on(chase: Option<Res<Chase>>, screen: Res<State<Screen>>) -> bool {
 }
 
 /// Game time: its pace, its step, and whether it passes.
-fn run_time(screen: Res<State<Screen>>, next: Res<NextState<Screen>>, session: Res<Session>, mut time: ResMut<Time<Virtual>>, mut fixed: ResMut<Time<Fixed>>) {
+fn run_time(
+    screen: Res<State<Screen>>,
+    next: Res<NextState<Screen>>,
+    session: Res<Session>,
+    mut time: ResMut<Time<Virtual>>,
+    mut fixed: ResMut<Time<Fixed>>,
+) {
     let clock = &session.config.clock;
     let step = clock.step / clock.pace;
     fixed.set_timestep_seconds(step);

@@ -9,11 +9,11 @@ use crate::render::frame::Camera;
 use crate::sim::{Chase, ChaseRules};
 
 use super::camera::View;
+use super::game::Seat;
 use super::instruments::Scale;
 use super::live::Notice;
 use super::screens::Screen;
 use super::session::Session;
-use super::game::Seat;
 use super::window::Panel;
 
 /// What is read.
@@ -96,41 +96,62 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel:
     let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
 
     let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
-    plate(painter, pos2(left, top), Align2::LEFT_TOP, &[
-        ("OWN CLOCK", 11.0, FAINT),
-        (&scale.clock(read.own_time), 19.0, TEXT),
-        ("FAR CLOCK", 11.0, FAINT),
-        (&scale.clock(read.far_time), 19.0, TEXT),
-        (&rate, 12.0, FAINT),
-    ]);
+    plate(
+        painter,
+        pos2(left, top),
+        Align2::LEFT_TOP,
+        &[
+            ("OWN CLOCK", 11.0, FAINT),
+            (&scale.clock(read.own_time), 19.0, TEXT),
+            ("FAR CLOCK", 11.0, FAINT),
+            (&scale.clock(read.far_time), 19.0, TEXT),
+            (&rate, 12.0, FAINT),
+        ],
+    );
 
-    let near = if read.radius < 1.0 { ALARM } else if read.radius < 3.0 { TRUE } else { TEXT };
-    plate(painter, pos2(right, top), Align2::RIGHT_TOP, &[
-        ("FROM THE HOLE  r", 11.0, FAINT),
-        (&format!("{:.2} r_s", read.radius), 19.0, near),
-        (&scale.kilometres(read.radius), 13.0, TEXT),
-        (&format!("camera L  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
-    ]);
+    let near = if read.radius < 1.0 {
+        ALARM
+    } else if read.radius < 3.0 {
+        TRUE
+    } else {
+        TEXT
+    };
+    plate(
+        painter,
+        pos2(right, top),
+        Align2::RIGHT_TOP,
+        &[
+            ("FROM THE HOLE  r", 11.0, FAINT),
+            (&format!("{:.2} r_s", read.radius), 19.0, near),
+            (&scale.kilometres(read.radius), 13.0, TEXT),
+            (&format!("camera L  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
+        ],
+    );
 
     let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
     let gees = scale.gees(read.acceleration);
     let load = format!("{gees:.1} g");
-    plate(painter, pos2(left, bottom), Align2::LEFT_BOTTOM, &[
-        ("SPEED", 11.0, FAINT),
-        (&speed, 30.0, TEXT),
-        ("LOAD", 11.0, FAINT),
-        (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),
-    ]);
+    plate(
+        painter,
+        pos2(left, bottom),
+        Align2::LEFT_BOTTOM,
+        &[("SPEED", 11.0, FAINT), (&speed, 30.0, TEXT), ("LOAD", 11.0, FAINT), (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT })],
+    );
 
     if let Some(target) = read.target {
         let closing = format!("{:+.3} c", target.closing);
-        plate(painter, pos2(right, bottom), Align2::RIGHT_BOTTOM, &[
-            ("RANGE", 11.0, FAINT),
-            (&format!("{:.2} r_s", target.range), 30.0, TEXT),
-            (&scale.kilometres(target.range), 12.0, FAINT),
-            ("CLOSING", 11.0, FAINT),
-            (&closing, 19.0, if target.closing > 0.0 { OWN } else { TRUE }),
-        ]);
+        plate(
+            painter,
+            pos2(right, bottom),
+            Align2::RIGHT_BOTTOM,
+            &[
+                ("RANGE", 11.0, FAINT),
+                (&format!("{:.2} r_s", target.range), 30.0, TEXT),
+                (&scale.kilometres(target.range), 12.0, FAINT),
+                ("CLOSING", 11.0, FAINT),
+                (&closing, 19.0, if target.closing > 0.0 { OWN } else { TRUE }),
+            ],
+        );
     }
 
     fuel(painter, pos2(rect.center().x, bottom), read.fuel);

@@ -93,7 +93,14 @@ pub struct Instruments {
 
 impl Instruments {
     /// Reads them for a ship in `state` at T = `time` that accelerates by `thrust` (c²/r_s) with `fuel` of `capacity` (c).
-    pub fn read(state: &ShipState, time: f64, camera_radius: f64, thrust: f64, fuel: (f64, f64), target: Option<&ShipState>) -> Instruments {
+    pub fn read(
+        state: &ShipState,
+        time: f64,
+        camera_radius: f64,
+        thrust: f64,
+        fuel: (f64, f64),
+        target: Option<&ShipState>,
+    ) -> Instruments {
         let (left, capacity) = fuel;
         Instruments {
             speed: static_speed(state),

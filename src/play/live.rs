@@ -13,9 +13,9 @@ use crate::scene::ship::Ai;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
+use super::game::GameSet;
 use super::input::Bindings;
 use super::session::Session;
-use super::game::GameSet;
 use super::window::Staged;
 
 /// Time between two looks at the file.
@@ -39,7 +39,12 @@ impl Plugin for LivePlugin {
     }
 }
 
-fn reload(mut session: ResMut<Session>, real: Res<Time<Real>>, mut notice: ResMut<Notice>, mut look: Local<(Duration, Option<SystemTime>)>) {
+fn reload(
+    mut session: ResMut<Session>,
+    real: Res<Time<Real>>,
+    mut notice: ResMut<Notice>,
+    mut look: Local<(Duration, Option<SystemTime>)>,
+) {
     let (next, seen) = &mut *look;
     let Some(file) = session.config_file.clone() else { return };
     if real.elapsed() < *next {

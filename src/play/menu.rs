@@ -47,14 +47,12 @@ pub fn draw(
 /// A dark card on the screen.
 fn card(context: &egui::Context, name: &'static str, place: Align2, content: impl FnOnce(&mut Ui)) {
     egui::Area::new(egui::Id::new(name)).anchor(place, [if place == Align2::LEFT_CENTER { 48.0 } else { 0.0 }, 0.0]).show(context, |ui| {
-        egui::Frame::new()
-            .fill(Color32::from_rgba_premultiplied(5, 9, 16, 225))
-            .corner_radius(12.0)
-            .inner_margin(26.0)
-            .show(ui, |ui| ui.vertical_centered(|ui| {
+        egui::Frame::new().fill(Color32::from_rgba_premultiplied(5, 9, 16, 225)).corner_radius(12.0).inner_margin(26.0).show(ui, |ui| {
+            ui.vertical_centered(|ui| {
                 ui.set_width(470.0);
                 content(ui);
-            }));
+            })
+        });
     });
 }
 
@@ -94,11 +92,17 @@ fn title(ui: &mut Ui, session: &Session, ask: &mut impl FnMut(Wish)) {
 fn controls(ui: &mut Ui, session: &Session) {
     let keys = &session.config.controls;
     let rows = [
-        ("Thrust", format!("{} {} {} {}", key(&keys.thrust_forward), key(&keys.thrust_left), key(&keys.thrust_back), key(&keys.thrust_right))),
+        (
+            "Thrust",
+            format!("{} {} {} {}", key(&keys.thrust_forward), key(&keys.thrust_left), key(&keys.thrust_back), key(&keys.thrust_right)),
+        ),
         ("Up, down, full thrust", format!("{}  {}  {}", key(&keys.thrust_up), key(&keys.thrust_down), key(&keys.boost))),
         ("Turn", "mouse or arrow keys".to_owned()),
         ("Roll", format!("{}  {}", key(&keys.roll_left), key(&keys.roll_right))),
-        ("Assist, autopilot, camera", format!("{}  {}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot), key(&keys.toggle_camera))),
+        (
+            "Assist, autopilot, camera",
+            format!("{}  {}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot), key(&keys.toggle_camera)),
+        ),
         ("Slower, faster", format!("{}  {}", key(&keys.slower), key(&keys.faster))),
         ("Pause, start again", format!("{}  {}", key(&keys.pause), key(&keys.restart))),
         ("HUD, dev overlay, picture", format!("{}  {}  {}", key(&keys.toggle_hud), key(&keys.toggle_overlay), key(&keys.screenshot))),

@@ -11,8 +11,8 @@ use crate::render::types::Counters;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
-use super::session::Session;
 use super::game::Seat;
+use super::session::Session;
 
 /// Frames over which mean and worst are taken.
 const WINDOW: usize = 240;
@@ -65,17 +65,20 @@ pub fn draw(
     }
     let counters = counted.1;
     let mut config = session.config.clone();
-    egui::Window::new("Lensrunner").default_pos([16.0, 180.0]).default_width(430.0).default_height(480.0).vscroll(true).show(context, |ui| {
-        costs(ui, &times, &passes, counters.as_ref());
-        ui.separator();
-        for section in config::section_names() {
-            egui::CollapsingHeader::new(section).default_open(section == "render").show(ui, |ui| {
-                for setting in config::settings().iter().filter(|setting| setting.section == section) {
-                    row(ui, setting, &mut config);
-                }
-            });
-        }
-    });
+    egui::Window::new("Lensrunner").default_pos([16.0, 180.0]).default_width(430.0).default_height(480.0).vscroll(true).show(
+        context,
+        |ui| {
+            costs(ui, &times, &passes, counters.as_ref());
+            ui.separator();
+            for section in config::section_names() {
+                egui::CollapsingHeader::new(section).default_open(section == "render").show(ui, |ui| {
+                    for setting in config::settings().iter().filter(|setting| setting.section == section) {
+                        row(ui, setting, &mut config);
+                    }
+                });
+            }
+        },
+    );
     if config != session.config {
         session.config = config;
     }

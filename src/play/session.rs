@@ -64,8 +64,6 @@ impl Session {
         let player = self.player();
         let named = self.scene.ships[player].target.as_ref();
         let ships = &self.scene.ships;
-        named
-            .and_then(|name| ships.iter().position(|ship| &ship.name == name))
-            .or_else(|| (0..ships.len()).find(|&other| other != player))
+        named.and_then(|name| ships.iter().position(|ship| &ship.name == name)).or_else(|| (0..ships.len()).find(|&other| other != player))
     }
 }

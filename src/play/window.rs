@@ -70,14 +70,19 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         ..default()
     };
     let mut app = App::new();
-    app.add_plugins(
-        DefaultPlugins
-            .set(WindowPlugin { primary_window: Some(window), ..default() })
-            .set(bevy::log::LogPlugin { filter: "warn,wgpu_hal=error,bevy_egui=error".into(), level: bevy::log::Level::WARN, ..default() }),
-    )
+    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
+        filter: "warn,wgpu_hal=error,bevy_egui=error".into(),
+        level: bevy::log::Level::WARN,
+        ..default()
+    }))
     .add_plugins(EguiPlugin::default())
     .add_plugins(RelativisticRenderPlugin { surroundings: surroundings() })
-    .add_plugins((SimulationPlugins, GamePlugin, LivePlugin, record::RecordPlugin { folder: options.record.clone(), frames: options.frames }))
+    .add_plugins((
+        SimulationPlugins,
+        GamePlugin,
+        LivePlugin,
+        record::RecordPlugin { folder: options.record.clone(), frames: options.frames },
+    ))
     .insert_resource(ClearColor(Color::BLACK))
     .insert_resource(Seat { always_autopilot: options.autopilot, ..default() })
     .insert_resource(session)

@@ -72,13 +72,7 @@ impl Segment {
                 length = length.min((tolerance / size).powf(1.0 / n as f64));
             }
         }
-        Segment {
-            start,
-            length,
-            order,
-            x,
-            p,
-        }
+        Segment { start, length, order, x, p }
     }
 
     /// The delay at the end of the segment.
@@ -88,10 +82,7 @@ impl Segment {
 
     /// The state `elapsed` (0 to `length`) after the start of the segment.
     pub fn at(&self, elapsed: f64) -> State {
-        State {
-            position: self.position(elapsed),
-            momentum: self.evaluate(&self.p, elapsed),
-        }
+        State { position: self.position(elapsed), momentum: self.evaluate(&self.p, elapsed) }
     }
 
     /// The position `elapsed` after the start of the segment.
@@ -120,16 +111,11 @@ impl Segment {
     /// The elapsed time in [from, to] at which the position crosses the line a·x = c, given that a·x − c has opposite signs at
     /// the two ends (Newton, kept inside the bracket).
     pub fn cross_line(&self, a: DVec2, c: f64, from: f64, to: f64) -> f64 {
-        root(from, to, |s| {
-            (a.dot(self.position(s)) - c, a.dot(self.velocity(s)))
-        })
+        root(from, to, |s| (a.dot(self.position(s)) - c, a.dot(self.velocity(s))))
     }
 
     fn evaluate(&self, series: &Series, elapsed: f64) -> DVec2 {
-        series[..=self.order]
-            .iter()
-            .rev()
-            .fold(DVec2::ZERO, |sum, &c| sum * elapsed + c)
+        series[..=self.order].iter().rev().fold(DVec2::ZERO, |sum, &c| sum * elapsed + c)
     }
 }
 
@@ -154,11 +140,7 @@ pub fn root(mut a: f64, mut b: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
             b = s;
         }
         let newton = s - value / slope;
-        let next = if newton > a.min(b) && newton < a.max(b) {
-            newton
-        } else {
-            0.5 * (a + b)
-        };
+        let next = if newton > a.min(b) && newton < a.max(b) { newton } else { 0.5 * (a + b) };
         if (next - s).abs() <= 2.0 * f64::EPSILON * next.abs() {
             return next;
         }
@@ -204,11 +186,7 @@ fn series(state: State, order: usize) -> (Series, Series) {
             let (mut sum_q, mut sum_g, mut sum_i) = (0.0, 0.0, 0.0);
             let count = n as f64;
             let mut k = 0.0;
-            for ((sa, wa), ((qb, gb), ib)) in s[1..=n]
-                .iter()
-                .zip(&w[1..=n])
-                .zip(q[..n].iter().zip(&g[..n]).zip(&i[..n]).rev())
-            {
+            for ((sa, wa), ((qb, gb), ib)) in s[1..=n].iter().zip(&w[1..=n]).zip(q[..n].iter().zip(&g[..n]).zip(&i[..n]).rev()) {
                 k += 1.0;
                 sum_q += (0.25 * k - count) * sa * qb;
                 sum_g += (-0.75 * k - count) * sa * gb;
@@ -218,18 +196,9 @@ fn series(state: State, order: usize) -> (Series, Series) {
             g[n] = sum_g / (count * s[0]);
             i[n] = sum_i / (count * w[0]);
         }
-        f[n] = g[..=n]
-            .iter()
-            .zip(m[..=n].iter().rev())
-            .map(|(a, b)| a * b)
-            .sum();
+        f[n] = g[..=n].iter().zip(m[..=n].iter().rev()).map(|(a, b)| a * b).sum();
         let (mut dx, mut dp) = (DVec2::ZERO, DVec2::ZERO);
-        for (((q, i), f), (x, p)) in q[..=n]
-            .iter()
-            .zip(&i[..=n])
-            .zip(&f[..=n])
-            .zip(pairs(&x, &p, n).rev())
-        {
+        for (((q, i), f), (x, p)) in q[..=n].iter().zip(&i[..=n]).zip(&f[..=n]).zip(pairs(&x, &p, n).rev()) {
             dx += *q * *x - *i * *p;
             dp += 1.5 * f * *x - *q * *p;
         }
@@ -241,10 +210,6 @@ fn series(state: State, order: usize) -> (Series, Series) {
 }
 
 /// Coefficients 0 to n of two series together.
-fn pairs<'a>(
-    x: &'a Series,
-    p: &'a Series,
-    n: usize,
-) -> impl DoubleEndedIterator<Item = (&'a DVec2, &'a DVec2)> + ExactSizeIterator {
+fn pairs<'a>(x: &'a Series, p: &'a Series, n: usize) -> impl DoubleEndedIterator<Item = (&'a DVec2, &'a DVec2)> + ExactSizeIterator {
     x[..=n].iter().zip(&p[..=n])
 }

@@ -20,12 +20,7 @@ pub struct Stop {
 impl Default for Stop {
     /// Follows every ray until it is clear of the hole or within 1e-6 of the horizon.
     fn default() -> Self {
-        Stop {
-            radius: 100.0,
-            swept: f64::INFINITY,
-            delay: f64::INFINITY,
-            horizon_gap: 1e-6,
-        }
+        Stop { radius: 100.0, swept: f64::INFINITY, delay: f64::INFINITY, horizon_gap: 1e-6 }
     }
 }
 
@@ -93,33 +88,16 @@ impl Ray {
         let look = look.normalize();
         let across = look - outward * look.dot(outward);
         let sine = across.length();
-        let sideways = if sine > 0.0 {
-            across / sine
-        } else {
-            outward.any_orthonormal_vector()
-        };
-        let mut ray = Ray::trace_in_plane(
-            position.length(),
-            DVec2::new(look.dot(outward), sine),
-            tolerance,
-            stop,
-        );
+        let sideways = if sine > 0.0 { across / sine } else { outward.any_orthonormal_vector() };
+        let mut ray = Ray::trace_in_plane(position.length(), DVec2::new(look.dot(outward), sine), tolerance, stop);
         ray.axes = [outward, sideways];
         ray
     }
 
     /// The same in the plane of the orbit: the camera at (`radius`, 0), `look` in the rain frame with look.y ≥ 0.
     pub fn trace_in_plane(radius: f64, look: DVec2, tolerance: f64, stop: &Stop) -> Ray {
-        let mut state = State {
-            position: DVec2::new(radius, 0.0),
-            momentum: -look,
-        };
-        let mut ray = Ray {
-            axes: [DVec3::X, DVec3::Y],
-            segments: Vec::with_capacity(32),
-            swept: vec![0.0],
-            end: End::Steps,
-        };
+        let mut state = State { position: DVec2::new(radius, 0.0), momentum: -look };
+        let mut ray = Ray { axes: [DVec3::X, DVec3::Y], segments: Vec::with_capacity(32), swept: vec![0.0], end: End::Steps };
         let doomed = state.energy() <= 0.0;
         let (mut delay, mut swept) = (0.0, 0.0);
         for _ in 0..MAX_STEPS {
@@ -155,10 +133,7 @@ impl Ray {
         if !(0.0..=self.last_delay()).contains(&delay) {
             return None;
         }
-        let i = self
-            .segments
-            .partition_point(|s| s.start <= delay)
-            .saturating_sub(1);
+        let i = self.segments.partition_point(|s| s.start <= delay).saturating_sub(1);
         Some(self.sample(i, delay - self.segments[i].start))
     }
 
@@ -221,21 +196,9 @@ fn is_escaping(r: f64, outwards: bool) -> bool {
 /// Where the light seen in direction `look` (rain frame) by a camera at `position` came from. The verdict is exact: a ray is
 /// followed until the sign of d²r forbids a return, never judged by a distance or a number of steps.
 pub fn fate(position: DVec3, look: DVec3, tolerance: f64) -> Fate {
-    let ray = Ray::trace(
-        position,
-        look,
-        tolerance,
-        &Stop {
-            radius: sky_radius(position.length()),
-            horizon_gap: 0.5,
-            ..Stop::default()
-        },
-    );
+    let ray = Ray::trace(position, look, tolerance, &Stop { radius: sky_radius(position.length()), horizon_gap: 0.5, ..Stop::default() });
     match ray.sky_swept() {
-        Some(swept) => Fate::Escaped {
-            direction: ray.embed(DVec2::from_angle(swept)),
-            swept,
-        },
+        Some(swept) => Fate::Escaped { direction: ray.embed(DVec2::from_angle(swept)), swept },
         None => Fate::Captured,
     }
 }
@@ -250,27 +213,13 @@ pub(super) fn sky_radius(camera: f64) -> f64 {
 /// b = L/E, by Gauss and Legendre in eight points. Where b/r ≤ 1/4 the nearest singularity lies 7 half-lengths from the middle, so the
 /// error is below 14^-16.
 fn swept_beyond(state: &State) -> f64 {
-    const NODES: [f64; 4] = [
-        0.183_434_642_495_649_8,
-        0.525_532_409_916_329,
-        0.796_666_477_413_626_7,
-        0.960_289_856_497_536_3,
-    ];
-    const WEIGHTS: [f64; 4] = [
-        0.362_683_783_378_362,
-        0.313_706_645_877_887_3,
-        0.222_381_034_453_374_48,
-        0.101_228_536_290_376_26,
-    ];
+    const NODES: [f64; 4] = [0.183_434_642_495_649_8, 0.525_532_409_916_329, 0.796_666_477_413_626_7, 0.960_289_856_497_536_3];
+    const WEIGHTS: [f64; 4] = [0.362_683_783_378_362, 0.313_706_645_877_887_3, 0.222_381_034_453_374_48, 0.101_228_536_290_376_26];
     let b = (state.angular_momentum() / state.energy()).abs();
     let u = 1.0 / state.position.length();
     let rate = |v: f64| b / (1.0 - b * b * v * v * (1.0 - v)).sqrt();
     let half = 0.5 * u;
-    NODES
-        .iter()
-        .zip(WEIGHTS)
-        .map(|(&x, w)| w * half * (rate(half * (1.0 + x)) + rate(half * (1.0 - x))))
-        .sum()
+    NODES.iter().zip(WEIGHTS).map(|(&x, w)| w * half * (rate(half * (1.0 + x)) + rate(half * (1.0 - x)))).sum()
 }
 
 /// The angle `raw` (from atan2) with whole turns added so that it follows `previous`; a step turns by less than half a turn.

@@ -45,18 +45,8 @@ enum Shot {
 /// How a camera at `camera` (r_s, > 0) sees the point at radius `r` (r_s), which lies `phi` (0 to π) around the hole, in the image
 /// of `order` (1: Φ = φ, 2: 2π − φ, 3: 2π + φ, and so on). `tolerance` is the local error of the integration; 1e-17 lets rounding
 /// rule. None where no such light exists: a point at or below the horizon seen from outside, or one below it too far around.
-pub fn shoot(
-    r: f64,
-    phi: f64,
-    camera: f64,
-    order: u32,
-    branch: Branch,
-    tolerance: f64,
-) -> Option<Sighting> {
-    if camera >= 1.0 && (r <= 1.0 || branch == Branch::Minus)
-        || branch == Branch::Minus && r >= 1.0
-        || camera < 1.0 && r <= camera
-    {
+pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, branch: Branch, tolerance: f64) -> Option<Sighting> {
+    if camera >= 1.0 && (r <= 1.0 || branch == Branch::Minus) || branch == Branch::Minus && r >= 1.0 || camera < 1.0 && r <= camera {
         return None;
     }
     let swept = swept_angle(order, phi);
@@ -64,12 +54,7 @@ pub fn shoot(
         return radial(r, camera, branch, tolerance);
     }
     // Only a ray that has come close to the horizon below half the target's height is given up: nearer ones lead the search.
-    let stop = Stop {
-        radius: 2.0 * r.max(1.0),
-        swept,
-        delay: f64::INFINITY,
-        horizon_gap: (0.5 * (r - 1.0).abs()).max(1e-12),
-    };
+    let stop = Stop { radius: 2.0 * r.max(1.0), swept, delay: f64::INFINITY, horizon_gap: (0.5 * (r - 1.0).abs()).max(1e-12) };
     search(camera, branch, |cotangent| {
         let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.end {
@@ -105,11 +90,7 @@ pub fn shoot_sky(phi: f64, camera: f64, order: u32, tolerance: f64) -> Option<Si
     if swept == 0.0 {
         return Some(seen(f64::NEG_INFINITY));
     }
-    let stop = Stop {
-        radius: sky_radius(camera),
-        horizon_gap: 0.5,
-        ..Stop::default()
-    };
+    let stop = Stop { radius: sky_radius(camera), horizon_gap: 0.5, ..Stop::default() };
     search(camera, Branch::Plus, |cotangent| {
         let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.sky_swept() {
@@ -122,66 +103,36 @@ pub fn shoot_sky(phi: f64, camera: f64, order: u32, tolerance: f64) -> Option<Si
 /// Φ of an image: φ, 2π − φ, 2π + φ, 4π − φ, …
 pub fn swept_angle(order: u32, phi: f64) -> f64 {
     let turns = std::f64::consts::TAU * f64::from(order / 2);
-    if order % 2 == 1 {
-        turns + phi
-    } else {
-        turns - phi
-    }
+    if order % 2 == 1 { turns + phi } else { turns - phi }
 }
 
 /// The look direction with −cot ψ = `cotangent`, in the plane of the orbit. Both components keep all their digits, also where ψ is
 /// within 1e-9 of its ends; in flat space 1/r at a fixed Φ is linear in it.
 fn look(cotangent: f64) -> DVec2 {
     let sine = 1.0 / 1.0f64.hypot(cotangent);
-    if cotangent.is_infinite() {
-        DVec2::new(-cotangent.signum(), 0.0)
-    } else {
-        DVec2::new(-cotangent * sine, sine)
-    }
+    if cotangent.is_infinite() { DVec2::new(-cotangent.signum(), 0.0) } else { DVec2::new(-cotangent * sine, sine) }
 }
 
 fn sighting(cotangent: f64, camera: f64, delay: f64, emission: DVec2) -> Sighting {
     let look = look(cotangent);
-    Sighting {
-        psi_rain: look.y.atan2(look.x),
-        delay,
-        energy: 1.0 + look.x / camera.sqrt(),
-        angular_momentum: camera * look.y,
-        emission,
-    }
+    Sighting { psi_rain: look.y.atan2(look.x), delay, energy: 1.0 + look.x / camera.sqrt(), angular_momentum: camera * look.y, emission }
 }
 
 /// The light between two points on one radius.
 fn radial(r: f64, camera: f64, branch: Branch, tolerance: f64) -> Option<Sighting> {
     let inwards = r < camera || branch == Branch::Minus;
-    let cotangent = if inwards {
-        f64::INFINITY
-    } else {
-        f64::NEG_INFINITY
-    };
+    let cotangent = if inwards { f64::INFINITY } else { f64::NEG_INFINITY };
     if r == camera {
         return None;
     }
-    let stop = Stop {
-        radius: r,
-        horizon_gap: 0.5 * (r - 1.0).abs(),
-        ..Stop::default()
-    };
+    let stop = Stop { radius: r, horizon_gap: 0.5 * (r - 1.0).abs(), ..Stop::default() };
     let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
     for segment in &ray.segments {
-        let (from, to) = (
-            segment.position(0.0).x - r,
-            segment.position(segment.length).x - r,
-        );
+        let (from, to) = (segment.position(0.0).x - r, segment.position(segment.length).x - r);
         if from * to <= 0.0 {
             let elapsed = segment.cross_line(DVec2::X, r, 0.0, segment.length);
             let momentum = segment.at(elapsed).momentum;
-            return Some(sighting(
-                cotangent,
-                camera,
-                segment.start + elapsed,
-                momentum,
-            ));
+            return Some(sighting(cotangent, camera, segment.start + elapsed, momentum));
         }
     }
     None
@@ -192,11 +143,7 @@ fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Si
     // e^-50: closer to the radial direction than any point whose φ is not zero to rounding.
     const END: f64 = 50.0;
     // E = 0 where cos ψ = −√L: the sign of E changes there.
-    let turn = if camera < 1.0 {
-        (camera / (1.0 - camera)).sqrt().asinh()
-    } else {
-        END
-    };
+    let turn = if camera < 1.0 { (camera / (1.0 - camera)).sqrt().asinh() } else { END };
     // `high` is the end at which r is large.
     let (mut high, mut low) = match branch {
         Branch::Plus => (-END, turn),
@@ -228,9 +175,7 @@ fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Si
                 if mismatch == 0.0 {
                     break;
                 }
-                secant = last.map(|(c, m)| {
-                    (cotangent - mismatch * (cotangent - c) / (mismatch - m)).asinh()
-                });
+                secant = last.map(|(c, m)| (cotangent - mismatch * (cotangent - c) / (mismatch - m)).asinh());
                 last = Some((cotangent, mismatch));
                 mismatch > 0.0
             }
@@ -241,8 +186,7 @@ fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Si
             low = x;
         }
         // Brent's rule: a secant must halve the step before the last one.
-        let useful =
-            |s: &f64| *s > high.min(low) && *s < high.max(low) && (s - x).abs() < 0.5 * step_before;
+        let useful = |s: &f64| *s > high.min(low) && *s < high.max(low) && (s - x).abs() < 0.5 * step_before;
         let next = secant.filter(useful).unwrap_or(0.5 * (high + low));
         (step_before, step) = (step, (next - x).abs());
         let ulp = f64::EPSILON * x.abs().max(1.0);

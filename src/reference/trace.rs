@@ -83,20 +83,8 @@ pub enum Seen {
 
 /// Follows the light seen from `position` in direction `look` (rain frame) back to the first thing it meets.
 pub fn trace(meshes: &[Mesh], position: DVec3, look: DVec3, tolerance: f64) -> Seen {
-    let radius = meshes
-        .iter()
-        .flat_map(|m| &m.vertices)
-        .map(|v| v.length())
-        .fold(sky_radius(position.length()), f64::max);
-    let ray = Ray::trace(
-        position,
-        look,
-        tolerance,
-        &Stop {
-            radius,
-            ..Stop::default()
-        },
-    );
+    let radius = meshes.iter().flat_map(|m| &m.vertices).map(|v| v.length()).fold(sky_radius(position.length()), f64::max);
+    let ray = Ray::trace(position, look, tolerance, &Stop { radius, ..Stop::default() });
     if let Some(hit) = first_hit(meshes, &ray) {
         return Seen::Hit(hit);
     }
@@ -122,22 +110,8 @@ pub fn first_hit(meshes: &[Mesh], ray: &Ray) -> Option<Hit> {
             let until = first.map_or(f64::INFINITY, |hit| hit.delay);
             if let Some((sample, barycentrics)) = meet(ray, corners, until) {
                 let order = (sample.swept / std::f64::consts::PI) as u32 + 1;
-                let super::ray::RaySample {
-                    position,
-                    momentum,
-                    swept,
-                    delay,
-                } = sample;
-                first = Some(Hit {
-                    object,
-                    triangle,
-                    barycentrics,
-                    order,
-                    swept,
-                    delay,
-                    position,
-                    momentum,
-                });
+                let super::ray::RaySample { position, momentum, swept, delay } = sample;
+                first = Some(Hit { object, triangle, barycentrics, order, swept, delay, position, momentum });
             }
         }
     }
@@ -152,16 +126,8 @@ fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(super::ray::RaySa
     let c = normal.dot(corners[0]);
     let centre = (corners[0] + corners[1] + corners[2]) / 3.0;
     let centre_in_plane = DVec2::new(centre.dot(ray.axes[0]), centre.dot(ray.axes[1]));
-    let size = corners
-        .iter()
-        .map(|v| v.distance(centre))
-        .fold(0.0, f64::max);
-    for (i, segment) in ray
-        .segments
-        .iter()
-        .enumerate()
-        .take_while(|(_, s)| s.start < until)
-    {
+    let size = corners.iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
+    for (i, segment) in ray.segments.iter().enumerate().take_while(|(_, s)| s.start < until) {
         if segment.position(0.0).distance(centre_in_plane) > size + segment.reach() {
             continue;
         }
@@ -196,16 +162,11 @@ fn crossings(segment: &Segment, a: DVec2, c: f64) -> [Option<f64>; 2] {
         return [None; 2];
     }
     let step = 1e-3 * end;
-    let middle = root(0.0, end, |s| {
-        (rate(s), (rate(s + step) - rate(s - step)) / (2.0 * step))
-    });
+    let middle = root(0.0, end, |s| (rate(s), (rate(s + step) - rate(s - step)) / (2.0 * step)));
     if h0 * height(middle) > 0.0 {
         return [None; 2];
     }
-    [
-        Some(segment.cross_line(a, c, 0.0, middle)),
-        Some(segment.cross_line(a, c, middle, end)),
-    ]
+    [Some(segment.cross_line(a, c, 0.0, middle)), Some(segment.cross_line(a, c, middle, end))]
 }
 
 /// The weights of the corners at a point of the triangle's plane, or None outside.

@@ -170,7 +170,13 @@ pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// A render pipeline of triangles without vertex buffers.
-pub fn raster(device: &wgpu::Device, label: &str, module: &wgpu::ShaderModule, raster: Raster, layouts: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::RenderPipeline {
+pub fn raster(
+    device: &wgpu::Device,
+    label: &str,
+    module: &wgpu::ShaderModule,
+    raster: Raster,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::RenderPipeline {
     let layout = pipeline_layout(device, label, layouts);
     let targets: Vec<Option<wgpu::ColorTargetState>> = raster
         .targets

@@ -53,7 +53,7 @@ impl Prepared {
             let bits = |v: [f32; 3]| v.map(|x| (x + 0.0).to_bits());
             (vertex.position.map(Total), bits(vertex.normal), vertex.uv.map(f32::to_bits), material)
         };
-        corners.sort_by(|a, b| key(a).cmp(&key(b)));
+        corners.sort_by_key(key);
         let place: HashMap<(u32, u32), u32> = corners.iter().enumerate().map(|(i, &corner)| (corner, i as u32)).collect();
         let vertices = corners
             .iter()
@@ -79,7 +79,8 @@ impl Prepared {
                     edges.len() as u32 - 1
                 })
             };
-            triangles.push(ModelTriangle { vertices: [v[0], v[1], v[2], 0], edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0] });
+            triangles
+                .push(ModelTriangle { vertices: [v[0], v[1], v[2], 0], edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0] });
         }
         Prepared { vertices, edges, triangles }
     }
@@ -221,4 +222,3 @@ impl Models {
         Some(layer)
     }
 }
-

@@ -129,7 +129,8 @@ impl View<'_> {
         let half = if reach < r { (reach / r).asin() } else { return std::f64::consts::PI };
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
-            let ray = lens_lookup_at(self.slice, (r * cosine - l) as f32, (r * sine) as f32, (r * cosine) as f32, u32::from(order.number()));
+            let ray =
+                lens_lookup_at(self.slice, (r * cosine - l) as f32, (r * sine) as f32, (r * cosine) as f32, u32::from(order.number()));
             (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay))
         };
         let (centre, path) = seen(r, phi);
@@ -236,7 +237,11 @@ pub fn emission_time(camera: &Camera, time: f64, history: &History, order: Order
                 if low.is_finite() { 0.5 * (low + high) } else { t - (time - t).max(1.0) }
             }
             Some((missing, slope)) => {
-                if missing > 0.0 { high = high.min(t) } else { low = low.max(t) }
+                if missing > 0.0 {
+                    high = high.min(t)
+                } else {
+                    low = low.max(t)
+                }
                 // 1e-12 of the delay: f64 has no more.
                 if missing.abs() <= 1e-12 * (1.0 + (time - t).abs()) {
                     return Some(t);

@@ -10,10 +10,10 @@ use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, Ren
 use bevy::render::view::ViewTarget;
 use bevy::render::{Extract, ExtractSchedule, RenderApp};
 
+use super::Gpu;
 use super::device::missing_limits;
 use super::frame::FrameInput;
 use super::renderer::{Renderer, Surroundings};
-use super::Gpu;
 
 /// The renderer, for the main world (models, timings) and the render world (frames) alike.
 #[derive(Resource, Clone, Debug)]

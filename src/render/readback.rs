@@ -53,7 +53,10 @@ pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>,
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     encoder.copy_texture_to_buffer(
         source.as_image_copy(),
-        wgpu::TexelCopyBufferInfo { buffer: &copy, layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None } },
+        wgpu::TexelCopyBufferInfo {
+            buffer: &copy,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+        },
         source.size(),
     );
     gpu.queue.submit([encoder.finish()]);
@@ -68,10 +71,7 @@ fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
         let _ = send.send(result);
     });
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-    receive
-        .recv()
-        .map_err(|error| PictureError::Map(error.to_string()))?
-        .map_err(|error| PictureError::Map(error.to_string()))?;
+    receive.recv().map_err(|error| PictureError::Map(error.to_string()))?.map_err(|error| PictureError::Map(error.to_string()))?;
     let bytes = copy.slice(..).get_mapped_range().to_vec();
     copy.unmap();
     Ok(bytes)
@@ -107,8 +107,10 @@ impl Picture {
 
     fn write_exr(&self, path: &Path) -> exr::error::UnitResult {
         use exr::prelude::*;
-        let channel = |name: &str, data: &[[f32; 4]], k: usize| AnyChannel::new(name, FlatSamples::F32(data.iter().map(|p| p[k]).collect()));
-        let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = ["R", "G", "B"].iter().enumerate().map(|(k, name)| channel(name, &self.linear, k)).collect();
+        let channel =
+            |name: &str, data: &[[f32; 4]], k: usize| AnyChannel::new(name, FlatSamples::F32(data.iter().map(|p| p[k]).collect()));
+        let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+            ["R", "G", "B"].iter().enumerate().map(|(k, name)| channel(name, &self.linear, k)).collect();
         if !self.layers.is_empty() {
             let names = ["object.id", "image.order", "travel.time", "frequency.ratio"];
             channels.extend(names.iter().enumerate().map(|(k, name)| channel(name, &self.layers, k)));

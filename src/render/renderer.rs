@@ -172,7 +172,8 @@ impl Renderer {
         let timing = &mut self.timing;
         let group = &self.frame_group;
         let mut compute = |encoder: &mut wgpu::CommandEncoder, label: &'static str, run: &dyn Fn(&mut wgpu::ComputePass)| {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: timing.compute(label) });
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: timing.compute(label) });
             pass.set_bind_group(0, group, &[]);
             run(&mut pass);
         };
@@ -236,7 +237,9 @@ impl Renderer {
                 let bytes = readback::texture(&self.gpu, texture, 16)?;
                 bytes
                     .chunks_exact(16)
-                    .map(|texel| std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]])))
+                    .map(|texel| {
+                        std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]]))
+                    })
                     .collect()
             }
             _ => Vec::new(),
@@ -279,11 +282,20 @@ fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {
     let load = if fresh { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
-    wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops: wgpu::Operations { load, store: wgpu::StoreOp::Store } }
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+    }
 }
 
 fn depth(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
     // Reversed depth: infinity is 0.
     let load = if fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
-    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }), stencil_ops: None }
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
+        stencil_ops: None,
+    }
 }

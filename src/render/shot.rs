@@ -63,7 +63,11 @@ pub fn surroundings() -> Surroundings {
     if let Some(error) = wrong {
         warn!("{error}; the sky stays dark");
     }
-    Surroundings { table: Arc::new(table), stars: stars.iter().map(star).collect(), milky_way: milky_way.levels.iter().map(panorama_level).collect() }
+    Surroundings {
+        table: Arc::new(table),
+        stars: stars.iter().map(star).collect(),
+        milky_way: milky_way.levels.iter().map(panorama_level).collect(),
+    }
 }
 
 fn star(star: &scene::stars::Star) -> Star {

@@ -12,8 +12,8 @@ use crate::spacetime::matter::{ShipState, gamma, step};
 use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
-use super::frame::{Camera, FrameInput, Settings};
 use super::coarse::coarse;
+use super::frame::{Camera, FrameInput, Settings};
 use super::models::ModelRange;
 use super::placements::{Motion, Object, Surroundings, View, place};
 
@@ -74,7 +74,12 @@ impl Stage {
             Mount::Falling(state) => step_to(state, time),
             Mount::Follow { ship, offset, look, up } => {
                 let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
-                    return Camera { position: DVec3::Z * 20.0, momentum: DVec3::ZERO, attitude: DQuat::IDENTITY, field_of_view: self.field_of_view };
+                    return Camera {
+                        position: DVec3::Z * 20.0,
+                        momentum: DVec3::ZERO,
+                        attitude: DQuat::IDENTITY,
+                        field_of_view: self.field_of_view,
+                    };
                 };
                 let view = frames::look(*look, *up).unwrap_or(DQuat::IDENTITY);
                 return third_person(state, *offset, view, self.field_of_view);
@@ -85,7 +90,15 @@ impl Stage {
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
     /// drawn (the cockpit's own); `width` is that of the picture in pixels.
-    pub fn frame(&self, camera: Camera, width: u32, time: f64, histories: &[&History], hidden: Option<usize>, settings: &Settings) -> FrameInput {
+    pub fn frame(
+        &self,
+        camera: Camera,
+        width: u32,
+        time: f64,
+        histories: &[&History],
+        hidden: Option<usize>,
+        settings: &Settings,
+    ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
         let view = View { camera: &camera, slice: &slice, pixel };

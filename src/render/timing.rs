@@ -32,7 +32,8 @@ impl Timing {
             return Timing { inner: None };
         }
         let size = u64::from(2 * PASSES * 8);
-        let make = |label, usage| gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false });
+        let make =
+            |label, usage| gpu.device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false });
         Timing {
             inner: Some(Inner {
                 queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
@@ -113,7 +114,8 @@ impl Timing {
             inner.waiting = None;
             if ok {
                 let range = inner.mapped.slice(..).get_mapped_range();
-                let ticks: Vec<u64> = range.chunks_exact(8).map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect();
+                let ticks: Vec<u64> =
+                    range.chunks_exact(8).map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect();
                 drop(range);
                 inner.latest = labels
                     .iter()

@@ -55,21 +55,9 @@ impl Scene {
         let mut assembly = Assembly::default();
         let mut files: HashMap<String, usize> = HashMap::new();
         for (index, ship) in self.ships.iter().enumerate() {
-            let model = assembly.file(
-                &mut files,
-                ship.model.as_deref().unwrap_or(default_model(ship)),
-            );
-            let scale = if ship.ai == Ai::Flee {
-                config.enemy.size
-            } else {
-                config.ship.size
-            };
-            assembly.objects.push(Object {
-                name: ship.name.clone(),
-                model,
-                scale,
-                body: Body::Ship(index),
-            });
+            let model = assembly.file(&mut files, ship.model.as_deref().unwrap_or(default_model(ship)));
+            let scale = if ship.ai == Ai::Flee { config.enemy.size } else { config.ship.size };
+            assembly.objects.push(Object { name: ship.name.clone(), model, scale, body: Body::Ship(index) });
         }
         for prop in &self.props {
             let model = match &prop.shape {
@@ -80,16 +68,8 @@ impl Scene {
                 }
             };
             for &position in &prop.positions {
-                let body = Body::Held {
-                    position,
-                    attitude: prop.attitude,
-                };
-                assembly.objects.push(Object {
-                    name: prop.name.clone(),
-                    model,
-                    scale: prop.size,
-                    body,
-                });
+                let body = Body::Held { position, attitude: prop.attitude };
+                assembly.objects.push(Object { name: prop.name.clone(), model, scale: prop.size, body });
             }
         }
         assembly
@@ -98,11 +78,7 @@ impl Scene {
 
 /// The quarry's model for a ship that flees, the hunter's for every other.
 fn default_model(ship: &ShipSpec) -> &'static str {
-    if ship.ai == Ai::Flee {
-        "quarry.glb"
-    } else {
-        "hunter.glb"
-    }
+    if ship.ai == Ai::Flee { "quarry.glb" } else { "hunter.glb" }
 }
 
 impl Assembly {
@@ -117,9 +93,6 @@ impl Assembly {
 
     /// Triangles of all objects together.
     pub fn triangles(&self) -> usize {
-        self.objects
-            .iter()
-            .map(|object| self.models[object.model].triangles.len())
-            .sum()
+        self.objects.iter().map(|object| self.models[object.model].triangles.len()).sum()
     }
 }

@@ -90,12 +90,10 @@ pub fn table(entries: usize, coldest: f32, hottest: f32) -> Vec<[f32; 4]> {
     let span = (f64::from(hottest) / f64::from(coldest)).ln();
     (0..entries)
         .map(|index| {
-            let temperature =
-                f64::from(coldest) * (span * index as f64 / (entries.max(2) - 1) as f64).exp();
+            let temperature = f64::from(coldest) * (span * index as f64 / (entries.max(2) - 1) as f64).exp();
             let rgb = blackbody_rgb(temperature);
             let least = LEAST_CHANNEL * luminance(rgb);
-            let [r, g, b] =
-                rgb.map(|channel| channel.max(least).max(f64::MIN_POSITIVE).ln() as f32);
+            let [r, g, b] = rgb.map(|channel| channel.max(least).max(f64::MIN_POSITIVE).ln() as f32);
             [r, g, b, 0.0]
         })
         .collect()
@@ -104,13 +102,10 @@ pub fn table(entries: usize, coldest: f32, hottest: f32) -> Vec<[f32; 4]> {
 /// What the shader makes of [`table`] at `temperature` (K); its ends hold beyond them.
 pub fn lookup(table: &[[f32; 4]], coldest: f32, hottest: f32, temperature: f32) -> [f32; 3] {
     let last = table.len() - 1;
-    let place = (temperature.clamp(coldest, hottest) / coldest).ln() / (hottest / coldest).ln()
-        * last as f32;
+    let place = (temperature.clamp(coldest, hottest) / coldest).ln() / (hottest / coldest).ln() * last as f32;
     let index = (place as usize).min(last - 1);
     let part = place - index as f32;
-    [0, 1, 2].map(|channel| {
-        (table[index][channel] + part * (table[index + 1][channel] - table[index][channel])).exp()
-    })
+    [0, 1, 2].map(|channel| (table[index][channel] + part * (table[index + 1][channel] - table[index][channel])).exp())
 }
 
 /// The luminance Y of a linear sRGB colour.

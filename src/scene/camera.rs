@@ -60,14 +60,8 @@ impl Default for Camera {
     /// Static at 20 r_s on the +z axis, looking into the hole.
     fn default() -> Self {
         let position = DVec3::new(0.0, 0.0, 20.0);
-        let state = ShipState {
-            attitude: DQuat::IDENTITY,
-            ..ShipState::new(position, static_momentum(position).unwrap_or_default())
-        };
-        Camera {
-            mount: Mount::Static(state),
-            fov: 60f64.to_radians(),
-        }
+        let state = ShipState { attitude: DQuat::IDENTITY, ..ShipState::new(position, static_momentum(position).unwrap_or_default()) };
+        Camera { mount: Mount::Static(state), fov: 60f64.to_radians() }
     }
 }
 
@@ -95,19 +89,12 @@ pub struct CameraEntry {
 pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec]) -> Result<Camera, Fault> {
     let whole = entry;
     let entry = entry.get_ref();
-    let fov = entry
-        .fov
-        .as_ref()
-        .map_or(Ok(60.0), |fov| in_range(fov, "fov", 1.0..=170.0, "degrees"))?
-        .to_radians();
+    let fov = entry.fov.as_ref().map_or(Ok(60.0), |fov| in_range(fov, "fov", 1.0..=170.0, "degrees"))?.to_radians();
     let mount = match (&entry.position, &entry.follow) {
         (Some(position), None) => free(entry, position)?,
         (None, Some(ship)) => follow(entry, ship, ships)?,
         _ => {
-            return fault(
-                whole,
-                "needs either position or follow (and not both)".into(),
-            );
+            return fault(whole, "needs either position or follow (and not both)".into());
         }
     };
     Ok(Camera { mount, fov })
@@ -120,31 +107,17 @@ fn free(entry: &CameraEntry, position: &Spanned<[f64; 3]>) -> Result<Mount, Faul
     let x = vector(position)?;
     let r = x.length();
     if !(MIN_CAMERA_RADIUS..=MAX_CAMERA_RADIUS).contains(&r) {
-        return fault(
-            position,
-            format!(
-                "is {r} r_s from the hole, allowed {MIN_CAMERA_RADIUS} to {MAX_CAMERA_RADIUS} r_s"
-            ),
-        );
+        return fault(position, format!("is {r} r_s from the hole, allowed {MIN_CAMERA_RADIUS} to {MAX_CAMERA_RADIUS} r_s"));
     }
     let momentum = entry.momentum.as_ref().map(vector).transpose()?;
     if let (Some(p), Some(place)) = (momentum, &entry.momentum)
         && p.length() > MAX_START_MOMENTUM
     {
-        return fault(
-            place,
-            format!(
-                "has length {}, allowed 0 to {MAX_START_MOMENTUM:e} c",
-                p.length()
-            ),
-        );
+        return fault(place, format!("has length {}, allowed 0 to {MAX_START_MOMENTUM:e} c", p.length()));
     }
     let (look, up) = axes(entry, -x)?;
     let attitude = frames::look(look, up).unwrap_or_default();
-    let state = |p| ShipState {
-        attitude,
-        ..ShipState::new(x, p)
-    };
+    let state = |p| ShipState { attitude, ..ShipState::new(x, p) };
     Ok(match (momentum, static_momentum(x)) {
         (Some(p), _) => Mount::Falling(state(p)),
         (None, Some(p)) => Mount::Static(state(p)),
@@ -158,25 +131,14 @@ fn follow(entry: &CameraEntry, ship: &Spanned<String>, ships: &[ShipSpec]) -> Re
     }
     if !ships.iter().any(|known| &known.name == ship.get_ref()) {
         let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).collect();
-        return fault(
-            ship,
-            format!("{:?} is no ship of the scene: {names:?}", ship.get_ref()),
-        );
+        return fault(ship, format!("{:?} is no ship of the scene: {names:?}", ship.get_ref()));
     }
     let offset = entry.offset.as_ref().map_or(Ok(DVec3::ZERO), vector)?;
     if let (Some(place), true) = (&entry.offset, offset.length() > 100.0) {
-        return fault(
-            place,
-            format!("has length {}, allowed 0 to 100 r_s", offset.length()),
-        );
+        return fault(place, format!("has length {}, allowed 0 to 100 r_s", offset.length()));
     }
     let (look, up) = axes(entry, DVec3::NEG_Z)?;
-    Ok(Mount::Follow {
-        ship: ship.get_ref().clone(),
-        offset,
-        look,
-        up,
-    })
+    Ok(Mount::Follow { ship: ship.get_ref().clone(), offset, look, up })
 }
 
 /// Direction of view and upwards, of unit length and not along one line.
@@ -187,21 +149,11 @@ fn axes(entry: &CameraEntry, default_look: DVec3) -> Result<(DVec3, DVec3), Faul
     }
     let look = look.normalize();
     let Some(place) = &entry.up else {
-        return Ok((
-            look,
-            if look.cross(DVec3::Y).length() > 1e-3 {
-                DVec3::Y
-            } else {
-                DVec3::X
-            },
-        ));
+        return Ok((look, if look.cross(DVec3::Y).length() > 1e-3 { DVec3::Y } else { DVec3::X }));
     };
     let up = vector(place)?;
     if look.cross(up.normalize_or_zero()).length() < 1e-6 {
-        return fault(
-            place,
-            "must not be zero, nor along the direction of view".into(),
-        );
+        return fault(place, "must not be zero, nor along the direction of view".into());
     }
     Ok((look, up.normalize()))
 }
@@ -209,9 +161,5 @@ fn axes(entry: &CameraEntry, default_look: DVec3) -> Result<(DVec3, DVec3), Faul
 /// Three finite numbers.
 fn vector(value: &Spanned<[f64; 3]>) -> Result<DVec3, Fault> {
     let vector = DVec3::from_array(*value.get_ref());
-    if vector.is_finite() {
-        Ok(vector)
-    } else {
-        fault(value, format!("{vector} must be finite"))
-    }
+    if vector.is_finite() { Ok(vector) } else { fault(value, format!("{vector} must be finite")) }
 }

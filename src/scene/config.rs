@@ -5,8 +5,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 pub use super::config_fields::{
-    Assist, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky,
-    Video, settings,
+    Assist, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
 };
 use super::document::{complain, syntax};
 use super::error::{Complaint, ConfigError};
@@ -15,10 +14,7 @@ use super::ship::Fault;
 
 /// Reads `path`. Keys that are left out keep their default; unknown keys, wrong types and values out of range are errors.
 pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
-    let text = std::fs::read_to_string(path).map_err(|source| ConfigError::Read {
-        path: path.to_path_buf(),
-        source,
-    })?;
+    let text = std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_path_buf(), source })?;
     parse(path, &text).map_err(ConfigError::Invalid)
 }
 
@@ -30,19 +26,11 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
         let known = section_names();
         match table.get_ref() {
             DeValue::Table(table) if known.contains(&section.get_ref().as_ref()) => {
-                apply_table(&mut config, section.get_ref(), table)
-                    .map_err(|fault| complain(file, text, fault))?;
+                apply_table(&mut config, section.get_ref(), table).map_err(|fault| complain(file, text, fault))?;
             }
             _ => {
                 let message = format!("unknown section; known sections: {}", known.join(", "));
-                return Err(complain(
-                    file,
-                    text,
-                    Fault {
-                        span: section.span(),
-                        message,
-                    },
-                ));
+                return Err(complain(file, text, Fault { span: section.span(), message }));
             }
         }
     }
@@ -50,36 +38,16 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
 }
 
 /// Sets every entry of `table` in `config`, as keys of `section`.
-pub(super) fn apply_table(
-    config: &mut GameConfig,
-    section: &str,
-    table: &DeTable<'_>,
-) -> Result<(), Fault> {
+pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTable<'_>) -> Result<(), Fault> {
     for (key, value) in table {
         let Some(setting) = setting(&format!("{section}.{}", key.get_ref())) else {
-            let known: Vec<&str> = settings()
-                .iter()
-                .filter(|setting| setting.section == section)
-                .map(|setting| setting.key)
-                .collect();
-            return Err(Fault {
-                span: key.span(),
-                message: format!("unknown key; known keys: {}", known.join(", ")),
-            });
+            let known: Vec<&str> = settings().iter().filter(|setting| setting.section == section).map(|setting| setting.key).collect();
+            return Err(Fault { span: key.span(), message: format!("unknown key; known keys: {}", known.join(", ")) });
         };
         read(value.get_ref())
-            .ok_or_else(|| {
-                format!(
-                    "{} has the wrong type, allowed {}",
-                    value.get_ref().type_str(),
-                    setting.allowed_text()
-                )
-            })
+            .ok_or_else(|| format!("{} has the wrong type, allowed {}", value.get_ref().type_str(), setting.allowed_text()))
             .and_then(|value| setting.set(config, value))
-            .map_err(|message| Fault {
-                span: value.span(),
-                message,
-            })?;
+            .map_err(|message| Fault { span: value.span(), message })?;
     }
     Ok(())
 }
@@ -91,17 +59,9 @@ fn read(value: &DeValue<'_>) -> Option<Value> {
             let digits = number.as_str().replace('_', "");
             let whole = i64::from_str_radix(&digits, number.radix()).ok();
             let small = whole.and_then(|whole| u32::try_from(whole).ok());
-            Some(small.map_or(
-                Value::Number(whole.map_or(f64::INFINITY, |whole| whole as f64)),
-                Value::Integer,
-            ))
+            Some(small.map_or(Value::Number(whole.map_or(f64::INFINITY, |whole| whole as f64)), Value::Integer))
         }
-        DeValue::Float(number) => number
-            .as_str()
-            .replace('_', "")
-            .parse()
-            .ok()
-            .map(Value::Number),
+        DeValue::Float(number) => number.as_str().replace('_', "").parse().ok().map(Value::Number),
         DeValue::Boolean(on) => Some(Value::Switch(*on)),
         DeValue::String(word) => Some(Value::Word(word.to_string())),
         _ => None,
@@ -111,9 +71,7 @@ fn read(value: &DeValue<'_>) -> Option<Value> {
 /// The setting with this dotted path, such as `render.orders`.
 pub fn setting(path: &str) -> Option<&'static Setting> {
     let (section, key) = path.split_once('.')?;
-    settings()
-        .iter()
-        .find(|setting| setting.section == section && setting.key == key)
+    settings().iter().find(|setting| setting.section == section && setting.key == key)
 }
 
 /// The sections in the order of the file.
@@ -135,11 +93,7 @@ pub fn template(config: &GameConfig) -> String {
             text.push_str(&format!("\n[{section}]\n"));
         }
         let assignment = format!("{} = {}", setting.key, written(&setting.get(config)));
-        text.push_str(&format!(
-            "{assignment:<34}# {} ({})\n",
-            setting.help,
-            setting.allowed_text()
-        ));
+        text.push_str(&format!("{assignment:<34}# {} ({})\n", setting.help, setting.allowed_text()));
     }
     text
 }

@@ -20,12 +20,7 @@ pub fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Complaint {
     let message = error.message().replace('\n', " ");
     match error.span() {
         Some(span) => complain(file, text, Fault { span, message }),
-        None => Complaint {
-            file: file.to_path_buf(),
-            line: None,
-            key: String::new(),
-            problem: message,
-        },
+        None => Complaint { file: file.to_path_buf(), line: None, key: String::new(), problem: message },
     }
 }
 
@@ -41,11 +36,7 @@ pub fn complain(file: &Path, text: &str, fault: Fault) -> Complaint {
 
 /// The line of a byte offset, from 1.
 fn line_of(text: &str, offset: usize) -> usize {
-    text.bytes()
-        .take(offset)
-        .filter(|&byte| byte == b'\n')
-        .count()
-        + 1
+    text.bytes().take(offset).filter(|&byte| byte == b'\n').count() + 1
 }
 
 /// The dotted key of the deepest entry whose key or value touches `span`; empty where there is none.
@@ -70,10 +61,7 @@ fn descend_table(table: &DeTable<'_>, span: &Range<usize>, path: &mut String) ->
         }
         path.push_str(key.get_ref());
         // The span of a table by header covers the header alone, so its entries are searched in any case.
-        if descend_value(value, span, path)
-            || touches(key.span(), span)
-            || touches(value.span(), span)
-        {
+        if descend_value(value, span, path) || touches(key.span(), span) || touches(value.span(), span) {
             return true;
         }
         path.truncate(length);

@@ -81,20 +81,9 @@ impl Scene {
     pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaint> {
         let entry: SceneFile = parse(file, text)?;
         let scene = check(&entry).map_err(|fault| complain(file, text, fault))?;
-        let name = file
-            .file_stem()
-            .map(|stem| stem.to_string_lossy().into_owned())
-            .unwrap_or_default();
-        let disk = entry
-            .disk
-            .is_some()
-            .then(|| disk_keys(file, text))
-            .transpose()?;
-        Ok(Scene {
-            name,
-            disk,
-            ..scene
-        })
+        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
+        Ok(Scene { name, disk, ..scene })
     }
 }
 
@@ -114,10 +103,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     entry.rules.check(Rules::default())?;
     Ok(Scene {
         name: String::new(),
-        camera: entry
-            .camera
-            .as_ref()
-            .map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships))?,
+        camera: entry.camera.as_ref().map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships))?,
         props: check_props(&entry.prop)?,
         planet: entry.planet.as_ref().map(check_planet).transpose()?,
         sky: check_sky(&entry.sky)?,
@@ -134,8 +120,7 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
         return Ok(DiskKeys(Vec::new()));
     };
     let mut checked = GameConfig::default();
-    config::apply_table(&mut checked, "disk", table)
-        .map_err(|fault| complain(file, text, fault))?;
+    config::apply_table(&mut checked, "disk", table).map_err(|fault| complain(file, text, fault))?;
     let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
     Ok(DiskKeys(
         config::settings()
@@ -149,38 +134,21 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
 /// Loads a scene by name (`chase`: from `assets/scenes/`) or by path (anything that ends in `.toml` or holds a separator).
 pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-    let path = if by_path {
-        PathBuf::from(name_or_path)
-    } else {
-        scenes_folder().join(format!("{name_or_path}.toml"))
-    };
+    let path = if by_path { PathBuf::from(name_or_path) } else { scenes_folder().join(format!("{name_or_path}.toml")) };
     if !path.is_file() {
-        return Err(SceneError::NotFound {
-            name: name_or_path.into(),
-            tried: path,
-            known: names().join(", "),
-        });
+        return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: names().join(", ") });
     }
-    let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read {
-        path: path.clone(),
-        source,
-    })?;
+    let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
     Scene::from_toml(&path, &text).map_err(SceneError::Invalid)
 }
 
 /// The names of the scenes in `assets/scenes/`, sorted.
 pub fn names() -> Vec<String> {
-    let files = std::fs::read_dir(scenes_folder())
-        .into_iter()
-        .flatten()
-        .flatten();
+    let files = std::fs::read_dir(scenes_folder()).into_iter().flatten().flatten();
     let mut names: Vec<String> = files
         .map(|entry| entry.path())
         .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .filter_map(|path| {
-            path.file_stem()
-                .map(|stem| stem.to_string_lossy().into_owned())
-        })
+        .filter_map(|path| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()))
         .collect();
     names.sort();
     names

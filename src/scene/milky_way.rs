@@ -55,45 +55,21 @@ pub enum MilkyWayError {
 
 /// Reads the picture and makes its smaller copies.
 pub fn load(path: &Path) -> Result<MilkyWay, MilkyWayError> {
-    let picture = image::open(path)
-        .map_err(|source| MilkyWayError::Image {
-            path: path.to_path_buf(),
-            source,
-        })?
-        .into_luma8();
+    let picture = image::open(path).map_err(|source| MilkyWayError::Image { path: path.to_path_buf(), source })?.into_luma8();
     let (width, height) = picture.dimensions();
     if width != 2 * height || !height.is_power_of_two() {
-        return Err(MilkyWayError::Shape {
-            path: path.to_path_buf(),
-            width,
-            height,
-        });
+        return Err(MilkyWayError::Shape { path: path.to_path_buf(), width, height });
     }
     // The file holds the square root of the brightness, so that 8 bits suffice for the faint parts.
-    let brightness = picture
-        .into_raw()
-        .into_iter()
-        .map(|grey| (f32::from(grey) / 255.0).powi(2))
-        .collect();
-    Ok(MilkyWay::from_full(Level {
-        width: width as usize,
-        height: height as usize,
-        brightness,
-    }))
+    let brightness = picture.into_raw().into_iter().map(|grey| (f32::from(grey) / 255.0).powi(2)).collect();
+    Ok(MilkyWay::from_full(Level { width: width as usize, height: height as usize, brightness }))
 }
 
 /// The picture of `assets/sky/`, or a dark sky and the reason.
 pub fn load_or_dark() -> (MilkyWay, Option<MilkyWayError>) {
     match load(&super::assets_folder().join("sky").join("milky-way.png")) {
         Ok(milky_way) => (milky_way, None),
-        Err(error) => (
-            MilkyWay::from_full(Level {
-                width: 2,
-                height: 1,
-                brightness: vec![0.0; 2],
-            }),
-            Some(error),
-        ),
+        Err(error) => (MilkyWay::from_full(Level { width: 2, height: 1, brightness: vec![0.0; 2] }), Some(error)),
     }
 }
 
@@ -110,10 +86,7 @@ impl MilkyWay {
     pub fn sample(&self, direction: Vec3, level: usize) -> f32 {
         let level = &self.levels[level.min(self.levels.len() - 1)];
         let uv = direction_to_uv(direction);
-        let (x, y) = (
-            uv.x * level.width as f32 - 0.5,
-            uv.y * level.height as f32 - 0.5,
-        );
+        let (x, y) = (uv.x * level.width as f32 - 0.5, uv.y * level.height as f32 - 0.5);
         let (fx, fy) = (x - x.floor(), y - y.floor());
         let at = |dx: i32, dy: i32| {
             let column = (x.floor() as i32 + dx).rem_euclid(level.width as i32) as usize;
@@ -136,10 +109,7 @@ impl Level {
         let weight = |row: usize| (PI * (row as f32 + 0.5) / self.height as f32).sin();
         let mut brightness = Vec::with_capacity(width * height);
         for row in 0..height {
-            let (upper, lower) = (
-                (2 * row).min(self.height - 1),
-                (2 * row + 1).min(self.height - 1),
-            );
+            let (upper, lower) = ((2 * row).min(self.height - 1), (2 * row + 1).min(self.height - 1));
             for column in 0..width {
                 let pair = |row: usize| {
                     let first = row * self.width + 2 * column;
@@ -149,21 +119,14 @@ impl Level {
                 brightness.push(sum / (weight(upper) + weight(lower)));
             }
         }
-        Some(Level {
-            width,
-            height,
-            brightness,
-        })
+        Some(Level { width, height, brightness })
     }
 }
 
 /// Where in the picture a direction (unit vector) lies: u in [0, 1), v in [0, 1].
 pub fn direction_to_uv(direction: Vec3) -> Vec2 {
     let u = direction.y.atan2(direction.x) / TAU;
-    Vec2::new(
-        u - u.floor(),
-        0.5 - direction.z.clamp(-1.0, 1.0).asin() / PI,
-    )
+    Vec2::new(u - u.floor(), 0.5 - direction.z.clamp(-1.0, 1.0).asin() / PI)
 }
 
 /// The direction (unit vector) of a point of the picture.

@@ -52,14 +52,7 @@ pub struct Material {
 
 impl Default for Material {
     fn default() -> Self {
-        Self {
-            base_colour: [0.8, 0.8, 0.8, 1.0],
-            emissive: [0.0; 3],
-            temperature: 0.0,
-            metallic: 0.0,
-            roughness: 0.6,
-            texture: None,
-        }
+        Self { base_colour: [0.8, 0.8, 0.8, 1.0], emissive: [0.0; 3], temperature: 0.0, metallic: 0.0, roughness: 0.6, texture: None }
     }
 }
 
@@ -79,10 +72,7 @@ pub struct Model {
 impl Model {
     /// The largest distance of a vertex from the model's origin, in units of the model.
     pub fn radius(&self) -> f32 {
-        self.vertices
-            .iter()
-            .map(|vertex| glam::Vec3::from(vertex.position).length())
-            .fold(0.0, f32::max)
+        self.vertices.iter().map(|vertex| glam::Vec3::from(vertex.position).length()).fold(0.0, f32::max)
     }
 
     /// `None` if the model is sound, or what is wrong with it: indices out of range, lengths that disagree, numbers that are not finite.
@@ -91,29 +81,13 @@ impl Model {
         if self.triangle_materials.len() != self.triangles.len() {
             return Some("not every triangle has a material");
         }
-        if self
-            .triangles
-            .iter()
-            .flatten()
-            .any(|&index| index >= corners)
-        {
+        if self.triangles.iter().flatten().any(|&index| index >= corners) {
             return Some("a triangle points to a vertex that does not exist");
         }
-        if self
-            .triangle_materials
-            .iter()
-            .any(|&index| index as usize >= self.materials.len())
-        {
+        if self.triangle_materials.iter().any(|&index| index as usize >= self.materials.len()) {
             return Some("a triangle points to a material that does not exist");
         }
-        let finite = |vertex: &Vertex| {
-            vertex
-                .position
-                .iter()
-                .chain(&vertex.normal)
-                .chain(&vertex.uv)
-                .all(|number| number.is_finite())
-        };
+        let finite = |vertex: &Vertex| vertex.position.iter().chain(&vertex.normal).chain(&vertex.uv).all(|number| number.is_finite());
         (!self.vertices.iter().all(finite)).then_some("a vertex is not finite")
     }
 }

@@ -62,19 +62,14 @@ pub struct PlanetEntry {
 /// Checks the planet against its ranges.
 pub fn check_planet(entry: &PlanetEntry) -> Result<Planet, Fault> {
     let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
-        value
-            .as_ref()
-            .map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
+        value.as_ref().map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
     };
     let orbit_radius = in_range(&entry.orbit_radius, "orbit_radius", 3.0..=1e4, "r_s")?;
     Ok(Planet {
         orbit: Elements {
             inclination: or(&entry.inclination, "inclination", 0.0, PI, "rad", 0.0)?,
             node: or(&entry.node, "node", -1e6, 1e6, "rad", 0.0)?,
-            ..Elements::circle(
-                orbit_radius,
-                or(&entry.phase, "phase", -1e6, 1e6, "rad", 0.0)?,
-            )
+            ..Elements::circle(orbit_radius, or(&entry.phase, "phase", -1e6, 1e6, "rad", 0.0)?)
         },
         radius: in_range(&entry.radius, "radius", 1e-3..=0.5 * orbit_radius, "r_s")?,
         day: or(&entry.day, "day", 0.1, 1e9, "r_s/c", 40.0)?,
@@ -97,11 +92,7 @@ pub struct SkySwitches {
 
 impl Default for SkySwitches {
     fn default() -> Self {
-        SkySwitches {
-            stars: true,
-            milky_way: true,
-            brightness: 1.0,
-        }
+        SkySwitches { stars: true, milky_way: true, brightness: 1.0 }
     }
 }
 
@@ -116,12 +107,6 @@ pub struct SkyEntry {
 
 /// Checks the sky against its ranges.
 pub fn check_sky(entry: &SkyEntry) -> Result<SkySwitches, Fault> {
-    let brightness = entry.brightness.as_ref().map_or(Ok(1.0), |value| {
-        in_range(value, "brightness", 0.0..=1e4, "")
-    })?;
-    Ok(SkySwitches {
-        stars: entry.stars.unwrap_or(true),
-        milky_way: entry.milky_way.unwrap_or(true),
-        brightness,
-    })
+    let brightness = entry.brightness.as_ref().map_or(Ok(1.0), |value| in_range(value, "brightness", 0.0..=1e4, ""))?;
+    Ok(SkySwitches { stars: entry.stars.unwrap_or(true), milky_way: entry.milky_way.unwrap_or(true), brightness })
 }

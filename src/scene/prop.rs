@@ -65,12 +65,8 @@ impl Prop {
     pub fn model(&self) -> Option<Model> {
         match self.shape {
             Shape::Sphere(triangles) => Some(shapes::uv_sphere(triangles, self.material.clone())),
-            Shape::Icosphere(triangles) => {
-                Some(shapes::icosphere(triangles, self.material.clone()))
-            }
-            Shape::Square(triangles, anchor) => {
-                Some(shapes::square(triangles, anchor, self.material.clone()))
-            }
+            Shape::Icosphere(triangles) => Some(shapes::icosphere(triangles, self.material.clone())),
+            Shape::Square(triangles, anchor) => Some(shapes::square(triangles, anchor, self.material.clone())),
             Shape::File(_) => None,
         }
     }
@@ -105,25 +101,16 @@ pub struct PropEntry {
 
 /// Checks all props of a scene.
 pub fn check_props(entries: &[Spanned<PropEntry>]) -> Result<Vec<Prop>, Fault> {
-    entries
-        .iter()
-        .enumerate()
-        .map(|(index, entry)| check_prop(index, entry.get_ref()))
-        .collect()
+    entries.iter().enumerate().map(|(index, entry)| check_prop(index, entry.get_ref())).collect()
 }
 
 fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
     let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
-        value
-            .as_ref()
-            .map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
+        value.as_ref().map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
     };
     let triangles = match &entry.triangles {
         Some(place) if !(2..=1_000_000).contains(place.get_ref()) => {
-            return fault(
-                place,
-                format!("triangles = {} must be from 2 to 1000000", place.get_ref()),
-            );
+            return fault(place, format!("triangles = {} must be from 2 to 1000000", place.get_ref()));
         }
         Some(place) => Some(*place.get_ref()),
         None => None,
@@ -133,21 +120,12 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
         "sphere" => Shape::Sphere(triangles.unwrap_or(480)),
         "icosphere" => Shape::Icosphere(triangles.unwrap_or(320)),
         "lattice" => Shape::Icosphere(triangles.unwrap_or(20)),
-        "square" => Shape::Square(
-            triangles.unwrap_or(200),
-            entry
-                .anchor
-                .as_ref()
-                .map(|place| *place.get_ref())
-                .unwrap_or_default(),
-        ),
+        "square" => Shape::Square(triangles.unwrap_or(200), entry.anchor.as_ref().map(|place| *place.get_ref()).unwrap_or_default()),
         file if file.ends_with(".glb") || file.ends_with(".gltf") => Shape::File(file.to_owned()),
         _ => {
             return fault(
                 &entry.model,
-                format!(
-                    "model = {model:?} must be \"sphere\", \"icosphere\", \"square\", \"lattice\" or a .glb file"
-                ),
+                format!("model = {model:?} must be \"sphere\", \"icosphere\", \"square\", \"lattice\" or a .glb file"),
             );
         }
     };
@@ -161,10 +139,7 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
             let [w, x, y, z] = *place.get_ref();
             let attitude = DQuat::from_xyzw(x, y, z, w);
             if !(1e-6..1e6).contains(&attitude.length()) {
-                return fault(
-                    place,
-                    "attitude must be a quaternion [w, x, y, z] of finite length, not zero".into(),
-                );
+                return fault(place, "attitude must be a quaternion [w, x, y, z] of finite length, not zero".into());
             }
             attitude.normalize()
         }
@@ -183,10 +158,7 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
         ..Material::default()
     };
     Ok(Prop {
-        name: entry
-            .name
-            .clone()
-            .unwrap_or_else(|| format!("prop {index}")),
+        name: entry.name.clone().unwrap_or_else(|| format!("prop {index}")),
         shape,
         positions: positions(entry, size)?,
         attitude,
@@ -196,19 +168,12 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
 }
 
 fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
-    let centre = DVec3::from_array(
-        entry
-            .position
-            .as_ref()
-            .map_or([0.0; 3], |place| *place.get_ref()),
-    );
+    let centre = DVec3::from_array(entry.position.as_ref().map_or([0.0; 3], |place| *place.get_ref()));
     let lattice = entry.model.get_ref() == "lattice";
     let radius = centre.length();
     let nearest = if lattice { 0.0 } else { 1.001 };
     if !(nearest..=1e4).contains(&radius) {
-        let message = format!(
-            "position is {radius} r_s from the hole, allowed {nearest} to 10000 r_s: inside r = 1 nothing can be held"
-        );
+        let message = format!("position is {radius} r_s from the hole, allowed {nearest} to 10000 r_s: inside r = 1 nothing can be held");
         return match &entry.position {
             Some(place) => fault(place, message),
             None => fault(&entry.model, message),
@@ -216,16 +181,9 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
     }
     if !lattice {
         let count = entry.count.as_ref().map(Spanned::span);
-        let misplaced = [
-            count,
-            entry.spacing.as_ref().map(Spanned::span),
-            entry.clearance.as_ref().map(Spanned::span),
-        ];
+        let misplaced = [count, entry.spacing.as_ref().map(Spanned::span), entry.clearance.as_ref().map(Spanned::span)];
         return match misplaced.into_iter().flatten().next() {
-            Some(span) => Err(Fault {
-                span,
-                message: "count, spacing and clearance go with model = \"lattice\" only".into(),
-            }),
+            Some(span) => Err(Fault { span, message: "count, spacing and clearance go with model = \"lattice\" only".into() }),
             None => Ok(vec![centre]),
         };
     }
@@ -233,24 +191,13 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
         return fault(&entry.model, "a lattice needs count = [nx, ny, nz]".into());
     };
     let count = *place.get_ref();
-    let total: u64 = count
-        .iter()
-        .map(|&n| u64::from(n).min(MAX_LATTICE + 1))
-        .fold(1, u64::saturating_mul);
+    let total: u64 = count.iter().map(|&n| u64::from(n).min(MAX_LATTICE + 1)).fold(1, u64::saturating_mul);
     if !(1..=MAX_LATTICE).contains(&total) {
-        return fault(
-            place,
-            format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"),
-        );
+        return fault(place, format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"));
     }
-    let spacing = entry.spacing.as_ref().map_or(Ok(2.0), |place| {
-        in_range(place, "spacing", 1e-3..=1e3, "r_s")
-    })?;
-    let clearance = entry.clearance.as_ref().map_or(Ok(1.2), |place| {
-        in_range(place, "clearance", 1.0..=1e4, "r_s")
-    })?;
-    let along =
-        |index: u32, axis: usize| (f64::from(index) - 0.5 * f64::from(count[axis] - 1)) * spacing;
+    let spacing = entry.spacing.as_ref().map_or(Ok(2.0), |place| in_range(place, "spacing", 1e-3..=1e3, "r_s"))?;
+    let clearance = entry.clearance.as_ref().map_or(Ok(1.2), |place| in_range(place, "clearance", 1.0..=1e4, "r_s"))?;
+    let along = |index: u32, axis: usize| (f64::from(index) - 0.5 * f64::from(count[axis] - 1)) * spacing;
     let mut positions = Vec::with_capacity(total as usize);
     for x in 0..count[0] {
         for y in 0..count[1] {
@@ -265,28 +212,12 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
     Ok(positions)
 }
 
-fn colour(
-    value: &Option<Spanned<[f64; 3]>>,
-    key: &str,
-    most: f64,
-    default: [f32; 3],
-) -> Result<[f32; 3], Fault> {
+fn colour(value: &Option<Spanned<[f64; 3]>>, key: &str, most: f64, default: [f32; 3]) -> Result<[f32; 3], Fault> {
     match value {
         None => Ok(default),
-        Some(place)
-            if place
-                .get_ref()
-                .iter()
-                .all(|channel| (0.0..=most).contains(channel)) =>
-        {
+        Some(place) if place.get_ref().iter().all(|channel| (0.0..=most).contains(channel)) => {
             Ok(place.get_ref().map(|channel| channel as f32))
         }
-        Some(place) => fault(
-            place,
-            format!(
-                "{key} = {:?} must be three numbers from 0 to {most}",
-                place.get_ref()
-            ),
-        ),
+        Some(place) => fault(place, format!("{key} = {:?} must be three numbers from 0 to {most}", place.get_ref())),
     }
 }

@@ -79,40 +79,20 @@ impl Setting {
 
     /// `value` in the setting's own type if it is allowed, or what is wrong.
     pub fn check(&self, value: Value) -> Result<Value, String> {
-        let refuse = |shown: &dyn fmt::Display, why: &str| {
-            Err(format!("{shown} {why}, allowed {}", self.allowed_text()))
-        };
+        let refuse = |shown: &dyn fmt::Display, why: &str| Err(format!("{shown} {why}, allowed {}", self.allowed_text()));
         match (self.allowed, value) {
-            (Allowed::Number { min, max }, Value::Number(number))
-                if (min..=max).contains(&number) =>
-            {
-                Ok(Value::Number(number))
-            }
-            (Allowed::Number { min, max }, Value::Integer(number))
-                if (min..=max).contains(&f64::from(number)) =>
-            {
+            (Allowed::Number { min, max }, Value::Number(number)) if (min..=max).contains(&number) => Ok(Value::Number(number)),
+            (Allowed::Number { min, max }, Value::Integer(number)) if (min..=max).contains(&f64::from(number)) => {
                 Ok(Value::Number(f64::from(number)))
             }
-            (Allowed::Integer { min, max }, Value::Integer(number))
-                if (min..=max).contains(&number) =>
-            {
-                Ok(Value::Integer(number))
-            }
+            (Allowed::Integer { min, max }, Value::Integer(number)) if (min..=max).contains(&number) => Ok(Value::Integer(number)),
             (Allowed::Switch, Value::Switch(on)) => Ok(Value::Switch(on)),
-            (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => {
-                Ok(Value::Word(word))
-            }
+            (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => Ok(Value::Word(word)),
             (Allowed::Key, Value::Word(word)) if is_key(&word) => Ok(Value::Word(word)),
             (Allowed::Number { .. }, Value::Number(number)) => refuse(&number, "is out of range"),
-            (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => {
-                refuse(&number, "is out of range")
-            }
-            (Allowed::Integer { .. }, Value::Number(number)) => {
-                refuse(&number, "is no such whole number")
-            }
-            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => {
-                refuse(&format!("{word:?}"), "is not known")
-            }
+            (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => refuse(&number, "is out of range"),
+            (Allowed::Integer { .. }, Value::Number(number)) => refuse(&number, "is no such whole number"),
+            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
             (_, Value::Word(word)) => refuse(&format!("{word:?}"), "has the wrong type"),
             (_, Value::Switch(on)) => refuse(&on, "has the wrong type"),
             (_, Value::Number(number)) => refuse(&number, "has the wrong type"),
@@ -140,11 +120,7 @@ pub(super) fn range_text(min: f64, max: f64, unit: &str) -> String {
 
 /// Long numbers with an exponent, others without.
 fn plain(number: f64) -> String {
-    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) {
-        format!("{number:e}")
-    } else {
-        number.to_string()
-    }
+    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
 }
 
 impl fmt::Display for Value {
@@ -207,7 +183,5 @@ pub fn is_key(name: &str) -> bool {
         || name.strip_prefix("Key").is_some_and(letter)
         || name.strip_prefix("Digit").is_some_and(digit)
         || name.strip_prefix("Numpad").is_some_and(digit)
-        || name
-            .strip_prefix('F')
-            .is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
+        || name.strip_prefix('F').is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
 }

@@ -28,10 +28,7 @@ pub enum Anchor {
 pub fn uv_sphere(triangles: u32, material: Material) -> Model {
     let stacks = (((1.0 + (1.0 + f64::from(triangles)).sqrt()) / 2.0).round() as u32).max(2);
     let slices = 2 * stacks;
-    let mut model = Model {
-        materials: vec![material],
-        ..Model::default()
-    };
+    let mut model = Model { materials: vec![material], ..Model::default() };
     for stack in 0..=stacks {
         // The poles have no azimuth of their own; sin(π) is not zero in floating point.
         let (sine, cosine) = match stack {
@@ -43,15 +40,9 @@ pub fn uv_sphere(triangles: u32, material: Material) -> Model {
             let azimuth = TAU * f64::from(slice % slices) / f64::from(slices);
             let normal = DVec3::new(sine * azimuth.sin(), cosine, sine * azimuth.cos()).as_vec3();
             // At a pole each triangle has its own vertex, half a slice on.
-            let shift = if stack == 0 || stack == stacks {
-                0.5
-            } else {
-                0.0
-            };
+            let shift = if stack == 0 || stack == stacks { 0.5 } else { 0.0 };
             let u = (slice as f32 + shift) / slices as f32;
-            model
-                .vertices
-                .push(sphere_vertex(normal, [u, stack as f32 / stacks as f32]));
+            model.vertices.push(sphere_vertex(normal, [u, stack as f32 / stacks as f32]));
         }
     }
     let row = slices + 1;
@@ -72,11 +63,7 @@ pub fn uv_sphere(triangles: u32, material: Material) -> Model {
 }
 
 fn sphere_vertex(normal: Vec3, uv: [f32; 2]) -> Vertex {
-    Vertex {
-        position: (0.5 * normal).to_array(),
-        normal: normal.to_array(),
-        uv,
-    }
+    Vertex { position: (0.5 * normal).to_array(), normal: normal.to_array(), uv }
 }
 
 /// A sphere of diameter 1 from a subdivided icosahedron: 20·4^k triangles, the smallest such number that is at least
@@ -84,21 +71,10 @@ fn sphere_vertex(normal: Vec3, uv: [f32; 2]) -> Vertex {
 pub fn icosphere(triangles: u32, material: Material) -> Model {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let mut corners: Vec<DVec3> = Vec::new();
-    for (one, phi) in [
-        (1.0, golden),
-        (1.0, -golden),
-        (-1.0, golden),
-        (-1.0, -golden),
-    ] {
-        corners.extend([
-            DVec3::new(0.0, one, phi),
-            DVec3::new(one, phi, 0.0),
-            DVec3::new(phi, 0.0, one),
-        ]);
+    for (one, phi) in [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)] {
+        corners.extend([DVec3::new(0.0, one, phi), DVec3::new(one, phi, 0.0), DVec3::new(phi, 0.0, one)]);
     }
-    corners
-        .iter_mut()
-        .for_each(|corner| *corner = corner.normalize());
+    corners.iter_mut().for_each(|corner| *corner = corner.normalize());
     let mut faces = convex_faces(&corners);
     while (faces.len() as u32) < triangles {
         faces = subdivide(&mut corners, &faces);
@@ -107,18 +83,10 @@ pub fn icosphere(triangles: u32, material: Material) -> Model {
         .iter()
         .map(|corner| {
             let u = (corner.x.atan2(corner.z) / TAU).rem_euclid(1.0);
-            sphere_vertex(
-                corner.as_vec3(),
-                [u as f32, (corner.y.clamp(-1.0, 1.0).acos() / PI) as f32],
-            )
+            sphere_vertex(corner.as_vec3(), [u as f32, (corner.y.clamp(-1.0, 1.0).acos() / PI) as f32])
         })
         .collect();
-    Model {
-        vertices,
-        triangle_materials: vec![0; faces.len()],
-        triangles: faces,
-        materials: vec![material],
-    }
+    Model { vertices, triangle_materials: vec![0; faces.len()], triangles: faces, materials: vec![material] }
 }
 
 /// The faces of the icosahedron: triples of corners at the edge's distance from one another, counter-clockwise from outside.
@@ -130,10 +98,7 @@ fn convex_faces(corners: &[DVec3]) -> Vec<[u32; 3]> {
         for b in a + 1..corners.len() {
             for c in b + 1..corners.len() {
                 if near(a, b) && near(b, c) && near(c, a) {
-                    let outward = (corners[b] - corners[a])
-                        .cross(corners[c] - corners[a])
-                        .dot(corners[a])
-                        > 0.0;
+                    let outward = (corners[b] - corners[a]).cross(corners[c] - corners[a]).dot(corners[a]) > 0.0;
                     let (second, third) = if outward { (b, c) } else { (c, b) };
                     faces.push([a as u32, second as u32, third as u32]);
                 }
@@ -164,10 +129,7 @@ fn subdivide(corners: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
 /// `anchor` shifts the whole square by less than a cell so that its origin lies inside a triangle, on an edge, on a vertex.
 pub fn square(triangles: u32, anchor: Anchor, material: Material) -> Model {
     let cells = triangles.div_ceil(2).max(1);
-    let columns = (1..=cells.isqrt())
-        .rev()
-        .find(|columns| cells.is_multiple_of(*columns))
-        .unwrap_or(1);
+    let columns = (1..=cells.isqrt()).rev().find(|columns| cells.is_multiple_of(*columns)).unwrap_or(1);
     let rows = cells / columns;
     // The origin in units of cells from the lower left corner; coordinates are (index − origin)·step, so a vertex there is exactly 0.
     let (half_x, half_y) = (f64::from(columns / 2), f64::from(rows / 2));
@@ -177,32 +139,20 @@ pub fn square(triangles: u32, anchor: Anchor, material: Material) -> Model {
         Anchor::Edge => (half_x + 0.5, half_y),
         Anchor::Vertex => (half_x, half_y),
     };
-    let mut model = Model {
-        materials: vec![material],
-        ..Model::default()
-    };
+    let mut model = Model { materials: vec![material], ..Model::default() };
     for row in 0..=rows {
         for column in 0..=columns {
             let x = (f64::from(column) - origin.0) / f64::from(columns);
             let y = (f64::from(row) - origin.1) / f64::from(rows);
-            let uv = [
-                column as f32 / columns as f32,
-                1.0 - row as f32 / rows as f32,
-            ];
-            model.vertices.push(Vertex {
-                position: [x as f32, y as f32, 0.0],
-                normal: [0.0, 0.0, 1.0],
-                uv,
-            });
+            let uv = [column as f32 / columns as f32, 1.0 - row as f32 / rows as f32];
+            model.vertices.push(Vertex { position: [x as f32, y as f32, 0.0], normal: [0.0, 0.0, 1.0], uv });
         }
     }
     let line = columns + 1;
     for row in 0..rows {
         for column in 0..columns {
             let a = row * line + column;
-            model
-                .triangles
-                .extend([[a, a + 1, a + line + 1], [a, a + line + 1, a + line]]);
+            model.triangles.extend([[a, a + 1, a + line + 1], [a, a + line + 1, a + line]]);
         }
     }
     model.triangle_materials = vec![0; model.triangles.len()];

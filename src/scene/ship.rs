@@ -190,7 +190,10 @@ pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
         let [w, x, y, z] = *attitude.get_ref();
         let attitude_length = DQuat::from_xyzw(x, y, z, w).length();
         if !(attitude_length > 1e-6 && attitude_length < 1e6) {
-            return fault(attitude, format!("attitude = {:?} must be a quaternion [w, x, y, z] of finite length, not zero", attitude.get_ref()));
+            return fault(
+                attitude,
+                format!("attitude = {:?} must be a quaternion [w, x, y, z] of finite length, not zero", attitude.get_ref()),
+            );
         }
         state.attitude = DQuat::from_xyzw(x, y, z, w) * (1.0 / attitude_length);
     }
@@ -216,7 +219,11 @@ fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
             if !(x.length() > SINGULARITY_RADIUS && x.length() <= MAX_START_RADIUS) {
                 return fault(
                     position,
-                    format!("position = {:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}", x.to_array(), x.length()),
+                    format!(
+                        "position = {:?} must lie between {SINGULARITY_RADIUS} and {MAX_START_RADIUS:e} r_s from the hole, not {}",
+                        x.to_array(),
+                        x.length()
+                    ),
                 );
             }
             if !(0.0..=MAX_START_MOMENTUM).contains(&p.length()) {
@@ -243,10 +250,7 @@ fn start_on_orbit(orbit: &Spanned<OrbitEntry>) -> Result<ShipState, Fault> {
             angle(&keys.anomaly, "anomaly")?,
         ),
         _ => {
-            return fault(
-                orbit,
-                "orbit needs either radius, or semi_latus_rectum with eccentricity and anomaly (and not both)".into(),
-            );
+            return fault(orbit, "orbit needs either radius, or semi_latus_rectum with eccentricity and anomaly (and not both)".into());
         }
     };
     let elements = Elements {

@@ -51,14 +51,8 @@ pub enum StarsError {
 
 /// Reads the catalogue, from bright to faint.
 pub fn load(path: &Path) -> Result<Vec<Star>, StarsError> {
-    let bytes = std::fs::read(path).map_err(|source| StarsError::Read {
-        path: path.to_path_buf(),
-        source,
-    })?;
-    parse(&bytes).map_err(|reason| StarsError::Damaged {
-        path: path.to_path_buf(),
-        reason,
-    })
+    let bytes = std::fs::read(path).map_err(|source| StarsError::Read { path: path.to_path_buf(), source })?;
+    parse(&bytes).map_err(|reason| StarsError::Damaged { path: path.to_path_buf(), reason })
 }
 
 /// The catalogue of `assets/sky/`, or [`stand_in`] and the reason.
@@ -82,39 +76,26 @@ fn parse(bytes: &[u8]) -> Result<Vec<Star>, String> {
     };
     let [version, count, checksum, record] = [0, 1, 2, 3].map(word);
     if version != VERSION || record as usize != RECORD {
-        return Err(format!(
-            "version {version} with records of {record} bytes, expected version {VERSION} with {RECORD}"
-        ));
+        return Err(format!("version {version} with records of {record} bytes, expected version {VERSION} with {RECORD}"));
     }
     if body.len() as u64 != u64::from(count) * RECORD as u64 {
-        return Err(format!(
-            "holds {} bytes of stars, its header promises {count} stars of {RECORD}",
-            body.len()
-        ));
+        return Err(format!("holds {} bytes of stars, its header promises {count} stars of {RECORD}", body.len()));
     }
     let actual = crc32fast::hash(body);
     if actual != checksum {
-        return Err(format!(
-            "checksum {actual:08x}, its header says {checksum:08x}"
-        ));
+        return Err(format!("checksum {actual:08x}, its header says {checksum:08x}"));
     }
     body.chunks_exact(RECORD).map(star).collect()
 }
 
 fn star(record: &[u8]) -> Result<Star, String> {
-    let float = |at: usize| {
-        f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]])
-    };
+    let float = |at: usize| f32::from_le_bytes([record[at], record[at + 1], record[at + 2], record[at + 3]]);
     let short = |at: usize| i16::from_le_bytes([record[at], record[at + 1]]);
     let (ra, dec) = (f64::from(float(0)), f64::from(float(4)));
     if !(ra.is_finite() && dec.is_finite()) {
         return Err(format!("a star at right ascension {ra}, declination {dec}"));
     }
-    let b_minus_v = if short(10) == i16::MIN {
-        DEFAULT_B_MINUS_V
-    } else {
-        f32::from(short(10)) / 1000.0
-    };
+    let b_minus_v = if short(10) == i16::MIN { DEFAULT_B_MINUS_V } else { f32::from(short(10)) / 1000.0 };
     Ok(Star {
         direction: DVec3::new(dec.cos() * ra.cos(), dec.cos() * ra.sin(), dec.sin()).as_vec3(),
         flux: flux(f32::from(short(8)) / 1000.0),

@@ -17,11 +17,7 @@ pub fn checker() -> Arc<Image> {
         .get_or_init(|| {
             Arc::new(draw(768, 384, |x, y| {
                 let light = (x / 32 + y / 32) % 2 == 0;
-                if light {
-                    [235, 225, 200, 255]
-                } else {
-                    [28, 52, 120, 255]
-                }
+                if light { [235, 225, 200, 255] } else { [28, 52, 120, 255] }
             }))
         })
         .clone()
@@ -35,8 +31,7 @@ pub fn galaxy() -> Arc<Image> {
         .get_or_init(|| {
             Arc::new(draw(GALAXY_SIZE, GALAXY_SIZE, |x, y| {
                 let half = GALAXY_SIZE as f32 / 2.0;
-                let light =
-                    galaxy_light((x as f32 + 0.5) / half - 1.0, 1.0 - (y as f32 + 0.5) / half);
+                let light = galaxy_light((x as f32 + 0.5) / half - 1.0, 1.0 - (y as f32 + 0.5) / half);
                 let [r, g, b] = light.map(encode_srgb);
                 [r, g, b, 255]
             }))
@@ -46,28 +41,18 @@ pub fn galaxy() -> Arc<Image> {
 
 fn draw(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4] + Sync) -> Image {
     let mut rgba = vec![0; (width * height * 4) as usize];
-    rgba.par_chunks_exact_mut(width as usize * 4)
-        .zip(0..height)
-        .for_each(|(row, y)| {
-            for (bytes, x) in row.chunks_exact_mut(4).zip(0..width) {
-                bytes.copy_from_slice(&pixel(x, y));
-            }
-        });
-    Image {
-        width,
-        height,
-        rgba,
-    }
+    rgba.par_chunks_exact_mut(width as usize * 4).zip(0..height).for_each(|(row, y)| {
+        for (bytes, x) in row.chunks_exact_mut(4).zip(0..width) {
+            bytes.copy_from_slice(&pixel(x, y));
+        }
+    });
+    Image { width, height, rgba }
 }
 
 /// Linear to sRGB, 8 bits (IEC 61966-2-1).
 fn encode_srgb(linear: f32) -> u8 {
     let linear = linear.clamp(0.0, 1.0);
-    let encoded = if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    };
+    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
     (encoded * 255.0).round() as u8
 }
 
@@ -77,11 +62,9 @@ fn galaxy_light(x: f32, y: f32) -> [f32; 3] {
     let angle = y.atan2(x);
     // Arms r ∝ exp(θ tan p), pitch p = 16°, made ragged by noise that follows the gas.
     let wind = (radius + 0.02).ln() / 16f32.to_radians().tan();
-    let ragged = 1.1 * (fractal(4.0 * x, 4.0 * y, 11) - 0.5)
-        + 0.35 * (fractal(14.0 * x, 14.0 * y, 12) - 0.5);
+    let ragged = 1.1 * (fractal(4.0 * x, 4.0 * y, 11) - 0.5) + 0.35 * (fractal(14.0 * x, 14.0 * y, 12) - 0.5);
     let phase = 2.0 * (angle - wind) + 2.2 * ragged;
-    let arm = (0.5 + 0.5 * phase.cos()).powf(2.2)
-        + 0.35 * (0.5 + 0.5 * (2.0 * phase + 1.1).cos()).powf(4.0);
+    let arm = (0.5 + 0.5 * phase.cos()).powf(2.2) + 0.35 * (0.5 + 0.5 * (2.0 * phase + 1.1).cos()).powf(4.0);
     // Dust lies where the gas is compressed: on the inner, leading side of each arm.
     let dust_arm = (0.5 + 0.5 * (phase - 0.85).cos()).powf(7.0);
     let grain = fractal(9.0 * x, 9.0 * y, 13);
@@ -93,9 +76,7 @@ fn galaxy_light(x: f32, y: f32) -> [f32; 3] {
     let (along, across) = (x * 0.8 + y * 0.6, y * 0.8 - x * 0.6);
     let bar = 0.35 * (-(along / 0.16).powi(2) - (across / 0.05).powi(2)).exp();
     let inside_arms = smooth(0.06, 0.2, radius);
-    let dust = 1.0
-        - 0.8
-            * (dust_arm * inside_arms * smooth(0.85, 0.3, radius) * (0.45 + 0.9 * grain)).min(1.0);
+    let dust = 1.0 - 0.8 * (dust_arm * inside_arms * smooth(0.85, 0.3, radius) * (0.45 + 0.9 * grain)).min(1.0);
 
     let old = 0.34 * disk * (0.35 + 0.75 * arm) * dust + (core + bar) * (0.35 + 0.65 * dust);
     let clumps = (0.25 + 1.5 * grain * grain) * (0.5 + fine);
@@ -130,8 +111,7 @@ fn spots(x: f32, y: f32, cells: f32, seed: u32) -> f32 {
             let turn = TAU * hash(cx, cy, seed + 100);
             let away = 0.3 * hash(cx, cy, seed + 200);
             let spread = 0.10 + 0.22 * hash(cx, cy, seed + 300);
-            let distance = (gx - cx as f32 - 0.5 - away * turn.cos())
-                .hypot(gy - cy as f32 - 0.5 - away * turn.sin());
+            let distance = (gx - cx as f32 - 0.5 - away * turn.cos()).hypot(gy - cy as f32 - 0.5 - away * turn.sin());
             light += (strength - 0.72) * 3.5 * (-(distance / spread).powi(2)).exp();
         }
     }
@@ -144,12 +124,7 @@ fn fractal(x: f32, y: f32, seed: u32) -> f32 {
     for octave in 0..5 {
         // Each octave is turned, so that the grids do not show.
         let (sine, cosine) = (0.6 * octave as f32 + PI / 7.0).sin_cos();
-        total += weight
-            * noise(
-                scale * (x * cosine - y * sine),
-                scale * (x * sine + y * cosine),
-                seed + octave,
-            );
+        total += weight * noise(scale * (x * cosine - y * sine), scale * (x * sine + y * cosine), seed + octave);
         (weight, scale) = (weight / 2.0, scale * 2.0);
     }
     total / 0.968_75
@@ -166,9 +141,7 @@ fn noise(x: f32, y: f32, seed: u32) -> f32 {
 
 /// A number in [0, 1) from a grid point: the avalanche steps of a 32-bit integer hash.
 fn hash(x: i32, y: i32, seed: u32) -> f32 {
-    let mut h = (x as u32).wrapping_mul(0x9E37_79B1)
-        ^ (y as u32).wrapping_mul(0x85EB_CA77)
-        ^ seed.wrapping_mul(0xC2B2_AE3D);
+    let mut h = (x as u32).wrapping_mul(0x9E37_79B1) ^ (y as u32).wrapping_mul(0x85EB_CA77) ^ seed.wrapping_mul(0xC2B2_AE3D);
     h = (h ^ (h >> 15)).wrapping_mul(0x2C1B_3C6D);
     h = (h ^ (h >> 12)).wrapping_mul(0x297A_2D39);
     h ^= h >> 15;

@@ -46,10 +46,7 @@ pub struct AssistSettings {
 impl From<&GameConfig> for AssistSettings {
     fn from(config: &GameConfig) -> Self {
         let assist = &config.assist;
-        AssistSettings {
-            damping_time: assist.damping_time,
-            avoid_radius: assist.avoid_hole.then_some(assist.avoid_radius),
-        }
+        AssistSettings { damping_time: assist.damping_time, avoid_radius: assist.avoid_hole.then_some(assist.avoid_radius) }
     }
 }
 
@@ -67,24 +64,12 @@ const LOOK_AHEAD: (f64, usize) = (12.0, 24);
 
 /// The command without assist: the sticks as they are.
 pub fn direct(stick: &Stick, engine: &Engine) -> Command {
-    let stick = Stick {
-        thrust: stick.thrust.clamp(DVec3::NEG_ONE, DVec3::ONE),
-        turn: stick.turn.clamp(DVec3::NEG_ONE, DVec3::ONE),
-    };
-    Command {
-        thrust: (stick.thrust * engine.max_thrust).clamp_length_max(engine.max_thrust),
-        rates: stick.turn * engine.max_rate,
-    }
+    let stick = Stick { thrust: stick.thrust.clamp(DVec3::NEG_ONE, DVec3::ONE), turn: stick.turn.clamp(DVec3::NEG_ONE, DVec3::ONE) };
+    Command { thrust: (stick.thrust * engine.max_thrust).clamp_length_max(engine.max_thrust), rates: stick.turn * engine.max_rate }
 }
 
 /// The command with assist. Where the stick rests, drift sideways and backwards fades; forward motion is kept, so that the nose steers.
-pub fn assisted(
-    state: &ShipState,
-    stick: &Stick,
-    engine: &Engine,
-    reference: Reference,
-    settings: &AssistSettings,
-) -> Assisted {
+pub fn assisted(state: &ShipState, stick: &Stick, engine: &Engine, reference: Reference, settings: &AssistSettings) -> Assisted {
     let mut command = direct(stick, engine);
     let to_body = state.attitude.conjugate();
     let drift = to_body * drift(state, reference);
@@ -96,9 +81,7 @@ pub fn assisted(
         }
     }
     command.thrust = command.thrust.clamp_length_max(engine.max_thrust);
-    let avoiding = settings
-        .avoid_radius
-        .is_some_and(|radius| falls_below(state, radius));
+    let avoiding = settings.avoid_radius.is_some_and(|radius| falls_below(state, radius));
     if avoiding {
         let away = Point::from(state).from_local(DVec3::new(0.6, 0.8, 0.0));
         command.thrust = to_body * away * engine.max_thrust;

@@ -110,10 +110,7 @@ pub struct SimSchedulePlugin;
 
 impl Plugin for SimSchedulePlugin {
     fn build(&self, app: &mut App) {
-        app.configure_sets(
-            FixedUpdate,
-            (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).chain(),
-        );
+        app.configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).chain());
     }
 }
 

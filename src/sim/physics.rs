@@ -23,16 +23,8 @@ impl Plugin for ShipPhysicsPlugin {
     }
 }
 
-type Flying<'a> = (
-    &'a Ship,
-    &'a mut ShipMotion,
-    &'a mut Fuel,
-    &'a mut History,
-    &'a Controls,
-    &'a Engine,
-    &'a Programme,
-    Has<CrossedHorizon>,
-);
+type Flying<'a> =
+    (&'a Ship, &'a mut ShipMotion, &'a mut Fuel, &'a mut History, &'a Controls, &'a Engine, &'a Programme, Has<CrossedHorizon>);
 
 /// Flies every ship that has not ended from `clock.time` to the next step, adding the substeps to its history.
 pub fn integrate_ships(

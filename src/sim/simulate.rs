@@ -3,11 +3,11 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
-use bevy::ecs::schedule::SingleThreadedExecutor;
-use bevy::prelude::*;
 use crate::scene::ship::Ai;
 use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
+use bevy::ecs::schedule::SingleThreadedExecutor;
+use bevy::prelude::*;
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
@@ -154,9 +154,7 @@ fn due_time(row: u64, every: f64, until: f64) -> f64 {
 type Departures = (f64, Vec<Flight>);
 
 fn departures(world: &World) -> Departures {
-    let flight = |&entity: &Entity| {
-        Some(Flight { state: world.get::<ShipMotion>(entity)?.0, fuel: world.get::<Fuel>(entity)?.left })
-    };
+    let flight = |&entity: &Entity| Some(Flight { state: world.get::<ShipMotion>(entity)?.0, fuel: world.get::<Fuel>(entity)?.left });
     (world.resource::<Clock>().time, world.resource::<Fleet>().0.iter().filter_map(flight).collect())
 }
 

@@ -143,13 +143,7 @@ pub fn step(state: &ShipState, h: f64, thrust: DVec3, rates: DVec3) -> ShipState
 }
 
 /// As [`step`], calling `visit(elapsed, state)` after every substep, and returning also how much of `h` was really covered.
-pub fn step_until(
-    state: &ShipState,
-    h: f64,
-    thrust: DVec3,
-    rates: DVec3,
-    mut visit: impl FnMut(f64, &ShipState),
-) -> (ShipState, f64) {
+pub fn step_until(state: &ShipState, h: f64, thrust: DVec3, rates: DVec3, mut visit: impl FnMut(f64, &ShipState)) -> (ShipState, f64) {
     let mut now = *state;
     let mut elapsed = 0.0;
     while elapsed != h && !has_ended(&now) {

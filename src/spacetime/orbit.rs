@@ -35,7 +35,9 @@ pub enum OrbitError {
         radius: f64,
     },
     /// Periapsis under the unstable orbit, or not a bound ellipse.
-    #[error("an eccentric orbit needs 0 <= eccentricity < 1 and semi_latus_rectum >= 3 + eccentricity r_s, not eccentricity {eccentricity}, semi_latus_rectum {semi_latus_rectum}")]
+    #[error(
+        "an eccentric orbit needs 0 <= eccentricity < 1 and semi_latus_rectum >= 3 + eccentricity r_s, not eccentricity {eccentricity}, semi_latus_rectum {semi_latus_rectum}"
+    )]
     Eccentric {
         /// The semi-latus rectum asked for, in r_s.
         semi_latus_rectum: f64,

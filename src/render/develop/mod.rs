@@ -79,7 +79,9 @@ impl Develop {
         let views = std::iter::once(&targets.picture).chain(&targets.bloom);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.texture_layout, &[TextureView(&targets.thin)]),
-            sampled: views.map(|view| bind(device, "sampled", &self.sampled_layout, &[TextureView(view), Sampler(&self.sampler)])).collect(),
+            sampled: views
+                .map(|view| bind(device, "sampled", &self.sampled_layout, &[TextureView(view), Sampler(&self.sampler)]))
+                .collect(),
             meter: bind(device, "meter", &self.meter_layout, &[TextureView(&targets.bloom[targets.meter_level()])]),
             develop: bind(
                 device,

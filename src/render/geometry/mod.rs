@@ -83,12 +83,8 @@ impl Geometry {
             &[Read, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
-        let draw_layout = layout(
-            device,
-            "draw",
-            ShaderStages::VERTEX_FRAGMENT,
-            &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read],
-        );
+        let draw_layout =
+            layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
         let groups = [Some(frame_layout), Some(&group_layout)];
         let stage = |label, pass| compute(device, label, pass, "main", &groups);
         let with_arguments = [Some(frame_layout), Some(&group_layout), Some(&arguments_layout)];
@@ -226,10 +222,9 @@ impl Geometry {
             let resources: Vec<_> = all.iter().map(|buffer| buffer.as_entire_binding()).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });
-        let textures = models.texture.create_view(&wgpu::TextureViewDescriptor {
-            dimension: Some(wgpu::TextureViewDimension::D2Array),
-            ..Default::default()
-        });
+        let textures = models
+            .texture
+            .create_view(&wgpu::TextureViewDescriptor { dimension: Some(wgpu::TextureViewDimension::D2Array), ..Default::default() });
         let draw = bind(
             device,
             "draw",
@@ -344,4 +339,3 @@ impl Geometry {
         &self.indices
     }
 }
-

@@ -31,12 +31,15 @@ impl Background {
             view_formats: &[],
         });
         for (mip, (width, height, pixels)) in milky_way.iter().enumerate() {
-            let halves: Vec<[u16; 4]> = pixels
-                .iter()
-                .map(|rgb| [half_bits(rgb[0]), half_bits(rgb[1]), half_bits(rgb[2]), half_bits(1.0)])
-                .collect();
+            let halves: Vec<[u16; 4]> =
+                pixels.iter().map(|rgb| [half_bits(rgb[0]), half_bits(rgb[1]), half_bits(rgb[2]), half_bits(1.0)]).collect();
             gpu.queue.write_texture(
-                wgpu::TexelCopyTextureInfo { texture: &texture, mip_level: mip as u32, origin: wgpu::Origin3d::ZERO, aspect: wgpu::TextureAspect::All },
+                wgpu::TexelCopyTextureInfo {
+                    texture: &texture,
+                    mip_level: mip as u32,
+                    origin: wgpu::Origin3d::ZERO,
+                    aspect: wgpu::TextureAspect::All,
+                },
                 bytemuck::cast_slice(&halves),
                 wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
                 wgpu::Extent3d { width: *width, height: *height, depth_or_array_layers: 1 },

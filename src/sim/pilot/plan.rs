@@ -156,7 +156,8 @@ fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
     let spent = burn.thrust.length() * burn.duration.min(task.horizon);
     let danger = if lowest < SAFE_RADIUS { 1000.0 + 100.0 * (SAFE_RADIUS - lowest) } else { 0.0 };
     // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
-    let unbound = if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
+    let unbound =
+        if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
     danger
         + unbound
         + fall_risk(&own, task.fuel - spent)
@@ -172,11 +173,7 @@ pub fn fall_risk(own: &Point, fuel_left: f64) -> f64 {
     let barrier = (1.0 - 1.0 / SAFE_RADIUS) * (1.0 + own.x.cross(own.p).length_squared() / (SAFE_RADIUS * SAFE_RADIUS));
     let leaves = energy >= 1.0 && own.x.dot(own.velocity()) > 0.0;
     let lacking = energy * energy - barrier;
-    if leaves || lacking < 0.0 {
-        0.0
-    } else {
-        lacking * FALL + if fuel_left < RESERVE { 500.0 } else { 0.0 }
-    }
+    if leaves || lacking < 0.0 { 0.0 } else { lacking * FALL + if fuel_left < RESERVE { 500.0 } else { 0.0 } }
 }
 
 /// How one who flees reckons the hunter: it thrusts towards the prey and brakes its sideways drift, but not into the hole.

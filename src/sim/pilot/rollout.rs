@@ -52,10 +52,7 @@ impl Point {
         let k2 = self.plus(0.5 * h, &k1).rate(acceleration);
         let k3 = self.plus(0.5 * h, &k2).rate(acceleration);
         let k4 = self.plus(h, &k3).rate(acceleration);
-        Point {
-            x: self.x + (k1.x + (k2.x + k3.x) * 2.0 + k4.x) * (h / 6.0),
-            p: self.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * (h / 6.0),
-        }
+        Point { x: self.x + (k1.x + (k2.x + k3.x) * 2.0 + k4.x) * (h / 6.0), p: self.p + (k1.p + (k2.p + k3.p) * 2.0 + k4.p) * (h / 6.0) }
     }
 
     /// The inverse of [`Point::from_local`].
