@@ -38,11 +38,17 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
-    // A short edge needs no measuring: seen under θ it bends by about θ²/8 over the radius of the image's curves, which is that of the ring
-    // (0.1 rad and more) unless the axis is near: 8 pixels bend by less than a tenth of one.
+    // A short edge needs no measuring. Away from the axis it bends for two reasons: aberration and delay are not linear, by θ²/8 at most for an
+    // edge seen under θ; and light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both are
+    // held under a quarter of the budget, the tide with another factor of 3 for the shear of images near the ring.
     let seen_under = angle_between(from_apparent, to_apparent);
+    let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(across_plane(a.xyz)), length(across_plane(b.xyz)));
-    let short = seen_under < 2.0 * frame.size.w || (seen_under < 8.0 * frame.size.z && nearest > 4.0 * distance(a.xyz, b.xyz));
+    let least_radius = min(frame.radial.w, length(frame.radial.xyz * frame.radial.w + a.xyz));
+    let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
+    let quarter = 0.25 * frame.size.w;
+    let small = seen_under < 8.0 * frame.size.z || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let short = seen_under < 2.0 * frame.size.w || (small && nearest > 4.0 * edge_length);
     if radial || !short {
         let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
         let q = model_vertices[placement.vertices.x + edge.y].position.xyz;

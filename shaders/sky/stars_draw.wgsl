@@ -8,9 +8,8 @@ struct Spot {
     @location(1) @interpolate(flat) colour: vec3<f32>,
 }
 
-/// Half the side of the square and standard deviation of the spot, in pixels. 0.7 is the narrowest Gaussian whose light, sampled at pixel
+/// Standard deviation of the spot, in pixels. 0.7 is the narrowest Gaussian whose light, sampled at pixel
 /// centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
-const SPOT_HALF: f32 = 2.5;
 const SPOT_SIGMA: f32 = 0.7;
 
 @vertex
@@ -18,7 +17,7 @@ fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32)
     let star = seen_stars[instance];
     let corners = array<vec2<f32>, 6>(vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, -1.0), vec2<f32>(1.0, 1.0),
         vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, 1.0), vec2<f32>(-1.0, 1.0));
-    let corner = corners[i] * SPOT_HALF;
+    let corner = corners[i] * star.place.z;
     // A depth just nearer than the sky's: everything solid hides it.
     return Spot(vec4<f32>(star.place.xy + corner * 2.0 / frame.size.xy, 1e-12, 1.0), corner, star.colour.rgb);
 }

@@ -55,9 +55,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     // dΩ_camera/dΩ_sky = (sinψ dψ)/(sinΦ dΦ) / D²; dψ/dΦ = gap · ds/dΦ.
     let magnification = sin(psi) * gap * s.y / max(sin_phi, STAR_DISC) / (doppler * doppler);
     let flux = star.direction.w * magnification * frame.light.y;
-    // Too faint to change a pixel of the developed picture, whatever its colour: a five-hundredth of full scale, with room for the shift.
+    // Too faint to change a pixel of the developed picture: the peak of a spot is a third of its light, so this is under one step of 8 bits.
     let g = sky_ratio(cos(psi), doppler);
-    if flux * max(g * g * g * g, 1.0) * adaptation.x < 2e-3 {
+    if flux * max(g * g * g * g, 1.0) * adaptation.x < 1e-2 {
         return;
     }
     let flags = frame.switches.x;
@@ -74,5 +74,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         atomicSub(&star_draw.instances, 1u);
         return;
     }
-    seen_stars[slot] = SeenStar(vec4<f32>(ndc, 0.0, 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
+    seen_stars[slot] = SeenStar(vec4<f32>(ndc, select(2.5, 1.5, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
 }
