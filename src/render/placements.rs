@@ -102,8 +102,9 @@ const THIN: u32 = 4;
 /// Images narrower than this are drawn as thin ones, in pixels: from here down single triangles would miss pixel centres.
 const THIN_PIXELS: f64 = 2.0;
 
-/// Images of order 2 and 3 narrower than this are not drawn: as a line a pixel wide they would cover a hundredth of it.
-const LEAST_PIXELS: f64 = 0.01;
+/// Images of order 2 and 3 narrower than this are not drawn: a line a pixel wide, of which they cover a twentieth, is lost among the stars that
+/// crowd at the edge of the shadow. The stages of geometry would take longer over such a line than over the ship itself.
+const LEAST_PIXELS: f64 = 0.05;
 /// Images narrower than this show the coarse model: its cells (a sixth of the object) are then a pixel wide.
 const COARSE_PIXELS: f64 = 6.0;
 
