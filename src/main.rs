@@ -162,10 +162,12 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "game")]
 fn run_shot(args: &ShotArgs) -> ExitCode {
+    use lensrunner::render::readback::PictureError;
     use lensrunner::render::shot::{Request, ShotError, shot_to_file};
     let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
         Ok(()) => ExitCode::SUCCESS,
+        Err(error @ ShotError::Picture(PictureError::Format(_))) => fail(&error, 2),
         Err(error @ (ShotError::Device(_) | ShotError::Picture(_))) => fail(&error, 1),
         Err(error) => fail(&error, 2),
     }
