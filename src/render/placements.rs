@@ -98,7 +98,7 @@ const TWO_SIDED: u32 = 1;
 /// Held in place; as in shaders/types.wgsl.
 const HELD: u32 = 2;
 /// A thin image; as in shaders/types.wgsl.
-const THIN: u32 = 4;
+pub const THIN: u32 = 4;
 /// Images narrower than this are drawn as thin ones, in pixels: from here down single triangles would miss pixel centres.
 const THIN_PIXELS: f64 = 2.0;
 

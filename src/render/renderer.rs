@@ -197,18 +197,20 @@ impl Renderer {
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
         }
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("thin"),
-                color_attachments: &[Some(colour(&self.targets.thin, true))],
-                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
-                timestamp_writes: self.timing.render("thin"),
-                ..Default::default()
-            });
-            pass.set_bind_group(0, group, &[]);
-            geometry.draw_thin(&mut pass);
+        if geometry.has_thin() {
+            {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("thin"),
+                    color_attachments: &[Some(colour(&self.targets.thin, true))],
+                    depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render("thin"),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                geometry.draw_thin(&mut pass);
+            }
+            self.develop.compose(encoder, group, &self.targets);
         }
-        self.develop.compose(encoder, group, &self.targets);
         self.develop.run(encoder, group, &self.targets, output);
         self.timing.end(encoder);
     }

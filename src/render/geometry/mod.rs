@@ -9,7 +9,7 @@ use super::Gpu;
 use super::frame::Capacity;
 use super::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use super::models::Models;
-use super::placements::Placed;
+use super::placements::{Placed, THIN};
 use super::shaders::Pass;
 use super::types::{self, Chunk, Counters, Placement, SeenVertex};
 
@@ -48,7 +48,7 @@ pub struct Geometry {
     arguments_group: wgpu::BindGroup,
     sampler: wgpu::Sampler,
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
-    base_vertices: u32,
+    has_thin: bool,
     capacity: Capacity,
 }
 
@@ -145,9 +145,14 @@ impl Geometry {
             arguments_group,
             sampler,
             groups: None,
-            base_vertices: 0,
+            has_thin: false,
             capacity: SPARE,
         }
+    }
+
+    /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
+    pub fn has_thin(&self) -> bool {
+        self.has_thin
     }
 
     /// Room in the buffers, as the shaders are told.
@@ -180,7 +185,7 @@ impl Geometry {
             edges += model.edges[1];
             placements.push(placement);
         }
-        self.base_vertices = vertices;
+        self.has_thin = placements.iter().any(|placement| placement.triangles[3] & THIN != 0);
         self.capacity = Capacity { vertices: vertices + SPARE.vertices, ..SPARE };
         let device = &gpu.device;
         let mut replaced = self.placements.write(gpu, &placements);
