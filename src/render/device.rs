@@ -58,7 +58,7 @@ impl Gpu {
     /// Opens the best adapter there is, a software one if need be.
     pub fn headless() -> Result<Gpu, DeviceError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let adapter = block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
+        let adapter = wait(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
         }))
@@ -69,7 +69,7 @@ impl Gpu {
             return Err(DeviceError::TooSmall { adapter: info.name, needs });
         }
         let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_FILTERABLE;
-        let (device, queue) = block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+        let (device, queue) = wait(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lensrunner"),
             required_features: adapter.features() & optional,
             required_limits: limits,
@@ -81,11 +81,6 @@ impl Gpu {
 }
 
 /// Waits for a future that wgpu completes at once on native platforms.
-/// Waits for a future that wgpu completes at once on native platforms.
 pub fn wait<T>(future: impl Future<Output = T>) -> T {
-    block_on(future)
-}
-
-fn block_on<T>(future: impl Future<Output = T>) -> T {
     bevy::tasks::block_on(future)
 }
