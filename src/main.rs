@@ -29,6 +29,36 @@ enum Command {
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
+    /// Measures: speed and accuracy side by side.
+    #[command(subcommand)]
+    Chart(ChartCommand),
+}
+
+#[derive(Subcommand)]
+enum ChartCommand {
+    #[cfg(feature = "game")]
+    Frame(FrameArgs),
+}
+
+/// Times whole frames of scenes, and each pass of them.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct FrameArgs {
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Frames of each scene.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    frames: u32,
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
 }
 
 /// Draws one picture of a scene, without a window.
@@ -157,19 +187,45 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
+        Some(Command::Chart(chart)) => match chart {
+            #[cfg(feature = "game")]
+            ChartCommand::Frame(args) => run_chart_frame(args),
+        },
+    }
+}
+
+#[cfg(feature = "game")]
+fn run_chart_frame(args: FrameArgs) -> ExitCode {
+    use lensrunner::render::bench;
+    let config = match args.config.as_deref().map(scene::config::load).transpose() {
+        Ok(config) => config.unwrap_or_default(),
+        Err(error) => return fail(&error, 2),
+    };
+    let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at };
+    match bench::run(&request, &config, &mut io::stdout().lock()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail_shot(&error),
     }
 }
 
 #[cfg(feature = "game")]
 fn run_shot(args: &ShotArgs) -> ExitCode {
-    use lensrunner::render::readback::PictureError;
-    use lensrunner::render::shot::{Request, ShotError, shot_to_file};
+    use lensrunner::render::shot::{Request, shot_to_file};
     let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error @ ShotError::Picture(PictureError::Format(_))) => fail(&error, 2),
-        Err(error @ (ShotError::Device(_) | ShotError::Picture(_))) => fail(&error, 1),
-        Err(error) => fail(&error, 2),
+        Err(error) => fail_shot(&error),
+    }
+}
+
+#[cfg(feature = "game")]
+fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
+    use lensrunner::render::readback::PictureError;
+    use lensrunner::render::shot::ShotError;
+    match error {
+        ShotError::Picture(PictureError::Format(_)) => fail(error, 2),
+        ShotError::Device(_) | ShotError::Picture(_) => fail(error, 1),
+        _ => fail(error, 2),
     }
 }
 
