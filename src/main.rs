@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
+use lensrunner::measure::{chart, projection};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -29,21 +30,52 @@ enum Command {
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
-    /// Measures: speed and accuracy side by side.
     #[command(subcommand)]
     Chart(ChartCommand),
 }
 
+/// Measures and draws a chart of error against time: CSV, SVG and PNG.
 #[derive(Subcommand)]
 enum ChartCommand {
+    Projection(ChartProjectionArgs),
     #[cfg(feature = "game")]
-    Frame(FrameArgs),
+    Frame(ChartFrameArgs),
+}
+
+/// Where a chart goes.
+#[derive(Args)]
+struct ChartArgs {
+    /// The folder for CSV, SVG and PNG.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+    /// Draws again from the CSV in that folder, without measuring.
+    #[arg(long)]
+    redraw: bool,
+}
+
+impl From<ChartArgs> for chart::Output {
+    fn from(args: ChartArgs) -> Self {
+        Self { folder: args.output, redraw: args.redraw }
+    }
+}
+
+/// Every method of projection on the same adversarial points: error against time per lookup and against memory.
+#[derive(Args)]
+struct ChartProjectionArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Adversarial points for each method and image order.
+    #[arg(long, value_name = "N", default_value_t = 300_000)]
+    points: usize,
+    /// Seed of the points.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
 }
 
 /// Times whole frames of scenes, and each pass of them.
 #[cfg(feature = "game")]
 #[derive(Args)]
-struct FrameArgs {
+struct ChartFrameArgs {
     /// Scenes: TOML files, or names in assets/scenes.
     #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
     scene: Vec<String>,
@@ -188,6 +220,7 @@ fn main() -> ExitCode {
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Chart(chart)) => match chart {
+            ChartCommand::Projection(args) => run_chart_projection(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
         },
@@ -195,7 +228,7 @@ fn main() -> ExitCode {
 }
 
 #[cfg(feature = "game")]
-fn run_chart_frame(args: FrameArgs) -> ExitCode {
+fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
     use lensrunner::render::bench;
     let config = match args.config.as_deref().map(scene::config::load).transpose() {
         Ok(config) => config.unwrap_or_default(),
@@ -205,6 +238,22 @@ fn run_chart_frame(args: FrameArgs) -> ExitCode {
     match bench::run(&request, &config, &mut io::stdout().lock()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
+    }
+}
+
+fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
+    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
+    finish_chart(projection::run(&request))
+}
+
+/// Says what was written, or what went wrong.
+fn finish_chart<E: std::fmt::Display>(written: Result<Vec<PathBuf>, E>) -> ExitCode {
+    match written {
+        Ok(paths) => {
+            chart::announce(&paths);
+            ExitCode::SUCCESS
+        }
+        Err(error) => fail(&error, 1),
     }
 }
 

@@ -113,14 +113,24 @@ impl Develop {
             screen(encoder, timing.render("bloom"), "bloom down", view, true, &self.down, frame, &groups.sampled[level]);
         }
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: timing.compute("exposure") });
+            let mut pass = encoder
+                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: timing.compute("exposure") });
             pass.set_pipeline(&self.meter);
             pass.set_bind_group(0, frame, &[]);
             pass.set_bind_group(2, &groups.meter, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }
         for level in (1..targets.bloom.len()).rev() {
-            screen(encoder, timing.render("bloom"), "bloom up", &targets.bloom[level - 1], false, &self.up, frame, &groups.sampled[level + 1]);
+            screen(
+                encoder,
+                timing.render("bloom"),
+                "bloom up",
+                &targets.bloom[level - 1],
+                false,
+                &self.up,
+                frame,
+                &groups.sampled[level + 1],
+            );
         }
         screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
     }
