@@ -218,6 +218,11 @@ impl Follower {
         Some(segment)
     }
 
+    /// The energy of the light, in units of the frequency that a rain observer at the camera sees.
+    pub fn energy(&self) -> f64 {
+        self.state.energy()
+    }
+
     /// Φ∞ of a ray that has escaped, else None.
     pub fn sky_swept(&self) -> Option<f64> {
         (self.end == Some(End::Escaped)).then(|| self.swept + swept_beyond(&self.state))
