@@ -6,9 +6,11 @@
 //! - [`shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
 //! - [`picture`]: whole pictures of a scene, with a tree.
+//! - [`bvh`]: trees of boxes over what a scene holds, and straight rays through them.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
 
+pub mod bvh;
 pub mod geodesic;
 pub mod picture;
 pub mod ray;

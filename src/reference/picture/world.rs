@@ -85,7 +85,6 @@ pub struct World<'a> {
 }
 
 /// All triangles that are held in place, together.
-#[derive(Default)]
 pub(super) struct Held {
     pub vertices: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
@@ -109,7 +108,7 @@ pub(super) struct Flying {
 impl<'a> World<'a> {
     /// Builds the trees. `time` is T at the camera.
     pub fn new(models: &'a [Model], things: Vec<Thing<'a>>, time: f64, hole: bool) -> World<'a> {
-        let mut held = Held::default();
+        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: Tree::new(&[], &[]), radius: 0.0 };
         let mut flying = Vec::new();
         for (index, thing) in things.iter().enumerate() {
             let model = &models[thing.model];
