@@ -116,13 +116,8 @@ impl Case {
         let moment = Moment::new(&scene, &config, at, 0);
         let time = moment.time();
         let view = scene.camera.viewpoint(time, &moment.ships());
-        let camera = Camera {
-            position: view.position,
-            momentum: view.momentum,
-            attitude: view.attitude,
-            field_of_view: view.field_of_view,
-            size,
-        };
+        let camera =
+            Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
         for history in &mut histories {
             // Light from as far beyond the hole as the ship is before it, and some turns around.

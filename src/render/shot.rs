@@ -7,8 +7,8 @@ use bevy::log::warn;
 use thiserror::Error;
 
 use crate::lensing;
-use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
 pub use crate::scene::picture_size as size;
+use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
 pub use crate::sim::Moment;
 
 use super::readback::{Picture, PictureError};

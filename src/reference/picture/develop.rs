@@ -81,7 +81,7 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
             let glow = levels[0].sample(place / Vec2::new(size[0] as f32, size[1] as f32));
             let exposed = (picture.light[row * size[0] + column] + glow * how.bloom) * exposure;
             // Half a step of 8-bit noise against banding in the dark.
-            let noise = (52.982_918_9 * (place.dot(Vec2::new(0.067_110_56, 0.005_837_15))).fract()).fract() - 0.5;
+            let noise = (52.982_918 * (place.dot(Vec2::new(0.067_110_56, 0.005_837_15))).fract()).fract() - 0.5;
             let rgb = (tone_curve(exposed) + noise / 1024.0).max(Vec3::ZERO);
             bytes.extend(rgb.to_array().map(encode));
         }

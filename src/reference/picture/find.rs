@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
-use super::world::{Flying, Motion, Worldline, World};
+use super::world::{Flying, Motion, World, Worldline};
 use crate::reference::geodesic::{Segment, State, root};
 use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius, unwrap};
 use crate::reference::trace::Hit;

@@ -176,8 +176,12 @@ impl Painter<'_> {
             .collect();
         let grid = Grid { samples: &samples, columns, rows };
         let pixels = (width * (end - first)) as usize;
-        let mut band =
-            Band { light: Vec::with_capacity(pixels), layers: Vec::with_capacity(pixels), shares: Vec::new(), open: Vec::with_capacity(pixels) };
+        let mut band = Band {
+            light: Vec::with_capacity(pixels),
+            layers: Vec::with_capacity(pixels),
+            shares: Vec::new(),
+            open: Vec::with_capacity(pixels),
+        };
         let weight = 1.0 / (n * n) as f32;
         for y in 0..(end - first) as usize {
             for x in 0..width as usize {
