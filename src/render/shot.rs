@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::lensing;
 pub use crate::scene::picture_size as size;
-use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
+use crate::scene::{self, ConfigError, GameConfig, SceneError};
 pub use crate::sim::Moment;
 
 use super::readback::{Picture, PictureError};
