@@ -11,6 +11,7 @@ mod reference_trace;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+mod scene_aurora;
 mod scene_config;
 mod scene_files;
 mod scene_models;
