@@ -4,6 +4,7 @@ mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_aurora;
 mod measure_project;
 mod reference_oracles;
 mod reference_trace;
