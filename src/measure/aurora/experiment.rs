@@ -2,7 +2,6 @@
 //! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
 
 use std::hint::black_box;
-use std::io::{self, Write};
 use std::time::Instant;
 
 use glam::DVec3;
@@ -287,20 +286,4 @@ fn case(
             Row { view: name, method, count, radius: splat.radius, points, walk, splat: splat_ms, total, error }
         })
         .collect()
-}
-
-/// The header of the table.
-pub const HEADER: &str = "view,method,electrons,radius_km,points,walk_ms,splat_ms,total_ms,error";
-
-/// Writes the table as CSV.
-pub fn write_csv(rows: &[Row], out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "{HEADER}")?;
-    for row in rows {
-        writeln!(
-            out,
-            "{},{},{},{},{:.0},{:.4},{:.4},{:.4},{:.5}",
-            row.view, row.method, row.count, row.radius, row.points, row.walk, row.splat, row.total, row.error
-        )?;
-    }
-    Ok(())
 }

@@ -3,8 +3,9 @@
 //!
 //! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined. [`sheet`] says
 //! where electrons come down, [`eye`] how a point is projected (flat space, or bent by the lensing table), [`walk`] how luminous points
-//! come about, [`splat`] how they become a picture, [`truth`] what it should have been, [`experiment`] what all that took.
+//! come about, [`splat`] how they become a picture, [`truth`] what it should have been, [`experiment`] what all that took, [`chart`] the picture of it.
 
+pub mod chart;
 pub mod experiment;
 pub mod eye;
 pub mod sheet;

@@ -106,13 +106,13 @@ fn linear(eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, out: &mut Vec<Po
     let per_km = 1.0 / (TOP as f32 - streak.end_height);
     let losses = &falls.losses[streak.row as usize];
     let (mut height, mut astray) = (TOP as f32, [0.0f32; 2]);
-    for level in 0..LEVELS {
-        let part = (height - falls.heights[level]) * per_km;
-        height = falls.heights[level];
+    for (level, (&below, &loss)) in falls.heights.iter().zip(losses).enumerate() {
+        let part = (height - below) * per_km;
+        height = below;
         let [u, ja, jb] = randoms(key, level);
         astray[0] += ja * JITTER * part * length;
         astray[1] += jb * JITTER * part * length;
-        let count = (losses[level] * streak.collisions + u).floor();
+        let count = (loss * streak.collisions + u).floor();
         if count > 0.0 {
             let s = (TOP as f32 - height) * per_km;
             let scale = scale_a + (scale_b - scale_a) * s;
@@ -139,15 +139,15 @@ fn exact(eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, tolerance: f32, o
     let mut place = [[0.0f32; 4]; LEVELS];
     let (mut height, mut astray) = (TOP as f32, [0.0f32; 2]);
     let mut last = 0;
-    for level in 0..LEVELS {
-        let step = (height - falls.heights[level]) * JITTER;
-        height = falls.heights[level];
+    for (level, (&below, &loss)) in falls.heights.iter().zip(losses).enumerate() {
+        let step = (height - below) * JITTER;
+        height = below;
         let [u, ja, jb] = randoms(key, level);
         astray = [astray[0] + ja * step, astray[1] + jb * step];
-        place[level] = [astray[0], astray[1], (losses[level] * streak.collisions + u).floor(), (TOP as f32 - height) * per_km];
-        // Nothing is left below the level with a loss that is followed by none.
+        place[level] = [astray[0], astray[1], (loss * streak.collisions + u).floor(), (TOP as f32 - height) * per_km];
+        // Nothing is left below where the electron stops.
         last = level + 1;
-        if losses[level] == 0.0 && height < streak.end_height {
+        if height <= streak.end_height {
             break;
         }
     }
