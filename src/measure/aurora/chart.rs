@@ -90,7 +90,8 @@ pub fn draw(sheet: &Sheet) -> Figure {
     let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let middle = radii.get(radii.len() / 2).cloned().unwrap_or_default();
     let most = counts.last().cloned().unwrap_or_default();
-    let views: Vec<&str> = View::ALL.iter().map(|(_, name)| *name).filter(|name| distinct(sheet, "view").iter().any(|v| v == name)).collect();
+    let views: Vec<&str> =
+        View::ALL.iter().map(|(_, name)| *name).filter(|name| distinct(sheet, "view").iter().any(|v| v == name)).collect();
     let rows_of = |view: &str| sheet.rows.iter().filter(move |row| sheet.text(row, "view") == view).collect::<Vec<_>>();
     let times = |view: &&str| {
         let lines = methods.iter().map(|method| Line {
@@ -135,7 +136,9 @@ pub fn draw(sheet: &Sheet) -> Figure {
     };
     Figure {
         title: "Aurora: walks on the screen against particles in space".into(),
-        subtitle: "Means over the auroras; the same electrons and random numbers in every method. “bent” is seen through the lensing of a hole.".into(),
+        subtitle:
+            "Means over the auroras; the same electrons and random numbers in every method. “bent” is seen through the lensing of a hole."
+                .into(),
         panels: views.iter().map(times).chain(views.iter().map(errors)).collect(),
         columns: views.len().max(1),
         size: [1900, 1100],

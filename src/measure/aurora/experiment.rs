@@ -8,10 +8,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::eye::Eye;
+use super::lattice::Lattice;
 use super::sheet::{Falls, Sheet, Streak, field_direction};
 use super::splat::{Gaussian, Picture, Splat};
 use super::truth::Emission;
-use super::walk::{Method, Point, walk};
+use super::walk::{Method, Point, Walker};
 use crate::lensing::{Slice, Table};
 
 /// From where the auroras are seen.
@@ -122,14 +123,16 @@ const TASK: usize = 256;
 /// Draws `job` in the given way.
 pub fn draw(variant: Variant, job: &Job, gaussian: &Gaussian) -> Timed {
     let splat = Splat { table: variant.table, ..job.splat };
+    let start = Instant::now();
+    let lattice = (variant.method == Method::Exact).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
+    let walker = Walker { eye: job.eye, falls: job.falls, lattice: lattice.as_ref(), seed: job.seed };
     let walk_all = |streaks: &[Streak]| {
         let mut points: Vec<Point> = Vec::with_capacity(streaks.len() * 48);
         for streak in streaks {
-            walk(variant.method, job.eye, job.falls, streak, job.seed, TOLERANCE, &mut points);
+            walker.walk(variant.method, streak, &mut points);
         }
         points
     };
-    let start = Instant::now();
     let points: Vec<Vec<Point>> = if variant.threads {
         job.streaks.par_chunks(TASK).map(walk_all).collect()
     } else {
@@ -246,7 +249,8 @@ fn case(
         let streaks = sheet.streaks(count);
         let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed, splat };
         let mut found = Vec::new();
-        streaks.iter().for_each(|streak| walk(Method::Particles, eye, falls, streak, sheet.seed, TOLERANCE, &mut found));
+        let walker = Walker { eye, falls, lattice: None, seed: sheet.seed };
+        streaks.iter().for_each(|streak| walker.walk(Method::Particles, streak, &mut found));
         points += found.len() as f64 / sheets.len() as f64;
         let mut times = vec![Vec::new(); ways];
         let mut errors = vec![f64::NAN; ways];

@@ -19,6 +19,8 @@ pub const BOTTOM: f64 = 84.0;
 pub const FALLS: usize = 512;
 /// Reaches µR(E) of the first and last row, g cm⁻².
 const REACHES: [f64; 2] = [1e-8, 2e-2];
+/// How far astray an electron is at the lowest level, at most, km.
+pub const SWAY: f64 = 0.25;
 /// The magnetic latitude of the patch, radians: its field is inclined by 78°.
 const LATITUDE: f64 = 1.185;
 
@@ -33,8 +35,10 @@ pub fn level_height(k: usize) -> f64 {
 pub struct Falls {
     /// Heights of the levels, km, falling.
     pub heights: [f32; LEVELS],
-    /// For each row the share of the energy lost at each level.
-    pub losses: Vec<[f32; LEVELS]>,
+    /// For each row the share of the energy spent by the lower end of each level's layer.
+    pub spent: Vec<[f32; LEVELS]>,
+    /// How far collisions have led an electron astray at each level, km: as the square root of the path.
+    pub sway: [f32; LEVELS],
     /// Air overhead at the lower end of each level's layer, g cm⁻².
     pub overheads: [f64; LEVELS],
     /// Photons per collision by line at each level.
@@ -52,20 +56,12 @@ impl Falls {
             }
         };
         let overheads: [f64; LEVELS] = std::array::from_fn(|k| overhead(edge(k)));
-        let losses = (0..FALLS)
-            .map(|row| {
-                let mut before = 1.0;
-                std::array::from_fn(|k| {
-                    let after = fall::share_left(overheads[k], row_reach(row));
-                    let lost = before - after;
-                    before = after;
-                    lost as f32
-                })
-            })
-            .collect();
+        let spent = (0..FALLS).map(|row| std::array::from_fn(|k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32)).collect();
+        let sway = std::array::from_fn(|k| (SWAY * ((TOP - level_height(k)) / (TOP - BOTTOM)).sqrt()) as f32);
         Falls {
             heights: std::array::from_fn(|k| level_height(k) as f32),
-            losses,
+            spent,
+            sway,
             overheads,
             light: std::array::from_fn(|k| lines::photons(level_height(k)).map(|x| x as f32)),
         }

@@ -1,8 +1,12 @@
 //! The walks: from electrons to luminous points on the screen.
+//!
+//! Collisions are dealt out evenly: with one random number u for each electron, the collisions above a level are ⌊n·spent + u⌋. Their mean is
+//! exactly n·spent at every level, and the sum is n to within one collision, so no energy is lost or made.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 use super::eye::Eye;
+use super::lattice::Lattice;
 use super::sheet::{Falls, LEVELS, Streak, TOP, field_direction, row_reach};
 use crate::scene::aurora::fall;
 use crate::scene::aurora::random::hash;
@@ -14,7 +18,7 @@ pub enum Method {
     Particles,
     /// The paper's walk: end points are projected, everything between is linear on the screen.
     Linear,
-    /// End points are projected; the parameter in space is walked, homogeneous coordinates are interpolated.
+    /// Ends of chords are projected; the parameter in space is walked, homogeneous coordinates are interpolated.
     Exact,
 }
 
@@ -38,176 +42,161 @@ pub struct Point {
     pub level: u32,
 }
 
-/// Sidewards speed over speed along the field that collisions give, at most: a fall is off by a kilometre or so at its end.
-const JITTER: f32 = 0.01;
-
-/// Random numbers of one level of one electron: for the collisions, and two for going astray in [−1, 1).
-fn randoms(key: u32, level: usize) -> [f32; 3] {
-    let bits = hash(key.wrapping_add(level as u32));
-    let unit = 1.0 / 65_536.0;
-    // Sixteen bits for the collisions, eight for each direction of what is a small displacement.
-    [(bits >> 16) as f32 * unit, ((bits >> 8) & 255) as f32 * (2.0 / 256.0) - 1.0, (bits & 255) as f32 * (2.0 / 256.0) - 1.0]
+/// What all walks of a frame share.
+#[derive(Clone, Copy, Debug)]
+pub struct Walker<'a> {
+    /// The camera.
+    pub eye: &'a Eye,
+    /// The fall.
+    pub falls: &'a Falls,
+    /// Chords, for the exact walks; without it each streak has one, of its own.
+    pub lattice: Option<&'a Lattice>,
+    /// Which random numbers.
+    pub seed: u32,
 }
 
-/// The luminous points of one electron, by the method; points before the camera only. `tolerance` in pixels is the error allowed to the chords
-/// of the exact walk where light is bent.
-pub fn walk(method: Method, eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, tolerance: f32, out: &mut Vec<Point>) {
-    match method {
-        Method::Particles => particles(eye, falls, streak, seed, out),
-        Method::Linear => linear(eye, falls, streak, seed, out),
-        Method::Exact => exact(eye, falls, streak, seed, tolerance, out),
-    }
+/// The electron's own key, and the random number that deals out its collisions.
+fn key(streak: &Streak, seed: u32) -> (u32, f32) {
+    let key = hash(streak.id.wrapping_add(hash(seed)));
+    (key, (key >> 8) as f32 / 16_777_216.0)
+}
+
+/// Two numbers in [−1, 1) for the way astray at a level.
+fn astray(key: u32, level: usize) -> [f32; 2] {
+    let bits = hash(key.wrapping_add(level as u32 + 1));
+    [(bits >> 16) as f32 / 32_768.0 - 1.0, (bits & 65_535) as f32 / 32_768.0 - 1.0]
 }
 
 /// Two unit vectors across the field.
 fn across() -> [Vec3; 2] {
     let up = field_direction().as_vec3();
-    let east = Vec3::X;
-    [east, up.cross(east)]
+    [Vec3::X, up.cross(Vec3::X)]
 }
 
-/// The 3-D particle method: the position steps along the field and astray, the air there is looked up, and each luminous point is projected.
-fn particles(eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, out: &mut Vec<Point>) {
-    let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
-    let [e1, e2] = across();
-    let reach = row_reach(streak.row as usize);
-    let key = hash(streak.id.wrapping_add(hash(seed)));
-    let (mut height, mut position) = (TOP as f32, streak.top);
-    let mut left = 1.0;
-    for level in 0..LEVELS {
-        let step = height - falls.heights[level];
-        height = falls.heights[level];
-        let [u, a, b] = randoms(key, level);
-        position += along * step + (e1 * a + e2 * b) * (JITTER * step);
-        // What is left by the air overhead at this place.
-        let after = fall::share_left(falls.overheads[level], reach);
-        let count = ((left - after) as f32 * streak.collisions + u).floor();
-        left = after;
-        if count > 0.0 {
-            let apparent = eye.apparent(position);
-            if let Some([x, y]) = eye.screen(apparent) {
-                out.push(Point { x, y, scale: eye.focal * eye.scale() / -apparent.z, count, level: level as u32 });
+impl Walker<'_> {
+    /// Adds the luminous points of one electron, by the method; points before the camera only.
+    pub fn walk(&self, method: Method, streak: &Streak, out: &mut Vec<Point>) {
+        match method {
+            Method::Particles => self.particles(streak, out),
+            Method::Linear => self.linear(streak, out),
+            Method::Exact => self.exact(streak, out),
+        }
+    }
+
+    /// The 3-D particle method: the position steps along the field and astray, the energy left follows from the air there, and each luminous
+    /// point is projected.
+    fn particles(&self, streak: &Streak, out: &mut Vec<Point>) {
+        let Walker { eye, falls, .. } = *self;
+        let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
+        let [e1, e2] = across();
+        let reach = row_reach(streak.row as usize);
+        let (key, u) = key(streak, self.seed);
+        let mut before = u as i32;
+        for level in 0..LEVELS {
+            let left = fall::share_left(falls.overheads[level], reach);
+            let now = ((1.0 - left) as f32 * streak.collisions + u) as i32;
+            if now > before {
+                let [a, b] = astray(key, level);
+                let sway = falls.sway[level];
+                let position = streak.top + along * (TOP as f32 - falls.heights[level]) + (e1 * a + e2 * b) * sway;
+                let apparent = eye.apparent(position);
+                if let Some([x, y]) = eye.screen(apparent) {
+                    let scale = eye.focal * eye.scale() / -apparent.z;
+                    out.push(Point { x, y, scale, count: (now - before) as f32, level: level as u32 });
+                }
+                before = now;
+            }
+            if left <= 0.0 {
+                break;
             }
         }
-        if after <= 0.0 {
-            break;
-        }
     }
-}
 
-/// Equations 3 to 5 of the paper: equal parts of the fall are equal parts of the screen distance; radius and depth likewise.
-fn linear(eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, out: &mut Vec<Point>) {
-    let (a, b) = (eye.apparent(streak.top), eye.apparent(streak.end));
-    let (Some(p), Some(q)) = (eye.screen(a), eye.screen(b)) else { return };
-    let (scale_a, scale_b) = (eye.focal * eye.scale() / -a.z, eye.focal * eye.scale() / -b.z);
-    let step = [q[0] - p[0], q[1] - p[1]];
-    let length = step[0].hypot(step[1]);
-    let key = hash(streak.id.wrapping_add(hash(seed)));
-    let per_km = 1.0 / (TOP as f32 - streak.end_height);
-    let losses = &falls.losses[streak.row as usize];
-    let (mut height, mut astray) = (TOP as f32, [0.0f32; 2]);
-    for (level, (&below, &loss)) in falls.heights.iter().zip(losses).enumerate() {
-        let part = (height - below) * per_km;
-        height = below;
-        let [u, ja, jb] = randoms(key, level);
-        astray[0] += ja * JITTER * part * length;
-        astray[1] += jb * JITTER * part * length;
-        let count = (loss * streak.collisions + u).floor();
-        if count > 0.0 {
+    /// Equations 3 to 5 of the paper: equal parts of the fall are equal parts of the screen distance; radius and depth likewise.
+    fn linear(&self, streak: &Streak, out: &mut Vec<Point>) {
+        let eye = self.eye;
+        let (a, b) = (eye.apparent(streak.top), eye.apparent(streak.end));
+        let (Some(p), Some(q)) = (eye.screen(a), eye.screen(b)) else { return };
+        let (scale_a, scale_b) = (eye.focal * eye.scale() / -a.z, eye.focal * eye.scale() / -b.z);
+        let step = [q[0] - p[0], q[1] - p[1]];
+        let per_km = 1.0 / (TOP as f32 - streak.end_height);
+        // The way astray is measured by the streak's length on the screen, as in equation 4, so it is not foreshortened.
+        let sway = step[0].hypot(step[1]) * per_km;
+        self.collide(streak, |key, level, height, count| {
+            let [ja, jb] = astray(key, level);
             let s = (TOP as f32 - height) * per_km;
-            let scale = scale_a + (scale_b - scale_a) * s;
-            out.push(Point { x: p[0] + step[0] * s + astray[0], y: p[1] + step[1] * s + astray[1], scale, count, level: level as u32 });
-        }
+            let away = self.falls.sway[level] * sway;
+            let (x, y) = (p[0] + step[0] * s + ja * away, p[1] + step[1] * s + jb * away);
+            out.push(Point { x, y, scale: scale_a + (scale_b - scale_a) * s, count, level: level as u32 });
+        });
     }
-}
 
-/// Most chords of one streak.
-const MOST_CHORDS: usize = 8;
+    /// Between two projected ends the homogeneous coordinates are linear in height: one reciprocal a step. In flat space that is the projection
+    /// itself; where light is bent, the lattice has chords enough.
+    fn exact(&self, streak: &Streak, out: &mut Vec<Point>) {
+        let mut project = self.projector(streak);
+        self.collide(streak, |key, level, height, count| {
+            if let Some([x, y, scale]) = project(key, level, height) {
+                out.push(Point { x, y, scale, count, level: level as u32 });
+            }
+        });
+    }
 
-/// Between two projected ends the homogeneous coordinates are linear in height: one reciprocal a step. In flat space that is the projection
-/// itself; where light is bent, the streak is halved into chords until the middle of each is within the tolerance.
-fn exact(eye: &Eye, falls: &Falls, streak: &Streak, seed: u32, tolerance: f32, out: &mut Vec<Point>) {
-    let mut ends = [(0.0f32, Vec3::ZERO); MOST_CHORDS + 1];
-    let count = chords(eye, streak, tolerance, &mut ends);
-    // Apparent places that are not finite are not drawn: the lookup has no ray there.
-    let key = hash(streak.id.wrapping_add(hash(seed)));
-    let losses = &falls.losses[streak.row as usize];
-    let [e1, e2] = across().map(|e| eye.direction(e));
-    let per_km = 1.0 / (TOP as f32 - streak.end_height);
-    let (half, focal, scale, near) = (eye.size.map(|side| 0.5 * side as f32), eye.focal, eye.scale(), eye.near());
-    // How far astray by level, in km, before anything is projected: sums of the same numbers that the particle method adds up.
-    let mut place = [[0.0f32; 4]; LEVELS];
-    let (mut height, mut astray) = (TOP as f32, [0.0f32; 2]);
-    let mut last = 0;
-    for (level, (&below, &loss)) in falls.heights.iter().zip(losses).enumerate() {
-        let step = (height - below) * JITTER;
-        height = below;
-        let [u, ja, jb] = randoms(key, level);
-        astray = [astray[0] + ja * step, astray[1] + jb * step];
-        place[level] = [astray[0], astray[1], (loss * streak.collisions + u).floor(), (TOP as f32 - height) * per_km];
-        // Nothing is left below where the electron stops.
-        last = level + 1;
-        if height <= streak.end_height {
-            break;
+    /// From height to (x, y, pixels per km), for levels in falling order; None before the nearest depth and for what is not a number.
+    fn projector(&self, streak: &Streak) -> impl FnMut(u32, usize, f32) -> Option<[f32; 3]> + use<'_> {
+        let Walker { eye, lattice, falls, .. } = *self;
+        let [e1, e2] = across().map(|e| eye.direction(e));
+        let (half, focal, scale, near) = (eye.size.map(|side| 0.5 * side as f32), eye.focal, eye.scale(), eye.near());
+        let top = Vec2::new(streak.top.x, streak.top.y);
+        let lattice = lattice.filter(|_| eye.bent.is_some());
+        let chord_length =
+            lattice.map_or(TOP as f32 - streak.end_height, |lattice| (TOP as f32 - lattice.foot()) / lattice.chords() as f32);
+        let (mut start, mut stop) = match lattice {
+            Some(lattice) => (lattice.end(top, 0), lattice.end(top, 1)),
+            None => (eye.apparent(streak.top), eye.apparent(streak.end)),
+        };
+        let sway = &falls.sway;
+        let mut chord = 0;
+        let mut high = TOP as f32;
+        move |key, level, height| {
+            while high - height > chord_length && lattice.is_some_and(|lattice| chord + 2 <= lattice.chords()) {
+                chord += 1;
+                high -= chord_length;
+                (start, stop) = (stop, lattice.map_or(stop, |lattice| lattice.end(top, chord + 1)));
+            }
+            let [a, b] = astray(key, level);
+            let c = start + (stop - start) * ((high - height) / chord_length) + (e1 * a + e2 * b) * sway[level];
+            let depth = -c.z;
+            // Also false for what is not a number.
+            (depth > near).then(|| {
+                let f = focal / depth;
+                [half[0] + f * c.x, half[1] - f * c.y, f * scale]
+            })
         }
     }
-    let mut chord = 0;
-    for (level, &[a, b, hits, s]) in place[..last].iter().enumerate() {
-        if hits <= 0.0 {
-            continue;
-        }
-        while chord + 2 < count && s > ends[chord + 1].0 {
-            chord += 1;
-        }
-        let (s0, c0) = ends[chord];
-        let (s1, c1) = ends[chord + 1];
-        let c = c0 + (c1 - c0) * ((s - s0) / (s1 - s0)) + e1 * a + e2 * b;
-        let depth = -c.z;
-        // Also false for what is not a number.
-        if depth > near {
-            let f = focal / depth;
-            out.push(Point { x: half[0] + f * c.x, y: half[1] - f * c.y, scale: f * scale, count: hits, level: level as u32 });
-        }
-    }
-}
 
-/// The ends of the chords, (share of the way from top to end, apparent place), and how many there are.
-fn chords(eye: &Eye, streak: &Streak, tolerance: f32, ends: &mut [(f32, Vec3); MOST_CHORDS + 1]) -> usize {
-    let at = |s: f32| eye.apparent(streak.top + (streak.end - streak.top) * s);
-    ends[0] = (0.0, at(0.0));
-    if eye.bent.is_none() {
-        ends[1] = (1.0, at(1.0));
-        return 2;
+    /// Calls `at` with key, level, height and number of collisions for each level that has any.
+    fn collide(&self, streak: &Streak, mut at: impl FnMut(u32, usize, f32, f32)) {
+        let (key, u) = key(streak, self.seed);
+        let spent = &self.falls.spent[streak.row as usize];
+        // All levels at once, so that the compiler can take several together.
+        let mut sums = [0i32; LEVELS];
+        for (sum, &spent) in sums.iter_mut().zip(spent) {
+            *sum = (spent * streak.collisions + u) as i32;
+        }
+        // Which levels have any, without a branch that could be guessed wrong.
+        let mut found = [0u16; LEVELS + 1];
+        let (mut length, mut before) = (0, u as i32);
+        for (level, &now) in sums.iter().enumerate() {
+            found[length] = level as u16;
+            length += usize::from(now > before);
+            before = now;
+        }
+        let mut before = u as i32;
+        for &level in &found[..length] {
+            let level = usize::from(level);
+            at(key, level, self.falls.heights[level], (sums[level] - before) as f32);
+            before = sums[level];
+        }
     }
-    // The middle is projected in any case: it is the measure of the error, and an end of two chords where the error is too large.
-    let (a, middle, b) = (ends[0].1, at(0.5), at(1.0));
-    let mut pieces = 1;
-    let mut error = bend(eye, a, middle, b);
-    while pieces < MOST_CHORDS && !(error <= tolerance) {
-        pieces *= 2;
-        // A smooth curve's error falls as the square of the chord.
-        error *= 0.25;
-    }
-    for k in 1..=pieces {
-        let s = k as f32 / pieces as f32;
-        ends[k] = (
-            s,
-            if k == pieces {
-                b
-            } else if 2 * k == pieces {
-                middle
-            } else {
-                at(s)
-            },
-        );
-    }
-    pieces + 1
-}
-
-/// Distance on the screen, pixels, between the middle as projected and as interpolated. An angle times the focal length, so that it holds
-/// behind the camera too.
-fn bend(eye: &Eye, a: Vec3, middle: Vec3, b: Vec3) -> f32 {
-    let guess = 0.5 * (a + b);
-    let cross = guess.cross(middle).length();
-    eye.focal * cross / (guess.length() * middle.length()).max(1e-20)
 }
