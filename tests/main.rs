@@ -4,6 +4,7 @@ mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_aurora;
 mod measure_charts;
 mod measure_project;
 mod reference_bvh_build;
@@ -14,6 +15,7 @@ mod reference_trace;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+mod scene_aurora;
 mod scene_config;
 mod scene_files;
 mod scene_models;

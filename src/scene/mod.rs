@@ -3,6 +3,7 @@
 //! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
 pub mod assembly;
+pub mod aurora;
 pub mod blackbody;
 pub mod camera;
 pub mod config;
