@@ -12,6 +12,7 @@ mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
 mod scene_config;
+mod scene_disk;
 mod scene_files;
 mod scene_models;
 mod scene_sky;
