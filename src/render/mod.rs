@@ -7,6 +7,7 @@
 pub mod coarse;
 pub mod develop;
 pub mod device;
+pub mod disk;
 pub mod frame;
 pub mod geometry;
 pub mod layout;

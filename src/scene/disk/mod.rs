@@ -27,7 +27,7 @@ use radial::Radial;
 /// this time orbits at r = 3 and r = 4 part by 2.1 rad, enough to draw knots out into streaks and too little to wind them up.
 pub const RENEWAL: f64 = 40.0;
 /// Time, in r_s/c, for which a generation has already been sheared when it appears: gas is never seen unsheared.
-const SHEARED: f64 = 20.0;
+pub const SHEARED: f64 = 20.0;
 /// The height of the pattern in ln r: after a factor of 16 in radius it begins anew. More than a disk shows at once with detail.
 pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
 /// Octaves for close looks: the pattern again, this many times finer, this strong.
@@ -73,7 +73,7 @@ pub struct Gas {
     /// Functions of the radius alone.
     pub radial: Radial,
     /// Half height over radius.
-    thickness: f64,
+    pub thickness: f64,
     /// Standard deviation of ln density.
     pub contrast: f64,
     seed: u32,
@@ -117,9 +117,9 @@ impl Gas {
         }
     }
 
-    /// Half height at radius `r`, in r_s.
+    /// Half height at radius `r`, in r_s: it grows with the radius, and falling gas keeps that of the last stable orbit.
     pub fn half_height(&self, r: f64) -> f64 {
-        (self.thickness * r).max(1e-3)
+        (self.thickness * self.radial.pattern_radius(r)).max(1e-3)
     }
 
     /// The streaks at a place and time: about normally distributed, mean 0, deviation 1.
@@ -181,9 +181,4 @@ pub fn shares(grown: f64) -> [f64; 2] {
     let young = grown * grown * (3.0 - 2.0 * grown);
     let scale = 1.0 / (young * young + (1.0 - young) * (1.0 - young)).sqrt();
     [young * scale, (1.0 - young) * scale]
-}
-
-/// [`SHEARED`], for the shader.
-pub const fn sheared() -> f64 {
-    SHEARED
 }

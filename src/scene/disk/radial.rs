@@ -22,7 +22,6 @@ const CARRIED_HEAT: f64 = 0.5;
 
 // SI, CODATA 2018 and IAU 2015.
 const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
-const LIGHT_SPEED: f64 = 299_792_458.0;
 /// GM☉/c², in m.
 const SOLAR_LENGTH: f64 = 1_476.625_038;
 /// Eddington luminosity of one solar mass, 4πGM☉ m_p c/σ_T, in W.
