@@ -120,7 +120,11 @@ fn streaks_renew_themselves_without_a_trace() {
     let most = (1..40).map(|k| correlation(&first, &whole(100.0 + 80.0 * f64::from(k))).abs()).fold(0.0, f64::max);
     assert!(most < 0.6, "two renewals look alike: {most}");
     let roughness = |time: f64| -> f64 {
-        (0..400).map(|k| (gas.turbulence(3.5 + 0.002 * f64::from(k), 1.0, time) - gas.turbulence(3.502 + 0.002 * f64::from(k), 1.0, time)).powi(2)).sum()
+        (0..400)
+            .map(|k| {
+                (gas.turbulence(3.5 + 0.002 * f64::from(k), 1.0, time) - gas.turbulence(3.502 + 0.002 * f64::from(k), 1.0, time)).powi(2)
+            })
+            .sum()
     };
     let (early, late) = (roughness(95.0), roughness(100_015.0));
     assert!(late < 4.0 * early, "wound up: {early} early, {late} late");

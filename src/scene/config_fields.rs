@@ -142,7 +142,7 @@ config! {
         representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
         inner: f64 = 3.0, number(1.05, 50.0), "r_s", "inner edge; 3 is the last stable orbit";
         outer: f64 = 12.0, number(2.0, 200.0), "r_s", "outer edge";
-        accretion_rate: f64 = 8e-4, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
+        accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
         efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
         sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";

@@ -9,7 +9,7 @@ pub const TEMPERATURES: (f64, f64) = (200.0, 2.0e6);
 /// Texels of the table: neighbours differ by 0.9 % in T.
 const COLOURS: usize = 1024;
 /// The scene's unit of radiance over that of a black body at 5,772 K. The disk outshines a lit ship.
-pub const DISK_UNIT: f64 = 1.0;
+pub const DISK_UNIT: f64 = 4.0;
 
 /// Pattern and colours with their samplers.
 #[derive(Debug)]
@@ -86,7 +86,12 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[(u32, 
     for (mip, (width, height, values)) in levels.iter().enumerate() {
         let halves: Vec<u16> = values.iter().map(|&value| half::f16::from_f32(value).to_bits()).collect();
         gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo { texture: &texture, mip_level: mip as u32, origin: wgpu::Origin3d::ZERO, aspect: wgpu::TextureAspect::All },
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: mip as u32,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
             bytemuck::cast_slice(&halves),
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(2 * channels * width), rows_per_image: None },
             wgpu::Extent3d { width: *width, height: *height, depth_or_array_layers: 1 },

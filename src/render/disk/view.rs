@@ -123,7 +123,8 @@ fn chosen_rings(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: 
         let ray = lens_lookup_at(slice, (along - l) as f32, across as f32, along as f32, order);
         f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi))
     };
-    let widest = (0..12).map(|k| TAU * (f64::from(k) + 0.5) / 12.0).map(|theta| (psi(start, theta) - psi(end, theta)).abs()).fold(0.0, f64::max);
+    let widest =
+        (0..12).map(|k| TAU * (f64::from(k) + 0.5) / 12.0).map(|theta| (psi(start, theta) - psi(end, theta)).abs()).fold(0.0, f64::max);
     // Aberration can make it twice as wide.
     let rings = (2.0 * widest / pixel / LEAST_RING).ceil();
     if rings.is_finite() { (rings as usize).clamp(4.min(all), all) } else { all }

@@ -171,8 +171,7 @@ pub fn generations(time: f64) -> [Generation; 2] {
     let number = phase.floor();
     let grown = phase - number;
     let [young, old] = shares(grown);
-    let generation =
-        |number: f64, weight| Generation { number: number as i64, age: (phase - number) * RENEWAL + SHEARED, weight };
+    let generation = |number: f64, weight| Generation { number: number as i64, age: (phase - number) * RENEWAL + SHEARED, weight };
     [generation(number, young), generation(number - 1.0, old)]
 }
 

@@ -10,16 +10,8 @@ pub const WIDTH: usize = 1024;
 pub const HEIGHT: usize = 512;
 
 /// Octaves: cells round the hole, cells over the height, amplitude. Cells are some ten times as long as wide, and rings longer still.
-const OCTAVES: [(usize, usize, f64); 8] = [
-    (3, 16, 0.75),
-    (4, 48, 0.70),
-    (7, 28, 0.70),
-    (14, 56, 0.55),
-    (10, 128, 0.50),
-    (28, 112, 0.40),
-    (56, 224, 0.28),
-    (112, 256, 0.16),
-];
+const OCTAVES: [(usize, usize, f64); 8] =
+    [(3, 16, 0.75), (4, 48, 0.70), (7, 28, 0.70), (14, 56, 0.55), (10, 128, 0.50), (28, 112, 0.40), (56, 224, 0.28), (112, 256, 0.16)];
 
 /// The lattice, row by row; mean 0, deviation 1.
 pub static LATTICE: LazyLock<Vec<f32>> = LazyLock::new(lattice);
@@ -47,7 +39,8 @@ fn smooth(t: f64) -> f64 {
 
 /// A well-mixed number of two (Steele, Lea & Flood 2014, SplitMix64).
 pub fn hash(a: u64, b: u64) -> u64 {
-    let mut z = a.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(b.wrapping_mul(0xd1b5_4a32_d192_ed03)).wrapping_add(0x632b_e59b_d9b4_e019);
+    let mut z =
+        a.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(b.wrapping_mul(0xd1b5_4a32_d192_ed03)).wrapping_add(0x632b_e59b_d9b4_e019);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
