@@ -159,7 +159,7 @@ impl ArcPass {
         let Some((group, _)) = &self.groups else { return };
         pass.set_bind_group(1, group, &[]);
         pass.set_bind_group(2, &self.arguments_group, &[]);
-        let [grid, segments, arcs] = self.threads.map(|threads| threads.div_ceil(64));
+        let [grid, segments, _] = self.threads.map(|threads| threads.div_ceil(64));
         pass.set_pipeline(&self.vertices);
         pass.dispatch_workgroups(grid, 1, 1);
         pass.set_pipeline(&self.segments);

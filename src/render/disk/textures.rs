@@ -2,14 +2,13 @@
 
 use crate::render::Gpu;
 use crate::scene::blackbody::blackbody_rgb;
+use crate::scene::disk::DISK_UNIT;
 use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH};
 
 /// Temperatures of the ends of the table of black bodies, in K, as in functions/colour.wgsl.
 pub const TEMPERATURES: (f64, f64) = (200.0, 2.0e6);
 /// Texels of the table: neighbours differ by 0.9 % in T.
 const COLOURS: usize = 1024;
-/// The scene's unit of radiance over that of a black body at 5,772 K. The disk outshines a lit ship.
-pub const DISK_UNIT: f64 = 4.0;
 
 /// Pattern and colours with their samplers.
 #[derive(Debug)]
