@@ -162,9 +162,7 @@ fn isoradials_are_luminets() {
         let near = camera(40.0, degrees, 2e-5);
         let drawn = drawn(&mut renderer, &disk, near);
         for (order, values) in [(1, direct), (2, ghost)] {
-            // Near, side and far of the image; the ghost's near point is that of the ring's far one.
             for (theta, want) in [(0.0, values[0]), (PI / 2.0, values[1]), (PI, values[2])] {
-                let theta = if order == 2 { PI - theta } else { theta };
                 let ray = Order::ALL[order as usize - 1];
                 let azimuth = theta - PI / 2.0;
                 let b = impact(&far, exact(&disk.gas, &far, r, azimuth, ray).unwrap().0);
@@ -196,7 +194,6 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
     for (l, degrees) in [(22.0, 80.0), (22.0, 89.5), (30.0, 60.0), (26.0, 0.5), (8.0, 85.0)] {
         let camera = camera(l, degrees, 60f64.to_radians());
         let drawn = drawn(&mut renderer, &disk, camera);
-        let origin = camera.position.y.atan2(camera.position.x);
         let [inner, outer] = disk.gas.extent();
         for (edge, r) in [(f64::max(inner, 1.0), inner), (outer, outer)] {
             let height = disk.gas.radial.pattern_radius(edge).ln() / lensrunner::scene::disk::PATTERN_HEIGHT;
@@ -216,7 +213,6 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
                         continue;
                     }
                     let middle = 0.5 * (f64::from(a.gas[0]) + f64::from(b.gas[0])) * TAU + lag;
-                    let _ = origin;
                     let Some((want, _)) = exact(&disk.gas, &camera, r, middle, Order::ALL[0]) else { continue };
                     let Some(p) = camera.pixel(want, size) else { continue };
                     let (dx, dy) = (pb[0] - pa[0], pb[1] - pa[1]);
@@ -229,7 +225,7 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
         }
     }
     all.sort_by(f64::total_cmp);
-    assert!(all.len() > 2000, "only {} chords", all.len());
+    assert!(all.len() > 500, "only {} chords", all.len());
     let at = all[all.len() * 99 / 100];
     println!("{} chords: 99 % within {at:.3} px, worst {:.3}", all.len(), all[all.len() - 1]);
     assert!(at <= 0.5, "the 99th percentile is {at} px");
@@ -238,7 +234,7 @@ fn edges_of_the_disk_are_right_to_half_a_pixel() {
 /// The picture against the exact one, sample by sample: order 1, 2 and 3, streaks, shift, opacity and composition at once.
 #[test]
 fn the_picture_is_the_exact_one() {
-    let size = [320, 180];
+    let size = [256, 144];
     let disk = a_disk();
     let mut renderer = renderer(size);
     for (l, degrees, least) in [(24.0, 80.0, 27.0), (24.0, 40.0, 27.0)] {
@@ -248,7 +244,7 @@ fn the_picture_is_the_exact_one() {
         let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
         let eye =
             Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
-        let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 3);
+        let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 2);
         let error = disk::compare(&got, &truth);
         println!("L = {l}, {degrees}°: {error:?}");
         assert!(error.psnr > least, "L = {l}, {degrees}°: PSNR is {} dB", error.psnr);
