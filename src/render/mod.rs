@@ -8,6 +8,7 @@ pub mod bench;
 pub mod coarse;
 pub mod develop;
 pub mod device;
+pub mod disk;
 pub mod frame;
 pub mod geometry;
 pub mod layout;

@@ -9,6 +9,8 @@ use crate::scene::model::Model;
 
 use super::Gpu;
 use super::develop::Develop;
+use super::disk::types::DiskCounters;
+use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
 use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
@@ -48,6 +50,10 @@ pub struct Renderer {
     frame_group: wgpu::BindGroup,
     /// The radius that the slices are for.
     sliced: f64,
+    slice: Option<Slice>,
+    disk: Option<DiskPasses>,
+    /// Whether the scene has a disk; its passes are kept for the next that has.
+    has_disk: bool,
     models: Models,
     geometry: Geometry,
     background: Background,
@@ -95,6 +101,9 @@ impl Renderer {
             format,
             frame_group,
             sliced: f64::NAN,
+            slice: None,
+            disk: None,
+            has_disk: false,
             develop,
             targets,
         }
@@ -120,6 +129,28 @@ impl Renderer {
     pub fn clear_models(&mut self) {
         self.geometry.models_changed();
         self.models.clear();
+    }
+
+    /// Draws this disk from now on, or none.
+    pub fn set_disk(&mut self, disk: Option<Disk>) {
+        self.has_disk = disk.is_some();
+        match (disk, &mut self.disk) {
+            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
+            (None, _) => {}
+        }
+    }
+
+    /// The passes of the disk, if the scene has one.
+    pub fn disk(&self) -> Option<&DiskPasses> {
+        self.disk.as_ref().filter(|_| self.has_disk)
+    }
+
+    /// What the stages of the disk counted in the last frame; None without a disk.
+    pub fn disk_counters(&self) -> Result<Option<DiskCounters>, PictureError> {
+        let Some(disk) = self.disk() else { return Ok(None) };
+        let bytes = readback::buffer(&self.gpu, disk.arcs().counters())?;
+        Ok(Some(bytemuck::pod_read_unaligned(&bytes[..size_of::<DiskCounters>()])))
     }
 
     /// The size of the output, in pixels.
@@ -161,6 +192,10 @@ impl Renderer {
             }
             self.sky = sky_table(l);
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
+            self.slice = Some(slice);
+        }
+        if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
+            disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed);
         let uniform = uniform(input, self.targets.size, self.geometry.capacity());
@@ -190,6 +225,11 @@ impl Renderer {
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        let disk = self.disk.as_ref().filter(|_| self.has_disk);
+        if let Some(disk) = disk {
+            compute(encoder, "disk arcs", &|pass| disk.compute(pass));
+            compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
+        }
 
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -203,6 +243,17 @@ impl Renderer {
             geometry.draw_opaque(&mut pass);
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
+        }
+        if let Some(disk) = disk {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("disk"),
+                color_attachments: &[Some(colour(&self.targets.picture, false))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                timestamp_writes: self.timing.render("disk"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            disk.draw(&mut pass);
         }
         if geometry.has_thin() {
             {

@@ -13,6 +13,7 @@ use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
 use super::coarse::coarse;
+use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
 use super::models::ModelRange;
 use super::placements::{Motion, Object, View, place};
@@ -35,6 +36,7 @@ impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
         renderer.clear_models();
+        renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
         let assembly = scene.assemble(config);
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");

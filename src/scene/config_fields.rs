@@ -142,13 +142,13 @@ config! {
         representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
         inner: f64 = 3.0, number(1.05, 50.0), "r_s", "inner edge; 3 is the last stable orbit";
         outer: f64 = 12.0, number(2.0, 200.0), "r_s", "outer edge";
-        accretion_rate: f64 = 0.1, number(1e-6, 10.0), "Eddington rates", "matter falling in; sets the temperature";
+        accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
         efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
         sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";
         polygons: u32 = 960u32, integer(24, 200_000), "triangles", "triangles in the polygon disk";
-        error_budget: f64 = 0.002, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
-        width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit";
+        error_budget: f64 = 0.0005, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
+        width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius";
         opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
