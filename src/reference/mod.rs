@@ -5,9 +5,11 @@
 //! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
 //! - [`shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: what a pixel shows of a scene of triangles.
+//! - [`bvh`]: trees of boxes over what a scene holds, and straight rays through them.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
 
+pub mod bvh;
 pub mod geodesic;
 pub mod ray;
 pub mod shoot;

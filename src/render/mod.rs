@@ -4,6 +4,7 @@
 //! file: [`placements`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
 //! (Milky Way, stars) → [`develop`] (bloom, exposure, tone curve).
 
+pub mod bench;
 pub mod coarse;
 pub mod develop;
 pub mod device;

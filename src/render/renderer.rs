@@ -209,9 +209,9 @@ impl Renderer {
                 pass.set_bind_group(0, group, &[]);
                 geometry.draw_thin(&mut pass);
             }
-            self.develop.compose(encoder, group, &self.targets);
+            self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
-        self.develop.run(encoder, group, &self.targets, output);
+        self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);
     }
 

@@ -1,0 +1,78 @@
+//! The tree of two children a node, flat in memory.
+
+use super::bounds::{Bounds, Scalar};
+
+/// No path from the root has more nodes below the root than this (the builder halves by number once it is deep), so a traversal may
+/// keep its stack in an array of this size.
+pub const MAX_DEPTH: usize = 96;
+
+/// A node: a box with two children, or with a run of primitives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node<T> {
+    /// Around everything below.
+    pub bounds: Bounds<T>,
+    /// Inner node: the index of the first child, the second follows it. Leaf: where its run starts in [`Tree::order`].
+    pub first: u32,
+    /// Number of primitives of a leaf; 0 for an inner node.
+    pub count: u32,
+}
+
+impl<T> Node<T> {
+    /// Whether it holds primitives and not nodes.
+    #[inline]
+    pub fn is_leaf(&self) -> bool {
+        self.count > 0
+    }
+
+    /// The indices of the two children of an inner node.
+    #[inline]
+    pub fn children(&self) -> [usize; 2] {
+        [self.first as usize, self.first as usize + 1]
+    }
+
+    /// The places of a leaf's primitives in [`Tree::order`].
+    #[inline]
+    pub fn run(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+}
+
+/// A hierarchy of boxes over primitives that it knows only by index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree<T> {
+    /// The root first, every parent before its children; empty when there is nothing to hold.
+    pub nodes: Vec<Node<T>>,
+    /// Indices of the primitives in the order of the leaves.
+    pub order: Vec<u32>,
+    /// How many boxes were left out because they were not finite or were inside out: no ray can meet what lies in them.
+    pub left_out: usize,
+}
+
+impl<T: Scalar> Tree<T> {
+    /// Fits the boxes to primitives that moved, the topology kept. `bounds(i)` is the new box of primitive `i`.
+    pub fn refit(&mut self, mut bounds: impl FnMut(u32) -> Bounds<T>) {
+        for at in (0..self.nodes.len()).rev() {
+            let node = self.nodes[at];
+            self.nodes[at].bounds = if node.is_leaf() {
+                self.order[node.run()].iter().fold(Bounds::EMPTY, |all, &i| all.union(&bounds(i)))
+            } else {
+                let [left, right] = node.children();
+                self.nodes[left].bounds.union(&self.nodes[right].bounds)
+            };
+        }
+    }
+
+    /// The expected cost of a random ray that meets the root, by the surface area heuristic (paper 4, equation 3.1 over the whole tree).
+    pub fn cost(&self, costs: super::build::Costs) -> f64 {
+        let Some(root) = self.nodes.first() else { return 0.0 };
+        let total: f64 = self
+            .nodes
+            .iter()
+            .map(|node| {
+                let work = if node.is_leaf() { f64::from(node.count) * costs.primitive } else { 2.0 * costs.node };
+                work * node.bounds.half_area()
+            })
+            .sum();
+        total / root.bounds.half_area()
+    }
+}
