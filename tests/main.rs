@@ -10,6 +10,8 @@ mod reference_bvh_build;
 mod reference_oracles;
 mod reference_trace;
 #[cfg(feature = "game")]
+mod render_lookup;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;

@@ -144,7 +144,7 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
     }
     let swept = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let (mut w, mut e, mut w_e, mut delay) = (0.0, 0.0, 0.0, 0.0);
+    let (w, e, w_e, delay);
     let mut room = at.room;
     if room > 0.0 {
         room = room.max(1e-4);

@@ -11,6 +11,7 @@ pub mod device;
 pub mod frame;
 pub mod geometry;
 pub mod layout;
+pub mod method;
 pub mod models;
 pub mod placements;
 pub mod plugin;

@@ -12,9 +12,10 @@ use super::develop::Develop;
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
 use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
-use super::sky::table::{NODES, sky_table};
+use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::targets::Targets;
 use super::timing::Timing;
@@ -44,8 +45,8 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
-    /// The radius that the slices are for.
-    sliced: f64,
+    /// The radius and the method that the slices are for.
+    sliced: (f64, Method),
     models: Models,
     geometry: Geometry,
     background: Background,
@@ -91,7 +92,7 @@ impl Renderer {
             frame_layout,
             format,
             frame_group,
-            sliced: f64::NAN,
+            sliced: (f64::NAN, Method::default()),
             develop,
             targets,
         }
@@ -148,17 +149,22 @@ impl Renderer {
             return false;
         }
         let l = camera.radius();
-        // The slices depend on the radius alone.
-        if self.sliced != l {
-            self.sliced = l;
+        // The slices depend on radius and method alone.
+        let method = input.settings.method;
+        if self.sliced != (l, method) {
+            if self.sliced.1 != method {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+            }
+            self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
             if self.lens_slice.write(&self.gpu, slice.texels()) {
                 let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
             }
-            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky_table(l)));
+            let sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
+            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky));
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let uniform = uniform(input, self.targets.size, self.stars.count(), self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         self.stars.reset(&self.gpu);
