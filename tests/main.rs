@@ -14,6 +14,8 @@ mod reference_trace;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
+mod render_lookup;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;

@@ -12,6 +12,7 @@ pub mod disk;
 pub mod frame;
 pub mod geometry;
 pub mod layout;
+pub mod method;
 pub mod models;
 pub mod placements;
 pub mod plugin;

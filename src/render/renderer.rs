@@ -14,9 +14,10 @@ use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
 use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
+use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
-use super::sky::table::{NODES, sky_table};
+use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::targets::Targets;
 use super::timing::Timing;
@@ -48,8 +49,8 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
-    /// The radius that the slices are for.
-    sliced: f64,
+    /// The radius and the method that the slices are for.
+    sliced: (f64, Method),
     slice: Option<Slice>,
     disk: Option<DiskPasses>,
     /// Whether the scene has a disk; its passes are kept for the next that has.
@@ -100,7 +101,7 @@ impl Renderer {
             frame_layout,
             format,
             frame_group,
-            sliced: f64::NAN,
+            sliced: (f64::NAN, Method::default()),
             slice: None,
             disk: None,
             has_disk: false,
@@ -182,22 +183,26 @@ impl Renderer {
             return false;
         }
         let l = camera.radius();
-        // The slices depend on the radius alone.
-        if self.sliced != l {
-            self.sliced = l;
+        // The slices depend on radius and method alone.
+        let method = input.settings.method;
+        if self.sliced != (l, method) {
+            if self.sliced.1 != method {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+            }
+            self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
             if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
                 let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
-            self.sky = sky_table(l);
+            self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
             self.slice = Some(slice);
         }
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);

@@ -3,6 +3,8 @@
 //! A pass is its own file after the library files it needs; the order is the order of the floors. Nothing is generated, so a line of an
 //! error message can be found by counting through the list.
 
+use super::method::Method;
+
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
@@ -97,7 +99,12 @@ impl Pass {
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        self.source_by(Method::default())
+    }
+
+    /// The same with another method of projection, where the pass looks rays up.
+    pub fn source_by(self, method: Method) -> String {
+        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),

@@ -15,6 +15,7 @@ use super::Renderer;
 use super::coarse::coarse;
 use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
+use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, View, place};
 
@@ -83,7 +84,7 @@ impl Stage {
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel };
+        let view = View { camera: &camera, slice: &slice, pixel, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -120,6 +121,14 @@ pub fn settings(config: &GameConfig) -> Settings {
     Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
+        method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
+        light_delay: render.light_delay,
+        halvings: render.tessellation_max_level,
+        vertex_budget: render.vertex_budget,
+        min_width: render.min_width as f32,
+        thin_below: render.thin_below,
+        coarse_below: render.coarse_below,
+        least_width: render.least_width,
         doppler: render.doppler,
         beaming: render.beaming,
         star_brightness: config.sky.star_brightness as f32,

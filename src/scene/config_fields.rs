@@ -115,10 +115,13 @@ config! {
     render: Render {
         pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
         orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
-        method: String = "table", Choice(&["table", "newton", "flat", "paper1"]), "", "how a vertex is projected";
-        tessellation_max_level: u32 = 6u32, integer(0, 8), "halvings", "finest subdivision of a triangle";
-        vertex_budget: u32 = 2_000_000u32, integer(10_000, 50_000_000), "vertices", "room for tessellated vertices in a frame";
-        min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner images are drawn this wide, with their coverage as alpha";
+        method: String = "table", Choice(&["table", "flat"]), "", "how a vertex is projected";
+        tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
+        vertex_budget: u32 = 600_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
+        min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";
+        thin_below: f64 = 2.0, number(0.0, 100.0), "pixels", "images narrower than this are thin ones";
+        coarse_below: f64 = 6.0, number(0.0, 100.0), "pixels", "images narrower than this show a coarse stand-in";
+        least_width: f64 = 0.05, number(0.0, 10.0), "pixels", "images of order 2 and 3 narrower than this are left out";
         doppler: bool = true, Switch, "", "frequency shift of all light";
         beaming: bool = true, Switch, "", "brightness change that goes with the shift";
         lensing: bool = true, Switch, "", "bending of light; off draws flat space";
