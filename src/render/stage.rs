@@ -72,19 +72,20 @@ impl Stage {
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
         camera: Camera,
-        width: u32,
+        size: [u32; 2],
         time: f64,
         histories: &[&History],
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
-        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel, settings };
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
+        let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
+        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
