@@ -15,10 +15,14 @@ use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
-#[command(version, about)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Without a subcommand: play.
+    #[cfg(feature = "game")]
+    #[command(flatten)]
+    play: lensrunner::play::PlayArgs,
 }
 
 #[derive(Subcommand)]
@@ -110,7 +114,7 @@ struct ChartFrameArgs {
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     frames: u32,
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// The game's configuration [default: built in, as the game.toml that comes with the game].
     #[arg(long, value_name = "game.toml")]
@@ -131,7 +135,7 @@ struct ShotArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Adds object id, image order, travel time and g to an .exr.
     #[arg(long)]
@@ -158,7 +162,7 @@ struct TraceArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Rays a pixel: a square number, 1 to 256.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -192,10 +196,10 @@ struct SimulateArgs {
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
     /// T between rows, in r_s/c.
-    #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY)]
+    #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY, allow_negative_numbers = true)]
     every: f64,
     /// Seed for everything left to chance.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -226,9 +230,13 @@ struct ProjectArgs {
 }
 
 /// Bakes a lensing table with a progress bar; prints its size, the time, and its error on fresh random points.
+///
+/// Errors are those of the direction (rain frame, degrees), of the travel time (r_s/c, and as a share of what is allowed: 0.002 + 3e-7 of the
+/// travel time, 0.02 nearer than r = 1.05) and of the direction at emission. Adversarial points crowd where methods fail: at the camera, at the
+/// axis, at the horizon and the photon sphere; friendly ones are spread evenly. The game draws with tables/default.lut.
 #[derive(Args)]
 struct BakeArgs {
-    /// Nodes along each axis, 5 to 128; the scheme residual takes twice as many angles.
+    /// Size of the table, 5 to 128: nodes along each axis for paper 1's schemes, along Φ for the scheme residual (L and r take fewer).
     #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
     nodes: u8,
     /// What is stored.
@@ -237,7 +245,7 @@ struct BakeArgs {
     /// The file to write.
     #[arg(short, value_name = "FILE", default_value = "tables/baked.lut")]
     output: PathBuf,
-    /// Random points for each order to measure the error on.
+    /// Random points for each order to measure the error on, 0 to measure nothing.
     #[arg(long, value_name = "N", default_value_t = 30_000)]
     points: usize,
 }
@@ -267,9 +275,10 @@ enum BranchArg {
 }
 
 fn main() -> ExitCode {
-    match Cli::parse().command {
+    let cli = Cli::parse();
+    match cli.command {
         #[cfg(feature = "game")]
-        None => lensrunner::play::run(&lensrunner::play::PlayArgs::default()),
+        None => lensrunner::play::run(&cli.play),
         #[cfg(not(feature = "game"))]
         None => fail(&"this build has no renderer: choose a subcommand (--help lists them)", 2),
         #[cfg(feature = "game")]
@@ -333,6 +342,10 @@ fn finish_chart<E: std::fmt::Display>(written: Result<Vec<PathBuf>, E>) -> ExitC
 
 #[cfg(feature = "game")]
 fn run_shot(args: &ShotArgs) -> ExitCode {
+    lensrunner::play::warn_on_stderr();
+    if args.layers && args.output.extension().is_some_and(|extension| extension != "exr") {
+        return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
+    }
     use lensrunner::render::shot::{Request, shot_to_file};
     let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {

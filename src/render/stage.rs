@@ -116,6 +116,10 @@ impl Stage {
     }
 }
 
+/// Standard deviation of a star's spot over its radius. 0.7 pixels at the default radius is the narrowest Gaussian whose light, sampled at
+/// pixel centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
+const SPOT_SIGMA: f64 = 0.7 / 1.1;
+
 /// The settings that `game.toml` asks for.
 pub fn settings(config: &GameConfig) -> Settings {
     let render = &config.render;
@@ -135,6 +139,9 @@ pub fn settings(config: &GameConfig) -> Settings {
         star_brightness: config.sky.star_brightness as f32,
         sky_brightness: config.sky.milky_way_brightness as f32,
         bloom: render.bloom as f32,
+        exposure_key: render.exposure_key as f32,
+        star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
+        faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         ..Settings::default()
     }

@@ -129,7 +129,7 @@ config! {
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
         exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
-        exposure_key: f64 = 0.16, number(0.01, 1.0), "", "grey that the mean of the picture is brought to";
+        exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
@@ -180,7 +180,6 @@ config! {
         hold_time: f64 = 2.0, number(0.0, 1000.0), "r_s/c", "for this long without a break";
         time_limit: f64 = 400.0, number(1.0, 1e9), "r_s/c", "the hunter loses after this time";
         arena_radius: f64 = 20.0, number(5.0, 1e6), "r_s", "the quarry turns back before this radius";
-        start_distance: f64 = 8.0, number(0.5, 1000.0), "r_s", "distance between the ships when a chase is drawn by seed";
     }
     /// Flight assistance.
     assist: Assist {
