@@ -15,6 +15,8 @@ mod render_lookup;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+#[cfg(feature = "game")]
+mod render_trouble;
 mod scene_config;
 mod scene_files;
 mod scene_models;

@@ -1,6 +1,6 @@
 //! Vertices on the GPU against the exact ray and the judge: inside the horizon, across it, near it from afar, moving and turning.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, bake};
@@ -21,6 +21,14 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
 use crate::render_shaders::GPU;
+
+/// One for all: most of a renderer's time here is the compiling of its passes.
+static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
+
+pub fn bench() -> MutexGuard<'static, Bench> {
+    // Another test's failure is no reason to fail.
+    BENCH.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// A renderer without sky, and a small ball on it.
 pub struct Bench {
@@ -58,7 +66,7 @@ impl Bench {
         let frame = FrameInput { camera, time, placed, settings };
         self.renderer.picture(&frame, false).unwrap();
         let bytes = readback::buffer(&GPU, self.renderer.geometry().seen()).unwrap();
-        bytemuck::cast_slice(&bytes).to_vec()
+        bytemuck::cast_slice(&bytes[..bytes.len() / size_of::<SeenVertex>() * size_of::<SeenVertex>()]).to_vec()
     }
 
     /// Body points of the vertices, in the order of the GPU.
@@ -97,7 +105,7 @@ fn falling(position: DVec3, momentum: DVec3) -> Camera {
 /// A camera inside sees a ball that is held inside twice, by light of either sign of E, each vertex where the judge sees it.
 #[test]
 fn a_camera_inside_sees_what_is_inside_twice() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let camera = falling(DVec3::new(0.0, 0.05, 0.45), DVec3::new(0.1, -0.2, 0.05));
     let settings = Settings::default();
     for position in [DVec3::new(0.05, 0.1, 0.7), DVec3::new(-0.3, 0.2, 0.62), DVec3::new(0.0, -0.06, 0.9)] {
@@ -164,7 +172,7 @@ fn emission(camera: &Camera, time: f64, history: &History, body: DVec3, order: u
 
 /// Every vertex of a ship in flight is where the judge sees the place that it had at its own emission time.
 fn check_flight(camera: Camera, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { orders, ..Settings::default() };
     let placed = bench.place(&camera, time, &bench.object(Motion::Flying(history), size, 1), &settings);
     assert_eq!(placed.len(), orders as usize, "not every order is seen");
@@ -201,7 +209,7 @@ fn every_vertex_of_a_turning_ship_has_its_own_emission_time() {
     let state = ship(DVec3::new(6.0, 0.5, -3.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command { thrust: DVec3::new(0.0, 0.02, -0.03), rates: DVec3::new(0.1, 0.35, -0.2) }, 60.0);
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.0, -0.2, -1.0), DVec3::Y, 1.0);
-    check_flight(camera, 40.0, &history, 0.3, 2, 0.02);
+    check_flight(camera, 16.0, &history, 0.3, 2, 0.02);
 }
 
 /// A ship falls in behind a falling camera: its light reaches the camera from outside, from inside, and across r = 1.
@@ -238,7 +246,7 @@ fn a_ship_may_be_seen_by_light_of_negative_energy() {
 /// From 5,000 r_s away an offset in f32 no longer tells r − 1: vertices near the horizon get it from their place at the hole.
 #[test]
 fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let camera = static_camera(DVec3::new(0.0, 3000.0, 4000.0), DVec3::new(0.0, -3.0, -4.0), DVec3::X, 1.0);
     let settings = Settings { orders: 2, ..Settings::default() };
     // A ball just over the horizon: its lowest vertices lie at r = 1.0005.
@@ -263,7 +271,7 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
 /// Method "flat": what hovers is seen along the straight line, at its distance, once.
 #[test]
 fn flat_space_projects_straight() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { method: Method::Flat, ..Settings::default() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 7.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     let position = DVec3::new(0.5, -1.0, -5.0);
@@ -288,7 +296,7 @@ fn flat_space_projects_straight() {
 /// Without light delay a ship is seen where it is at the frame's time.
 #[test]
 fn without_light_delay_things_are_seen_where_they_are_now() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { light_delay: false, orders: 1, ..Settings::default() };
     let state = ship(DVec3::new(3.0, 0.5, -2.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command::default(), 30.0);

@@ -53,6 +53,8 @@ pub struct Renderer {
     stars: Stars,
     develop: Develop,
     targets: Targets,
+    /// The output has no size.
+    hidden: bool,
     timing: Timing,
 }
 
@@ -73,7 +75,7 @@ impl Renderer {
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
-        let targets = Targets::new(device, size);
+        let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
         let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
         Renderer {
@@ -95,6 +97,7 @@ impl Renderer {
             sliced: (f64::NAN, Method::default()),
             develop,
             targets,
+            hidden: size.contains(&0),
         }
     }
 
@@ -125,9 +128,10 @@ impl Renderer {
         self.targets.size
     }
 
-    /// Makes targets of another size.
+    /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
-        if size != self.targets.size {
+        self.hidden = size.contains(&0);
+        if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
             self.develop.resize(&self.gpu, &self.targets);
         }
@@ -142,9 +146,13 @@ impl Renderer {
         }
     }
 
-    /// Uploads what the frame needs. The camera must be finite and away from r = 0; else the frame stays as it was, and false is returned.
+    /// Uploads what the frame needs. There must be a device and a size, and the camera must be finite and away from r = 0; else the frame
+    /// stays as it was, and false is returned.
     pub fn prepare(&mut self, input: &FrameInput) -> bool {
         let camera = &input.camera;
+        if self.hidden || self.gpu.watch.complaint().is_some() {
+            return false;
+        }
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
@@ -226,7 +234,9 @@ impl Renderer {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
         for _ in 0..2 {
-            self.prepare(input);
+            if !self.prepare(input) {
+                return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
+            }
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(&mut encoder, &view);
             if layers {
