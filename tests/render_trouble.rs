@@ -177,10 +177,10 @@ fn rings_of_orders_two_and_three_are_unbroken() {
     let old = bench.renderer.size();
     let size = [320, 180];
     bench.renderer.resize(size);
-    for (order, position) in [(2, DVec3::new(0.0, 0.0, 9.0)), (3, DVec3::new(0.0, 0.0, -12.0))] {
+    for (order, position, radius) in [(2, DVec3::new(0.0, 0.0, 9.0), 1.0), (3, DVec3::new(0.0, 0.0, -12.0), 4.0)] {
         let settings = Settings { orders: 3, least_width: 0.0, ..quiet() };
         let eye = camera();
-        let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 1.0, 1);
+        let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
         let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
         let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
         use lensrunner::render::placements::{View, place};
