@@ -19,6 +19,8 @@ mod render_lookup;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+#[cfg(feature = "game")]
+mod render_trouble;
 mod scene_aurora;
 mod scene_config;
 mod scene_disk;
