@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{chart, projection};
+use lensrunner::measure::{chart, methods, projection};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -70,6 +70,9 @@ struct ChartProjectionArgs {
     /// Seed of the points.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Only these methods, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    methods: Vec<String>,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -150,8 +153,9 @@ struct SimulateArgs {
 /// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
 /// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
 #[derive(Args)]
+#[command(after_long_help = methods::help(), after_help = methods::help())]
 struct ProjectArgs {
-    /// How the ray is found; exact is the closed form in f64.
+    /// How the ray is found; exact is the closed form in f64. The methods are listed below.
     #[arg(long, value_name = "NAME", default_value = "exact")]
     method: String,
     /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
@@ -242,8 +246,8 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 }
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
-    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
-    finish_chart(projection::run(&request))
+    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
+    finish_chart(projection::run(&request, None))
 }
 
 /// Says what was written, or what went wrong.

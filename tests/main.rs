@@ -2,6 +2,7 @@
 
 mod house;
 mod lensing_integrator;
+mod lensing_stability;
 mod lensing_tables;
 mod light_against_judge;
 mod measure_charts;

@@ -1,6 +1,7 @@
 //! Instruments: what the methods of the game give for the same question, and the charts that set error against time.
 
 pub mod chart;
+pub mod methods;
 pub mod plot;
 pub mod project;
 pub mod projection;
