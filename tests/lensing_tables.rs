@@ -222,6 +222,41 @@ fn nearer_points_are_seen_deeper() {
     }
 }
 
+/// Eight at once give what one at a time gives, to the rounding of f32: directions to 5e-6 rad, delays to 1e-5 of them.
+#[test]
+fn the_batch_agrees_with_the_lookup() {
+    use lensrunner::lensing::batch::lens_lookup_batch;
+    let mut rng = rand::rngs::SmallRng::seed_from_u64(11);
+    for _ in 0..300 {
+        let l = score::draw(score::Points::Adversarial, &mut rng)[2];
+        let slice = Slice::new(table(), l);
+        let mut points = [[0.0f32; 8]; 3];
+        for i in 0..8 {
+            let [r, phi, camera] = score::draw(score::Points::Adversarial, &mut rng);
+            let r = (r / camera * l).clamp(1.0005, 1e4);
+            let half = (0.5 * phi).sin();
+            let point = [(r - l) - 2.0 * r * half * half, r * phi.sin(), r * phi.cos()];
+            (0..3).for_each(|k| points[k][i] = point[k] as f32);
+        }
+        // One lane holds what is not a point outside.
+        points[2][7] = [f32::NAN, 0.3, f32::INFINITY][(l * 1e6) as usize % 3];
+        for order in 1..=3 {
+            let rays = lens_lookup_batch(&slice, points[0], points[1], points[2], order);
+            for i in 0..8 {
+                let one = lens_lookup_at(&slice, points[0][i], points[1][i], points[2][i], order);
+                let ray = rays.ray(i);
+                assert_eq!(ray.valid, one.valid, "L {l} lane {i}");
+                let angle = |s: f32, c: f32| f64::from(s).atan2(f64::from(c));
+                let off = (angle(ray.sin_psi, ray.cos_psi) - angle(one.sin_psi, one.cos_psi)).abs();
+                assert!(off < 5e-6, "L {l} order {order}: {ray:?} and {one:?}");
+                assert!((ray.delay - one.delay).abs() < 2e-4 + 1e-5 * one.delay.abs(), "L {l} order {order}: {ray:?} and {one:?}");
+                let tilt = |e: &lensrunner::lensing::LensRay| angle(e.emission_tangential, -e.emission_radial);
+                assert!((tilt(&ray) - tilt(&one)).abs() < 2e-5, "L {l} order {order}: {ray:?} and {one:?}");
+            }
+        }
+    }
+}
+
 /// The shader is valid WGSL with nothing but `lens_texel` supplied.
 #[test]
 fn the_shader_is_valid() {

@@ -15,7 +15,7 @@ pub struct Integrate {
 }
 
 /// Shots after which it gives up.
-const MOST_SHOTS: usize = 20;
+const MOST_SHOTS: usize = 60;
 /// Beyond this u (1/r_s) a shot counts as fallen in: no point lies so deep.
 const FALLEN: f64 = 100.0;
 
@@ -45,7 +45,8 @@ impl Integrate {
             if state[0].is_nan() || state[0] > FALLEN.max(2.0 * u) {
                 return Err(Missed::Fell);
             }
-            if state[0] < -0.5 {
+            // Past the sky the equation leads back to false points.
+            if state[0] < -0.5 || state[0] < 0.0 && state[1] > 0.0 {
                 return Err(Missed::Left);
             }
         }

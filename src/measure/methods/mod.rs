@@ -15,7 +15,7 @@ pub use exact::Exact;
 pub use integrate::Integrate;
 pub use paper::Paper;
 pub use residual::{Interpolation, Residual, Texels};
-pub use slice::{Newton, Table};
+pub use slice::{Batch, Newton, Table};
 
 /// A point and a camera, r_s = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -135,6 +135,7 @@ const fn entry(name: &'static str, family: usize, about: &'static str) -> Entry 
 pub const CATALOGUE: &[Entry] = &[
     entry("exact", 4, "the ray in closed form (elliptic functions), f64, solved for each point"),
     entry("table", 0, "what the game draws with: the small residual table, sliced at the camera's radius for a frame, cubic, f32"),
+    entry("table-batch", 0, "table, eight points at once in SIMD registers"),
     entry("table-full", 0, "the same from the full table"),
     entry("newton", 0, "table, then one Newton step on the closed form in f64"),
     entry("residual-cubic-f32", 0, "the full residual table without a slice: cubic in three dimensions"),
@@ -175,6 +176,7 @@ pub fn named(name: &str) -> Option<Box<dyn Projector>> {
     Some(match name {
         "exact" => Box::new(Exact),
         "table" => Box::new(Table(lensing::default_table())),
+        "table-batch" => Box::new(Batch(Table(lensing::default_table()))),
         "table-full" => Box::new(Table(full())),
         "newton" => Box::new(Newton(Table(lensing::default_table()))),
         "residual-cubic-f32" => Box::new(Residual::<[f32; 3]>::new(&full(), Interpolation::Cubic)),

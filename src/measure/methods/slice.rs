@@ -1,6 +1,7 @@
 //! The residual table as the game uses it: sliced once a frame, looked up in f32; and with a Newton step after it.
 
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
+use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
@@ -50,6 +51,44 @@ impl Projector for Table {
 
     fn memory(&self) -> usize {
         size_of_val(self.0.values.as_slice())
+    }
+}
+
+/// The table, eight points at once.
+pub struct Batch(pub Table);
+
+/// The answers for at most eight points; the last is repeated to fill the batch.
+fn look_up_batch(slice: &Slice, points: &[Vertex], order: Order) -> LensRays {
+    let last = points.len() - 1;
+    let of = |field: fn(&Vertex) -> f32| std::array::from_fn(|i| field(&points[i.min(last)]));
+    lens_lookup_batch(slice, of(|p| p.along), of(|p| p.across), of(|p| p.height), u32::from(order.number()))
+}
+
+struct Batches(Slice);
+
+impl Frame for Batches {
+    fn look_up(&self, points: &[Vertex], order: Order) {
+        for points in points.chunks(LANES) {
+            std::hint::black_box(look_up_batch(&self.0, points, order));
+        }
+    }
+}
+
+impl Projector for Batch {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        if branch == Branch::Minus || !in_range(query) {
+            return self.0.project(query, order, branch);
+        }
+        let ray = look_up_batch(&Slice::new(&self.0.0, query.camera), &[query.into()], order).ray(0);
+        ray.valid.then(|| seen(&ray, query))
+    }
+
+    fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
+        Box::new(Batches(Slice::new(&self.0.0, l)))
+    }
+
+    fn memory(&self) -> usize {
+        self.0.memory()
     }
 }
 

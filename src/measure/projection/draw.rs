@@ -55,7 +55,13 @@ fn entries(sheet: &Sheet) -> Vec<Entry> {
 fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: bool, guide: (f64, &str), title: &str) -> Scatter {
     let points = entries.iter().map(|entry| {
         let failed = entry.wrong > MOST_WRONG;
-        let share = if failed { format!(" ({:.0} % unanswered)", 100.0 * entry.wrong) } else { String::new() };
+        let share = if failed {
+            format!(" ({:.0} % unanswered)", 100.0 * entry.wrong)
+        } else if entry.max == 0.0 {
+            " (the measure of the others)".to_owned()
+        } else {
+            String::new()
+        };
         Point {
             x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds },
             // What is below the rounding of the truth itself is drawn there.
