@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
+use lensrunner::measure::projection::ChartError;
 use lensrunner::measure::{aurora, chart, methods, projection, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
@@ -309,7 +310,10 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
-    finish_chart(projection::run(&request, None))
+    match projection::run(&request, None) {
+        Err(error @ ChartError::Method { .. }) => fail(&error, 2),
+        result => finish_chart(result),
+    }
 }
 
 fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {

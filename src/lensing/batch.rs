@@ -251,14 +251,14 @@ fn residuals(slice: &Slice, x: f32x8, y: f32x8) -> [f32x8; 3] {
     for lane in 0..LANES {
         // Four channels at once: a texel is one register.
         let mut sum = wide::f32x4::ZERO;
-        for b in 0..4 {
+        for (b, weight) in wy.iter().enumerate() {
             let at = HEADER + (j[lane] as usize + b) * (nx as usize + 2) + i[lane] as usize;
             let texels = &slice.texels[at..at + 4];
             let mut row = wide::f32x4::ZERO;
             for (texel, weights) in texels.iter().zip(&wx) {
                 row += wide::f32x4::from(*texel) * wide::f32x4::splat(weights[lane]);
             }
-            sum += row * wide::f32x4::splat(wy[b][lane]);
+            sum += row * wide::f32x4::splat(weight[lane]);
         }
         let sum = sum.to_array();
         (0..3).for_each(|h| sums[h][lane] = sum[h]);

@@ -75,8 +75,11 @@ pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<P
     Ok(paths)
 }
 
+/// Methods with what the catalogue says of them.
+type Methods = Vec<(Entry, Box<dyn Projector>)>;
+
 /// The methods asked for.
-fn chosen(request: &Request) -> Result<Vec<(Entry, Box<dyn Projector>)>, ChartError> {
+fn chosen(request: &Request) -> Result<Methods, ChartError> {
     let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
     if let Some(name) = wrong {
         return Err(ChartError::Method { name: name.clone() });
