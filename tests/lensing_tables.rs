@@ -230,20 +230,19 @@ fn the_batch_agrees_with_the_lookup() {
     for _ in 0..300 {
         let l = score::draw(score::Points::Adversarial, &mut rng)[2];
         let slice = Slice::new(table(), l);
-        let mut points = [[0.0f32; 8]; 3];
-        for i in 0..8 {
+        let mut points: [[f32; 3]; 8] = std::array::from_fn(|_| {
             let [r, phi, camera] = score::draw(score::Points::Adversarial, &mut rng);
             let r = (r / camera * l).clamp(1.0005, 1e4);
             let half = (0.5 * phi).sin();
-            let point = [(r - l) - 2.0 * r * half * half, r * phi.sin(), r * phi.cos()];
-            (0..3).for_each(|k| points[k][i] = point[k] as f32);
-        }
+            [(r - l) - 2.0 * r * half * half, r * phi.sin(), r * phi.cos()].map(|v| v as f32)
+        });
         // One lane holds what is not a point outside.
-        points[2][7] = [f32::NAN, 0.3, f32::INFINITY][(l * 1e6) as usize % 3];
+        points[7][2] = [f32::NAN, 0.3, f32::INFINITY][(l * 1e6) as usize % 3];
+        let lanes = |k: usize| points.map(|point| point[k]);
         for order in 1..=3 {
-            let rays = lens_lookup_batch(&slice, points[0], points[1], points[2], order);
-            for i in 0..8 {
-                let one = lens_lookup_at(&slice, points[0][i], points[1][i], points[2][i], order);
+            let rays = lens_lookup_batch(&slice, lanes(0), lanes(1), lanes(2), order);
+            for (i, [along, across, height]) in points.into_iter().enumerate() {
+                let one = lens_lookup_at(&slice, along, across, height, order);
                 let ray = rays.ray(i);
                 assert_eq!(ray.valid, one.valid, "L {l} lane {i}");
                 let angle = |s: f32, c: f32| f64::from(s).atan2(f64::from(c));

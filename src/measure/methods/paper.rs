@@ -32,8 +32,9 @@ impl Axis {
 
     /// The cell and the place in it of a point `offset` beyond the first node.
     fn cell(self, offset: f32, nodes: usize) -> (usize, f32) {
-        let x = self.factor * offset;
-        let z = if self.uniform { x } else { (1.0 + x).ln() * self.cells };
+        // Rounding puts points on the first node before it, where the logarithm ends.
+        let x = self.factor * offset.max(0.0);
+        let z = if self.uniform { x } else { (1.0 + x).max(1e-30).ln() * self.cells };
         let z = z.clamp(0.0, (nodes - 1) as f32);
         let i = (z as usize).min(nodes - 2);
         (i, z - i as f32)

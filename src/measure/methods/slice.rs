@@ -99,7 +99,8 @@ pub struct Newton(pub Table);
 fn improved(ray: &LensRay, query: Query, order: Order, branch: Branch) -> Sight {
     let (u_point, u_camera) = (1.0 / query.r, 1.0 / query.camera);
     let delay = f64::from(ray.delay);
-    match light::newton_step(u_point, order.swept(query.phi), u_camera, branch, f64::from(ray.slope)) {
+    let guess = [f64::from(ray.slope), f64::from(ray.energy)];
+    match light::newton_step(u_point, order.swept(query.phi), u_camera, branch, guess) {
         Some(better) => sight(better.slope, better.energy, delay, u_camera),
         None => seen(ray, query),
     }

@@ -6,6 +6,8 @@ use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 
 /// Half a pixel at 3840 pixels over 60°, degrees.
 pub const HALF_PIXEL: f64 = 0.008;
+/// Smaller errors are drawn here, degrees: a thousandth of a pixel and less.
+const LEAST_ERROR: f64 = 1e-5;
 /// A method that leaves more than this share of the rows with a ray unanswered, or invents as many, has failed.
 const MOST_WRONG: f64 = 0.01;
 
@@ -56,16 +58,15 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
     let points = entries.iter().map(|entry| {
         let failed = entry.wrong > MOST_WRONG;
         let share = if failed {
-            format!(" ({:.0} % unanswered)", 100.0 * entry.wrong)
+            format!(" ({:.0} %)", 100.0 * entry.wrong)
         } else if entry.max == 0.0 {
-            " (the measure of the others)".to_owned()
+            " (the measure of the others: below 1e-9)".to_owned()
         } else {
             String::new()
         };
         Point {
             x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds },
-            // What is below the rounding of the truth itself is drawn there.
-            y: y(entry).max(1e-9),
+            y: y(entry).max(LEAST_ERROR),
             label: format!("{}{share}", entry.name),
             family: entry.family,
             failed,
@@ -103,7 +104,7 @@ pub fn race(sheet: &Sheet) -> Figure {
     Figure {
         title: "Where a vertex is seen near a black hole: error against cost".into(),
         subtitle: "The worst error of each method on the same points, chosen to be hard. Lower and further left is better; the black line joins what nothing beats.\n\
-                   Red crosses failed: they leave points unanswered (inside the horizon, or of higher order). Use \"table\"."
+                   Red crosses failed: they leave so many per cent of the points unanswered (camera inside, or of higher order). Use \"table\", or \"table-batch\" on the processor."
             .into(),
         panels: vec![
             Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", false, guide, "against time")),

@@ -88,14 +88,18 @@ pub fn join_near(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess:
     Some(Ray { slope: fan.start(x).slope, emission_slope, energy: if branch == Branch::Minus { -energy } else { energy } })
 }
 
-/// One step of Newton's method from the slope `guess` at the camera, without a bracket: a good guess's error is squared. None where
-/// there is no such ray, or the guess ends in the hole or in the sky before it has swept the angle.
-pub fn newton_step(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess: f64) -> Option<Ray> {
+/// One step of Newton's method from a guess of slope w and energy e at the camera (1/r_s), without a bracket: a good guess's error is
+/// squared. Outside the slope counts, inside the energy, from which w follows without cancellation. None where there is no such ray, or the
+/// guess ends in the hole or in the sky before it has swept the angle.
+pub fn newton_step(u_point: f64, swept: f64, u_camera: f64, branch: Branch, [w, e]: [f64; 2]) -> Option<Ray> {
     if !exists(u_point, swept, u_camera, branch) {
         return None;
     }
     let fan = Fan::new(u_camera);
-    let x = fan.of_slope(guess);
+    let x = match fan {
+        Fan::Outside { .. } => w,
+        Fan::Inside { s, .. } => -e * e / (s + s.hypot(e)),
+    };
     if x.is_nan() || x >= fan.top() {
         return None;
     }
