@@ -2,11 +2,13 @@
 
 mod house;
 mod lensing_integrator;
+mod lensing_stability;
 mod lensing_tables;
 mod light_against_judge;
 mod measure_aurora;
 mod measure_charts;
 mod measure_project;
+mod measure_projection;
 mod reference_bvh_build;
 mod reference_oracles;
 mod reference_picture;

@@ -3,10 +3,11 @@
 //! `formulas` holds closed forms that are right near the camera and where the field is weak; the table holds what is left, over
 //! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
 //! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
-//! and point both inside the horizon. `paper` is the
+//! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
 //! method of paper 1, for comparison, and `score` measures the error of either.
 
 pub mod bake;
+pub mod batch;
 pub mod command;
 pub mod grid;
 pub mod inside;

@@ -3,6 +3,7 @@
 pub mod aurora;
 pub mod chart;
 pub mod disk;
+pub mod methods;
 pub mod picture_file;
 pub mod plot;
 pub mod project;
