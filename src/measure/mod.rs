@@ -1,6 +1,8 @@
 //! Instruments: what the methods of the game give for the same question, and the charts that set error against time.
 
 pub mod chart;
+pub mod compare;
+pub mod flip;
 pub mod picture_file;
 pub mod plot;
 pub mod project;

@@ -80,6 +80,10 @@ pub struct Picture {
     pub layers: Vec<Layer>,
     /// For each pixel the part of its samples that show each thing in each order: (object, order, part), in that order.
     pub shares: Vec<Vec<(u32, u32, f32)>>,
+    /// The part of each pixel that nothing solid covers.
+    pub open: Vec<f32>,
+    /// Whether every sample of a pixel shows the shadow.
+    pub dark: Vec<bool>,
 }
 
 /// Rows of pixels that one task traces together; texture detail is found from neighbours inside it.
@@ -105,22 +109,30 @@ pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Qual
             result
         })
         .collect();
-    let mut picture = Picture { size: camera.size, light: Vec::new(), layers: Vec::new(), shares: Vec::new() };
-    let mut open = Vec::with_capacity((width * height) as usize);
+    let count = (width * height) as usize;
+    let mut picture = Picture {
+        size: camera.size,
+        light: Vec::with_capacity(count),
+        layers: Vec::with_capacity(count),
+        shares: Vec::with_capacity(count),
+        open: Vec::with_capacity(count),
+        dark: Vec::with_capacity(count),
+    };
     for band in bands {
         picture.light.extend(band.light);
         picture.layers.extend(band.layers);
         picture.shares.extend(band.shares);
-        open.extend(band.open);
+        picture.open.extend(band.open);
+        picture.dark.extend(band.dark);
     }
     for spot in setting.stars {
-        draw_spot(&mut picture, &open, spot);
+        draw_spot(&mut picture, spot);
     }
     picture
 }
 
 /// Adds a star's light to the pixels around it, as far as nothing solid covers them.
-fn draw_spot(picture: &mut Picture, open: &[f32], spot: &Spot) {
+fn draw_spot(picture: &mut Picture, spot: &Spot) {
     let [width, height] = picture.size.map(i64::from);
     let [x, y] = spot.place;
     for row in (y - 2.5).ceil() as i64..=(y + 2.5).floor() as i64 {
@@ -131,7 +143,7 @@ fn draw_spot(picture: &mut Picture, open: &[f32], spot: &Spot) {
             }
             let at = (row * width + column) as usize;
             let weight = (-(dx * dx + dy * dy) / (2.0 * SPOT_SIGMA * SPOT_SIGMA)).exp() / (2.0 * PI * SPOT_SIGMA * SPOT_SIGMA);
-            let light = spot.light * (weight as f32 * open[at]);
+            let light = spot.light * (weight as f32 * picture.open[at]);
             for (channel, add) in picture.light[at].iter_mut().zip(light.to_array()) {
                 *channel += add;
             }
@@ -160,8 +172,8 @@ struct Band {
     light: Vec<[f32; 3]>,
     layers: Vec<Layer>,
     shares: Vec<Vec<(u32, u32, f32)>>,
-    /// The part of each pixel that nothing solid covers.
     open: Vec<f32>,
+    dark: Vec<bool>,
 }
 
 impl Painter<'_> {
@@ -179,18 +191,21 @@ impl Painter<'_> {
         let mut band = Band {
             light: Vec::with_capacity(pixels),
             layers: Vec::with_capacity(pixels),
-            shares: Vec::new(),
+            shares: Vec::with_capacity(pixels),
             open: Vec::with_capacity(pixels),
+            dark: Vec::with_capacity(pixels),
         };
         let weight = 1.0 / (n * n) as f32;
         for y in 0..(end - first) as usize {
             for x in 0..width as usize {
                 let mut light = Vec3::ZERO;
                 let mut open = 0.0;
+                let mut dark = true;
                 let mut shares: Vec<(u32, u32, f32)> = Vec::new();
                 for k in 0..(n * n) as usize {
                     let (row, column) = (y * n as usize + k / n as usize, x * n as usize + k % n as usize);
                     light += self.colour(&grid, row, column) * weight;
+                    dark &= matches!(samples[row * columns + column], Sample::Dark);
                     match &samples[row * columns + column] {
                         Sample::Surface { hit, .. } => {
                             let key = (self.world.things[hit.object].id, hit.order);
@@ -213,6 +228,7 @@ impl Painter<'_> {
                 band.layers.push(self.layer(&centre));
                 band.shares.push(shares);
                 band.open.push(open);
+                band.dark.push(dark);
             }
         }
         band
