@@ -373,7 +373,7 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
 
 #[cfg(feature = "game")]
 fn run_compare(args: &CompareArgs) -> ExitCode {
-    use lensrunner::measure::compare::{command, metrics::Limits};
+    use lensrunner::measure::compare::command;
     let request = trace::Request {
         scene: args.scene.clone(),
         size: args.size,
@@ -383,7 +383,7 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
         tolerance: args.tolerance,
     };
     match command::run(&request, args.config.as_deref(), &args.output, &lensrunner::play::contestant::draw) {
-        Ok(verdict) => ExitCode::from(u8::from(!verdict.faults(&Limits::default()).is_empty())),
+        Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
-use super::metrics::{Limits, Verdict, compare};
+use super::metrics::{Limits, compare};
 use super::report::{side_by_side, table};
 use crate::measure::flip::flip;
 use crate::measure::picture_file::{PictureFileError, write_png};
@@ -40,8 +40,8 @@ impl CompareError {
     }
 }
 
-/// Renders both, prints the verdict to standard output and writes the pictures side by side to `output`, a .png.
-pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Verdict, CompareError> {
+/// Renders both, gives what goes beyond the limits, prints the verdict to standard output and writes the pictures side by side to `output`, a .png.
+pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
     let side = request.check()?;
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
@@ -59,10 +59,12 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     let verdict = compare(&judge, &frame, &names, &difference);
-    print!("{}", table(&verdict, &Limits::default()));
-    let (size, bytes) = side_by_side(&judge, &frame, &difference, &case.development());
+    let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
+    let faults = verdict.faults(&limits);
+    print!("{}", table(&verdict, &faults));
+    let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
     write_png(output, &bytes, size)?;
-    Ok(verdict)
+    Ok(faults)
 }
 
 /// ꟻLIP of the two pictures, both exposed so that the judge's brightest hundredth is white.

@@ -56,6 +56,8 @@ pub struct Verdict {
     pub lit: usize,
     /// Mean ꟻLIP of the whole picture.
     pub flip: f64,
+    /// Displacement at each pixel, in pixels; not a number where it was not measured.
+    pub displaced: Vec<f32>,
 }
 
 /// What a picture must keep to be taken as right.
@@ -69,11 +71,13 @@ pub struct Limits {
     pub coverage: f64,
     /// Of the difference in area of thin images, as a part of their area, where that is more than 20 pixels.
     pub thin: f64,
+    /// Image orders that are drawn at all; higher ones are listed and not judged.
+    pub orders: u32,
 }
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 0.2 }
+        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 0.2, orders: 3 }
     }
 }
 
@@ -81,7 +85,7 @@ impl Verdict {
     /// What goes beyond the limits, in words; nothing if the picture is right.
     pub fn faults(&self, limits: &Limits) -> Vec<String> {
         let mut faults = Vec::new();
-        for group in &self.groups {
+        for group in self.groups.iter().filter(|group| group.order <= limits.orders) {
             let who = format!("{} order {}", group.name, group.order);
             let d = &group.displacement;
             if d.most > limits.most {
@@ -123,6 +127,7 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
     let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
     let (mut wrong_order, mut holes, mut lit) = (0, 0, 0);
+    let mut displaced = vec![f32::NAN; width * height];
     for i in 0..width * height {
         let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
         let around = grid.around(i);
@@ -153,7 +158,10 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
                 tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
             } else {
                 match displacement(judge, &grid, i, shown) {
-                    Some(Measured::Pixels(d)) => tally.displacements.push(d),
+                    Some(Measured::Pixels(d)) => {
+                        tally.displacements.push(d);
+                        displaced[i] = d as f32;
+                    }
                     Some(Measured::Apart) => tally.apart += 1,
                     None => {}
                 }
@@ -169,7 +177,7 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
     }
     let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
-    Verdict { groups, wrong_order, holes, lit, flip }
+    Verdict { groups, wrong_order, holes, lit, flip, displaced }
 }
 
 /// Objects and orders that nowhere fill a pixel.

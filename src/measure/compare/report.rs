@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use super::Frame;
-use super::metrics::{Limits, Verdict};
+use super::metrics::Verdict;
 use crate::reference::picture::Picture;
 use crate::reference::picture::develop::{Development, develop};
 
 /// The verdict as a table, with what goes beyond the limits below.
-pub fn table(verdict: &Verdict, limits: &Limits) -> String {
+pub fn table(verdict: &Verdict, faults: &[String]) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -42,8 +42,7 @@ pub fn table(verdict: &Verdict, limits: &Limits) -> String {
         "wrong order {} px, holes {} px, lit in the shadow {} px, mean FLIP {:.4}",
         verdict.wrong_order, verdict.holes, verdict.lit, verdict.flip
     );
-    let faults = verdict.faults(limits);
-    for fault in &faults {
+    for fault in faults {
         let _ = writeln!(text, "beyond the limit: {fault}");
     }
     if faults.is_empty() {
@@ -52,20 +51,27 @@ pub fn table(verdict: &Verdict, limits: &Limits) -> String {
     text
 }
 
-/// The contestant's picture, the judge's, and the ꟻLIP of each pixel from black over red and yellow to white, in a row: size and sRGB bytes.
-/// Both pictures are developed alike, by themselves.
-pub fn side_by_side(judge: &Picture, frame: &Frame, difference: &[f32], development: &Development) -> ([u32; 2], Vec<u8>) {
+/// In a row: the contestant's picture, the judge's, and from black over red and yellow to white the ꟻLIP of each pixel (white: 1) and its
+/// displacement (white: 1.5 pixels). Both pictures are developed alike, by themselves. Gives size and sRGB bytes.
+pub fn side_by_side(
+    judge: &Picture,
+    frame: &Frame,
+    difference: &[f32],
+    displaced: &[f32],
+    development: &Development,
+) -> ([u32; 2], Vec<u8>) {
     let [width, height] = judge.size;
     let pictures = [develop(&frame.light, frame.size, development), develop(&judge.light, judge.size, development)];
     let map: Vec<u8> = difference.iter().flat_map(|d| heat(*d)).collect();
+    let moved: Vec<u8> = displaced.iter().flat_map(|d| heat(d / 1.5)).collect();
     let row = 3 * width as usize;
-    let mut bytes = Vec::with_capacity(3 * row * height as usize);
+    let mut bytes = Vec::with_capacity(4 * row * height as usize);
     for y in 0..height as usize {
-        for part in [&pictures[0], &pictures[1], &map] {
+        for part in [&pictures[0], &pictures[1], &map, &moved] {
             bytes.extend_from_slice(&part[y * row..(y + 1) * row]);
         }
     }
-    ([3 * width, height], bytes)
+    ([4 * width, height], bytes)
 }
 
 fn heat(difference: f32) -> [u8; 3] {
