@@ -8,8 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::trace;
-use lensrunner::measure::{chart, projection};
+use lensrunner::measure::{aurora, chart, projection, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -42,6 +41,7 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Aurora(ChartAuroraArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
 }
@@ -74,6 +74,28 @@ struct ChartProjectionArgs {
     /// Seed of the points.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+}
+
+/// The experiment of paper 3: auroras by the particle method and by screen walks, time against error, from four views.
+#[derive(Args)]
+struct ChartAuroraArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How many of the ten auroras.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u8).range(1..=10))]
+    auroras: u8,
+    /// Numbers of electrons.
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1000,4000,16000", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    electrons: Vec<u32>,
+    /// Standard deviations of a point's light in km, 0.1 to 50.
+    #[arg(long, value_name = "KM,…", value_delimiter = ',', default_value = "1,2,4", value_parser = aurora::chart::radius)]
+    radii: Vec<f32>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = aurora::chart::size)]
+    size: [usize; 2],
+    /// Runs of which the median is taken.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+    repeats: u8,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -296,6 +318,7 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => run_compare(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Aurora(args) => run_chart_aurora(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
         },
@@ -319,6 +342,18 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
     finish_chart(projection::run(&request))
+}
+
+fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
+    let experiment = aurora::experiment::Request {
+        auroras: usize::from(args.auroras),
+        counts: args.electrons,
+        radii: args.radii,
+        size: args.size,
+        repeats: usize::from(args.repeats),
+    };
+    let mut runners = Vec::new();
+    finish_chart(aurora::chart::run(&args.chart.into(), &experiment, "", &mut runners))
 }
 
 /// Says what was written, or what went wrong.

@@ -4,6 +4,7 @@ mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_aurora;
 mod measure_charts;
 mod measure_compare;
 mod measure_project;
@@ -12,10 +13,16 @@ mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
+mod render_disk;
+#[cfg(feature = "game")]
+mod render_lookup;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+mod scene_aurora;
 mod scene_config;
+mod scene_disk;
 mod scene_files;
 mod scene_models;
 mod scene_sky;

@@ -9,8 +9,9 @@ use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
-use crate::reference::picture::{Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
+use crate::reference::picture::{Disk, Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
+use crate::scene::disk::Gas;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::{History, Moment};
 
@@ -164,6 +165,7 @@ impl Case {
         done: &(dyn Fn(u64) + Sync),
     ) -> Picture {
         let sky = &self.scene.sky;
+        let disk = self.scene.disk(&self.config).map(|disk| Disk::new(Gas::new(&disk, self.config.hole.mass_solar)));
         let (milky_way, _) = scene::milky_way::load_or_dark();
         let brightness = if with_sky && sky.milky_way { self.config.sky.milky_way_brightness * sky.brightness } else { 0.0 };
         let background = Background::new(&milky_way, brightness as f32);
@@ -174,7 +176,7 @@ impl Case {
         } else {
             Vec::new()
         };
-        let setting = Setting { background: &background, stars: &spots, shift: self.shift() };
+        let setting = Setting { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
         picture(&self.world(ships), &setting, &self.camera, quality, done)
     }
 

@@ -9,12 +9,15 @@ use crate::scene::model::Model;
 
 use super::Gpu;
 use super::develop::Develop;
+use super::disk::types::DiskCounters;
+use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
+use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
-use super::sky::table::{NODES, sky_table};
+use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::targets::Targets;
 use super::timing::Timing;
@@ -37,7 +40,7 @@ pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
     frame: wgpu::Buffer,
-    lens_slice: Growing,
+    lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
     /// The table of the sky for the radius that the slices are for.
     sky: Vec<[f32; 4]>,
@@ -46,8 +49,12 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
-    /// The radius that the slices are for.
-    sliced: f64,
+    /// The radius and the method that the slices are for.
+    sliced: (f64, Method),
+    slice: Option<Slice>,
+    disk: Option<DiskPasses>,
+    /// Whether the scene has a disk; its passes are kept for the next that has.
+    has_disk: bool,
     models: Models,
     geometry: Geometry,
     background: Background,
@@ -65,10 +72,10 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
+        let lens_slice = Numbers::new(device, "lens slice", 0);
         let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
         let blackbody = storage(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
@@ -76,7 +83,7 @@ impl Renderer {
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size);
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
@@ -94,7 +101,10 @@ impl Renderer {
             frame_layout,
             format,
             frame_group,
-            sliced: f64::NAN,
+            sliced: (f64::NAN, Method::default()),
+            slice: None,
+            disk: None,
+            has_disk: false,
             develop,
             targets,
         }
@@ -120,6 +130,28 @@ impl Renderer {
     pub fn clear_models(&mut self) {
         self.geometry.models_changed();
         self.models.clear();
+    }
+
+    /// Draws this disk from now on, or none.
+    pub fn set_disk(&mut self, disk: Option<Disk>) {
+        self.has_disk = disk.is_some();
+        match (disk, &mut self.disk) {
+            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
+            (None, _) => {}
+        }
+    }
+
+    /// The passes of the disk, if the scene has one.
+    pub fn disk(&self) -> Option<&DiskPasses> {
+        self.disk.as_ref().filter(|_| self.has_disk)
+    }
+
+    /// What the stages of the disk counted in the last frame; None without a disk.
+    pub fn disk_counters(&self) -> Result<Option<DiskCounters>, PictureError> {
+        let Some(disk) = self.disk() else { return Ok(None) };
+        let bytes = readback::buffer(&self.gpu, disk.arcs().counters())?;
+        Ok(Some(bytemuck::pod_read_unaligned(&bytes[..size_of::<DiskCounters>()])))
     }
 
     /// The size of the output, in pixels.
@@ -151,18 +183,26 @@ impl Renderer {
             return false;
         }
         let l = camera.radius();
-        // The slices depend on the radius alone.
-        if self.sliced != l {
-            self.sliced = l;
-            let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, slice.texels()) {
-                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+        // The slices depend on radius and method alone.
+        let method = input.settings.method;
+        if self.sliced != (l, method) {
+            if self.sliced.1 != method {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
             }
-            self.sky = sky_table(l);
+            self.sliced = (l, method);
+            let slice = Slice::new(&self.table, l);
+            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+                let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
+            }
+            self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
+            self.slice = Some(slice);
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
+            disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
+        }
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
@@ -190,6 +230,11 @@ impl Renderer {
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        let disk = self.disk.as_ref().filter(|_| self.has_disk);
+        if let Some(disk) = disk {
+            compute(encoder, "disk arcs", &|pass| disk.compute(pass));
+            compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
+        }
 
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -203,6 +248,17 @@ impl Renderer {
             geometry.draw_opaque(&mut pass);
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
+        }
+        if let Some(disk) = disk {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("disk"),
+                color_attachments: &[Some(colour(&self.targets.picture, false))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                timestamp_writes: self.timing.render("disk"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            disk.draw(&mut pass);
         }
         if geometry.has_thin() {
             {
@@ -283,8 +339,16 @@ impl Renderer {
     }
 }
 
-fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
-    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+fn frame_bindings(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    lens_slice: &wgpu::TextureView,
+    buffers: [&wgpu::Buffer; 3],
+) -> wgpu::BindGroup {
+    let [sky_slice, blackbody, adaptation] = buffers.map(|buffer| buffer.as_entire_binding());
+    let slice = wgpu::BindingResource::TextureView(lens_slice);
+    bind(device, "frame", layout, &[frame.as_entire_binding(), slice, sky_slice, blackbody, adaptation])
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {

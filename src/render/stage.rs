@@ -13,7 +13,9 @@ use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
 use super::coarse::coarse;
+use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
+use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, View, place};
 
@@ -40,6 +42,7 @@ impl Stage {
     /// The same with models made elsewhere.
     pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
         renderer.clear_models();
+        renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
@@ -73,19 +76,20 @@ impl Stage {
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
         camera: Camera,
-        width: u32,
+        size: [u32; 2],
         time: f64,
         histories: &[&History],
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
-        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel };
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
+        let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
+        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -122,6 +126,14 @@ pub fn settings(config: &GameConfig) -> Settings {
     Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
+        method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
+        light_delay: render.light_delay,
+        halvings: render.tessellation_max_level,
+        vertex_budget: render.vertex_budget,
+        min_width: render.min_width as f32,
+        thin_below: render.thin_below,
+        coarse_below: render.coarse_below,
+        least_width: render.least_width,
         doppler: render.doppler,
         beaming: render.beaming,
         star_brightness: config.sky.star_brightness as f32,

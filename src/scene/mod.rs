@@ -3,10 +3,12 @@
 //! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
 pub mod assembly;
+pub mod aurora;
 pub mod blackbody;
 pub mod camera;
 pub mod config;
 mod config_fields;
+pub mod disk;
 mod document;
 pub mod error;
 pub mod import;

@@ -3,10 +3,11 @@
 //! - [`world`]: the things of a scene, with worldlines handed in from above.
 //! - [`tree`]: boxes over triangles, asked along pieces of a curve.
 //! - `find`: what one look direction shows.
-//! - [`shade`], [`texture`], [`sky`]: the game's rules of colour.
+//! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`develop`]: linear light to a picture for the eye.
 
 pub mod develop;
+pub mod disk;
 mod find;
 pub mod shade;
 pub mod sky;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
+pub use disk::{Crossing, Disk};
 pub use find::Seen;
 pub use world::{Motion, Pose, Thing, World, Worldline};
 
@@ -35,6 +37,8 @@ pub struct Setting<'a> {
     pub background: &'a Background,
     /// The stars' spots on this picture.
     pub stars: &'a [Spot],
+    /// The accretion disk.
+    pub disk: Option<&'a Disk>,
     /// How light changes on its way.
     pub shift: Shift,
 }
@@ -89,9 +93,19 @@ pub struct Picture {
 /// Rows of pixels that one task traces together; texture detail is found from neighbours inside it.
 const BAND: u32 = 8;
 
-/// One sample before it is coloured.
+/// One ray: what it shows at its end, through the disk.
 #[derive(Clone, Copy)]
-enum Sample {
+struct Sample {
+    end: Ending,
+    /// The light of the disk in front.
+    veil: Vec3,
+    /// The part of what is behind that comes through the disk.
+    through: f32,
+}
+
+/// What a ray ends at, before it is coloured.
+#[derive(Clone, Copy)]
+enum Ending {
     Dark,
     Sky { direction: DVec3, g: f64 },
     Surface { hit: Hit, surface: Surface },
@@ -204,17 +218,18 @@ impl Painter<'_> {
                 let mut shares: Vec<(u32, u32, f32)> = Vec::new();
                 for k in 0..(n * n) as usize {
                     let (row, column) = (y * n as usize + k / n as usize, x * n as usize + k % n as usize);
-                    light += self.colour(&grid, row, column) * weight;
-                    dark &= matches!(samples[row * columns + column], Sample::Dark);
-                    match &samples[row * columns + column] {
-                        Sample::Surface { hit, .. } => {
+                    let sample = &samples[row * columns + column];
+                    light += (sample.veil + self.colour(&grid, row, column) * sample.through) * weight;
+                    dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
+                    match &sample.end {
+                        Ending::Surface { hit, .. } => {
                             let key = (self.world.things[hit.object].id, hit.order);
                             match shares.iter_mut().find(|share| (share.0, share.1) == key) {
                                 Some(share) => share.2 += weight,
                                 None => shares.push((key.0, key.1, weight)),
                             }
                         }
-                        _ => open += weight,
+                        _ => open += weight * sample.through,
                     }
                 }
                 shares.sort_unstable_by_key(|share| (share.0, share.1));
@@ -236,29 +251,39 @@ impl Painter<'_> {
 
     fn sample(&self, x: f64, y: f64) -> Sample {
         let (look, blue) = self.camera.look(x, y);
-        match self.world.look(self.camera.position, look, self.quality.tolerance) {
-            Seen::Captured => Sample::Dark,
-            Seen::Sky { direction, energy, .. } => Sample::Sky { direction, g: blue / energy },
-            Seen::Hit(hit) => Sample::Surface { hit, surface: self.world.surface(&hit, blue) },
-        }
+        let (mut veil, mut through) = (Vec3::ZERO, 1.0);
+        let end = self.world.look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| {
+            if let Some(disk) = self.setting.disk {
+                let (light, opacity) = disk.light(&crossing, blue, self.world.time, self.setting.shift);
+                veil += light * through;
+                through *= 1.0 - opacity;
+            }
+        });
+        let end = match end {
+            Seen::Captured => Ending::Dark,
+            Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
+            Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },
+        };
+        Sample { end, veil, through }
     }
 
+    /// The light of what a ray ends at.
     fn colour(&self, grid: &Grid, row: usize, column: usize) -> Vec3 {
-        match *grid.at(row, column) {
-            Sample::Dark => Vec3::ZERO,
-            Sample::Sky { direction, g } => {
-                let size = grid.change(row, column, |other| match other {
-                    Sample::Sky { direction: other, .. } => Some(direction.angle_between(*other)),
+        match grid.at(row, column).end {
+            Ending::Dark => Vec3::ZERO,
+            Ending::Sky { direction, g } => {
+                let size = grid.change(row, column, |other| match other.end {
+                    Ending::Sky { direction: other, .. } => Some(direction.angle_between(other)),
                     _ => None,
                 });
                 self.setting.background.light(direction, size[0].max(size[1]), g, self.setting.shift)
             }
-            Sample::Surface { hit, surface } => {
+            Ending::Surface { hit, surface } => {
                 let thing = &self.world.things[hit.object];
                 let material = &self.world.models[thing.model].materials[surface.material as usize];
                 let pyramid = material.texture.as_ref().and_then(|image| self.pyramids.get(&(Arc::as_ptr(image) as usize)));
-                let [across, down] = grid.change(row, column, |other| match other {
-                    Sample::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
+                let [across, down] = grid.change(row, column, |other| match other.end {
+                    Ending::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
                         Some(f64::from(there.uv.distance(surface.uv)))
                     }
                     _ => None,
@@ -270,7 +295,7 @@ impl Painter<'_> {
     }
 
     fn layer(&self, sample: &Sample) -> Layer {
-        let Sample::Surface { hit, surface } = sample else { return Layer::default() };
+        let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
         Layer {
             object: self.world.things[hit.object].id,
             triangle: hit.triangle as u32,
