@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{aurora, chart, projection, trace};
+use lensrunner::measure::{aurora, chart, projection, thin_disk, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -41,6 +41,7 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Trace(ChartTraceArgs),
     Aurora(ChartAuroraArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
@@ -96,6 +97,16 @@ struct ChartAuroraArgs {
     /// Runs of which the median is taken.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     repeats: u8,
+}
+
+/// A thin disk after Page and Thorne: error against rays per second, by the judge and by Gyoto where that is installed.
+#[derive(Args)]
+struct ChartTraceArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Pixels along each side of the picture.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=1024))]
+    pixels: u32,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -318,6 +329,9 @@ fn main() -> ExitCode {
         Some(Command::Compare(args)) => run_compare(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Trace(args) => {
+                finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
+            }
             ChartCommand::Aurora(args) => run_chart_aurora(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),

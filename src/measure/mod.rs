@@ -9,4 +9,5 @@ pub mod picture_file;
 pub mod plot;
 pub mod project;
 pub mod projection;
+pub mod thin_disk;
 pub mod trace;
