@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
 use lensrunner::measure::projection::ChartError;
-use lensrunner::measure::{aurora, chart, methods, projection, trace};
+use lensrunner::measure::{aurora, chart, methods, projection, thin_disk, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -36,6 +36,8 @@ enum Command {
     Project(ProjectArgs),
     Simulate(SimulateArgs),
     Trace(TraceArgs),
+    #[cfg(feature = "game")]
+    Compare(CompareArgs),
     #[command(subcommand)]
     Chart(ChartCommand),
 }
@@ -44,6 +46,7 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Trace(ChartTraceArgs),
     Aurora(ChartAuroraArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
@@ -102,6 +105,16 @@ struct ChartAuroraArgs {
     /// Runs of which the median is taken.
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     repeats: u8,
+}
+
+/// A thin disk after Page and Thorne: error against rays per second, by the judge and by Gyoto where that is installed.
+#[derive(Args)]
+struct ChartTraceArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Pixels along each side of the picture.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=1024))]
+    pixels: u32,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -185,6 +198,38 @@ struct TraceArgs {
     config: Option<PathBuf>,
     /// The picture: .png or .exr.
     #[arg(short, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// Judges the game's picture of a scene by the exact one: for each object and image order how far surface points are displaced, which pixels
+/// differ, the difference in colour (FLIP); ends with code 1 where a limit is passed.
+///
+/// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified beyond
+/// f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin images are
+/// narrower than a pixel: their area to the judge and as shown.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct CompareArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// The judge's rays a pixel: a square number, 1 to 256.
+    #[arg(long, value_name = "N", default_value_t = 9)]
+    samples: u32,
+    /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    tolerance: f64,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The game's picture, the judge's and their difference, side by side.
+    #[arg(short, value_name = "FILE.png")]
     output: PathBuf,
 }
 
@@ -294,8 +339,13 @@ fn main() -> ExitCode {
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Trace(args)) => run_trace(&args),
+        #[cfg(feature = "game")]
+        Some(Command::Compare(args)) => run_compare(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Trace(args) => {
+                finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
+            }
             ChartCommand::Aurora(args) => run_chart_aurora(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
@@ -387,6 +437,23 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
             eprintln!("{rate:.0} rays per second and thread");
             ExitCode::SUCCESS
         }
+        Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
+    }
+}
+
+#[cfg(feature = "game")]
+fn run_compare(args: &CompareArgs) -> ExitCode {
+    use lensrunner::measure::compare::command;
+    let request = trace::Request {
+        scene: args.scene.clone(),
+        size: args.size,
+        at: args.at,
+        samples: args.samples,
+        threads: 0,
+        tolerance: args.tolerance,
+    };
+    match command::run(&request, args.config.as_deref(), &args.output, &lensrunner::play::contestant::draw) {
+        Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }

@@ -7,6 +7,7 @@ mod lensing_tables;
 mod light_against_judge;
 mod measure_aurora;
 mod measure_charts;
+mod measure_compare;
 mod measure_project;
 mod measure_projection;
 mod reference_bvh_build;

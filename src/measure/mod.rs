@@ -2,10 +2,13 @@
 
 pub mod aurora;
 pub mod chart;
+pub mod compare;
 pub mod disk;
+pub mod flip;
 pub mod methods;
 pub mod picture_file;
 pub mod plot;
 pub mod project;
 pub mod projection;
+pub mod thin_disk;
 pub mod trace;

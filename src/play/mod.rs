@@ -4,6 +4,7 @@
 //! and [`seen`] (where the image of a ship appears).
 
 pub mod camera;
+pub mod contestant;
 pub mod demonstration;
 pub mod director;
 pub mod game;

@@ -322,27 +322,25 @@ impl Renderer {
             .chunks_exact(8)
             .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
             .collect();
-        let layers = match &self.targets.layers {
-            Some((texture, _, _)) if layers => {
-                let bytes = readback::texture(&self.gpu, texture, 16)?;
-                bytes
-                    .chunks_exact(16)
-                    .map(|texel| {
-                        std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]]))
-                    })
-                    .collect()
-            }
-            _ => Vec::new(),
+        let (layers, surface) = match &self.targets.layers {
+            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            _ => Default::default(),
         };
-        Ok(Picture { size: self.targets.size, developed, linear, layers })
+        let thin = if self.geometry.has_thin() {
+            let halves = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            halves.chunks_exact(8).map(|texel| half::f16::from_le_bytes([texel[6], texel[7]]).to_f32()).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Picture { size: self.targets.size, developed, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let (_, view, depth_view) = self.targets.layers(&self.gpu.device);
+        let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("layers"),
-            color_attachments: &[Some(colour(view, true))],
-            depth_stencil_attachment: Some(depth(depth_view, true)),
+            color_attachments: &[Some(colour(&targets.what.1, true)), Some(colour(&targets.surface.1, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
             ..Default::default()
         });
         pass.set_bind_group(0, &self.frame_group, &[]);

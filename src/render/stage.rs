@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Body, GameConfig, Scene, lighting, viewpoint};
+use crate::scene::{self, Assembly, Body, GameConfig, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
@@ -36,9 +36,13 @@ pub struct Stage {
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
+        Stage::of(renderer, scene, scene.assemble(config), config)
+    }
+
+    /// The same with models made elsewhere.
+    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
         renderer.clear_models();
         renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
-        let assembly = scene.assemble(config);
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
