@@ -8,7 +8,12 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
+<<<<<<< HEAD
 use lensrunner::measure::{aurora, chart, projection};
+=======
+use lensrunner::measure::trace;
+use lensrunner::measure::{chart, projection};
+>>>>>>> main
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -30,6 +35,7 @@ enum Command {
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
+    Trace(TraceArgs),
     #[command(subcommand)]
     Chart(ChartCommand),
 }
@@ -143,6 +149,42 @@ struct ShotArgs {
     output: PathBuf,
 }
 
+/// Traces one picture of a scene, each pixel by a light ray of its own: the exact picture that the game's is judged by.
+///
+/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers what the centre of each pixel shows: object.id,
+/// triangle.id, barycentric.a to c, texture.u and v, image.order, swept.angle (radians), travel.time (r_s/c) and frequency.ratio
+/// (g = ν_observed/ν_emitted).
+#[derive(Args)]
+struct TraceArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// Rays a pixel: a square number, 1 to 256.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    samples: u32,
+    /// Threads; 0 as many as there are cores.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    tolerance: f64,
+    /// Adds what each pixel shows to an .exr.
+    #[arg(long)]
+    layers: bool,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The picture: .png or .exr.
+    #[arg(short, value_name = "FILE")]
+    output: PathBuf,
+}
+
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
 ///
 /// Columns: ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz, per unit mass in r_s = c = 1. p is the rain-frame momentum, q turns body axes
@@ -242,6 +284,7 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
+        Some(Command::Trace(args)) => run_trace(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
             ChartCommand::Aurora(args) => run_chart_aurora(args),
@@ -311,6 +354,24 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
         ShotError::Picture(PictureError::Format(_)) => fail(error, 2),
         ShotError::Device(_) | ShotError::Picture(_) => fail(error, 1),
         _ => fail(error, 2),
+    }
+}
+
+fn run_trace(args: &TraceArgs) -> ExitCode {
+    let request = trace::Request {
+        scene: args.scene.clone(),
+        size: args.size,
+        at: args.at,
+        samples: args.samples,
+        threads: args.threads,
+        tolerance: args.tolerance,
+    };
+    match trace::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
+        Ok(rate) => {
+            eprintln!("{rate:.0} rays per second and thread");
+            ExitCode::SUCCESS
+        }
+        Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }
 

@@ -9,6 +9,7 @@ mod measure_charts;
 mod measure_project;
 mod reference_bvh_build;
 mod reference_oracles;
+mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
 mod render_pictures;

@@ -2,6 +2,8 @@
 
 pub mod aurora;
 pub mod chart;
+pub mod picture_file;
 pub mod plot;
 pub mod project;
 pub mod projection;
+pub mod trace;

@@ -2,9 +2,11 @@
 
 use glam::{DMat4, DQuat, DVec3};
 
+use crate::scene::stars::SKY_UNIT;
 use crate::scene::{blackbody, milky_way};
 use crate::spacetime::{frames, light};
 
+use super::aurora::AuroraFrame;
 use super::placements::Placed;
 use super::types::{self, flags};
 
@@ -129,6 +131,8 @@ pub struct FrameInput {
     pub time: f64,
     /// Objects in each order they are seen in.
     pub placed: Vec<Placed>,
+    /// The aurora, if there is one in sight.
+    pub aurora: Option<AuroraFrame>,
     /// How to draw.
     pub settings: Settings,
 }
@@ -146,12 +150,8 @@ pub struct Capacity {
     pub thin: u32,
 }
 
-/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
-/// stars down to magnitude 6 show beside a lit ship.
-pub const SKY_UNIT: f32 = 4e-4;
-
 /// The uniform of a frame of `size` pixels.
-pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacity) -> types::Frame {
+pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types::Frame {
     let camera = &input.camera;
     let settings = &input.settings;
     let [n, a, b] = camera.axis_frame();
@@ -188,7 +188,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacit
             settings.bloom,
         ],
         exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, light::shadow_angle(1.0 / radius) as f32],
-        switches: [switches, 64, if settings.stars { stars } else { 0 }, settings.orders],
+        switches: [switches, 64, 0, settings.orders],
         sky_x: [1.0, 0.0, 0.0, 0.0],
         sky_y: [0.0, 1.0, 0.0, 0.0],
         sky_z: [0.0, 0.0, 1.0, 0.0],

@@ -8,10 +8,11 @@ use crate::lensing::{Slice, Table};
 use crate::scene::model::Model;
 
 use super::Gpu;
+use super::aurora::Aurora;
 use super::develop::Develop;
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
 use super::sky::table::{NODES, sky_table};
@@ -37,8 +38,10 @@ pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
     frame: wgpu::Buffer,
-    lens_slice: Growing,
+    lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
+    /// The table of the sky for the radius that the slices are for.
+    sky: Vec<[f32; 4]>,
     blackbody: wgpu::Buffer,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
@@ -50,6 +53,7 @@ pub struct Renderer {
     geometry: Geometry,
     background: Background,
     stars: Stars,
+    aurora: Aurora,
     develop: Develop,
     targets: Targets,
     timing: Timing,
@@ -63,10 +67,10 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
+        let lens_slice = Numbers::new(device, "lens slice", 0);
         let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
         let blackbody = storage(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
@@ -74,11 +78,12 @@ impl Renderer {
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size);
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
@@ -86,6 +91,7 @@ impl Renderer {
             frame,
             lens_slice,
             sky_slice,
+            sky: Vec::new(),
             blackbody,
             adaptation,
             frame_layout,
@@ -152,16 +158,20 @@ impl Renderer {
         if self.sliced != l {
             self.sliced = l;
             let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, slice.texels()) {
-                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+                let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
-            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky_table(l)));
+            self.sky = sky_table(l);
+            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed);
-        let uniform = uniform(input, self.targets.size, self.stars.count(), self.geometry.capacity());
+        let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
-        self.stars.reset(&self.gpu);
+        let edge = f64::from(uniform.exposure[3]);
+        self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        self.background.prepare(&self.gpu, self.targets.size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         true
     }
 
@@ -182,7 +192,12 @@ impl Renderer {
         compute(encoder, "triangles", &|pass| geometry.triangles(pass));
         compute(encoder, "refine", &|pass| geometry.refine(pass));
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
+            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+        }
 
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -278,8 +293,16 @@ impl Renderer {
     }
 }
 
-fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
-    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+fn frame_bindings(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    lens_slice: &wgpu::TextureView,
+    buffers: [&wgpu::Buffer; 3],
+) -> wgpu::BindGroup {
+    let [sky_slice, blackbody, adaptation] = buffers.map(|buffer| buffer.as_entire_binding());
+    let slice = wgpu::BindingResource::TextureView(lens_slice);
+    bind(device, "frame", layout, &[frame.as_entire_binding(), slice, sky_slice, blackbody, adaptation])
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {

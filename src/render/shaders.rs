@@ -8,12 +8,14 @@ const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
+const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
+const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
 /// The passes of a frame, by the file that holds their entry points.
@@ -33,12 +35,22 @@ pub enum Pass {
     Mesh,
     /// Rasterises.
     Draw,
+    /// Works the sky out at the corners of cells.
+    SkyCells,
     /// The sky behind everything.
     Background,
     /// Projects stars.
     StarsProject,
     /// Draws stars.
     StarsDraw,
+    /// Projects the ends of the aurora's chords.
+    AuroraProject,
+    /// Walks between them.
+    AuroraWalk,
+    /// Adds up the aurora's light.
+    AuroraSplat,
+    /// Makes it a colour.
+    AuroraResolve,
     /// Lays thin triangles over the picture.
     Compose,
     /// Halves and doubles the picture.
@@ -51,7 +63,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 14] = [
+    pub const ALL: [Pass; 19] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -59,9 +71,14 @@ impl Pass {
         Pass::Arguments,
         Pass::Mesh,
         Pass::Draw,
+        Pass::SkyCells,
         Pass::Background,
         Pass::StarsProject,
         Pass::StarsDraw,
+        Pass::AuroraProject,
+        Pass::AuroraWalk,
+        Pass::AuroraSplat,
+        Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
@@ -79,9 +96,14 @@ impl Pass {
             Pass::Arguments => include_str!("../../shaders/geometry/arguments.wgsl"),
             Pass::Mesh => include_str!("../../shaders/geometry/mesh.wgsl"),
             Pass::Draw => include_str!("../../shaders/geometry/draw.wgsl"),
+            Pass::SkyCells => include_str!("../../shaders/sky/cells.wgsl"),
             Pass::Background => include_str!("../../shaders/sky/background.wgsl"),
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
+            Pass::AuroraProject => include_str!("../../shaders/aurora/project.wgsl"),
+            Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
+            Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
@@ -91,8 +113,12 @@ impl Pass {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
             Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
-            Pass::Background | Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
-            Pass::StarsDraw => vec![TYPES, BINDINGS],
+            Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
+            Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
+            Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, PROJECT, STREAKS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
+            Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
         };
