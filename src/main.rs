@@ -8,12 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-<<<<<<< HEAD
-use lensrunner::measure::{aurora, chart, projection};
-=======
-use lensrunner::measure::trace;
-use lensrunner::measure::{chart, projection};
->>>>>>> main
+use lensrunner::measure::{aurora, chart, projection, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};

@@ -70,7 +70,10 @@ fn reload(
 
 /// Whether the models of the scene are to be made again.
 fn restage(before: &GameConfig, now: &GameConfig) -> bool {
-    before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient || before.aurora != now.aurora
+    before.ship.size != now.ship.size
+        || before.enemy.size != now.enemy.size
+        || before.render.ambient != now.render.ambient
+        || before.aurora != now.aurora
 }
 
 fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
-use super::aurora::random::hash;
+use super::aurora::random;
 use super::model::Image;
 
 /// Width and height of the galaxy, in pixels.
@@ -89,7 +89,7 @@ fn space_noise(place: [f32; 3], seed: u32) -> f32 {
     let mut sum = 0.0;
     for corner in 0..8u32 {
         let bit = |k: usize| (corner >> k & 1) as f32;
-        let key = (0..3).fold(seed, |key, k| hash(key.wrapping_add((cell[k] + bit(k)) as i32 as u32)));
+        let key = (0..3).fold(seed, |key, k| random::hash(key.wrapping_add((cell[k] + bit(k)) as i32 as u32)));
         let weight: f32 = (0..3).map(|k| if bit(k) > 0.0 { s[k] } else { 1.0 - s[k] }).product();
         sum += weight * (key >> 8) as f32 / 16_777_216.0;
     }

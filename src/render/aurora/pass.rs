@@ -155,11 +155,8 @@ impl Aurora {
             &self.draws,
         ];
         let splat = (0..ORDERS as u64).map(|order| {
-            let range = wgpu::BufferBinding {
-                buffer: &self.splats.buffer,
-                offset: order * self.room,
-                size: std::num::NonZeroU64::new(self.room),
-            };
+            let range =
+                wgpu::BufferBinding { buffer: &self.splats.buffer, offset: order * self.room, size: std::num::NonZeroU64::new(self.room) };
             bind(device, "aurora splat", &self.splat_layout, &[wgpu::BindingResource::Buffer(range), self.gaussian.as_entire_binding()])
         });
         let resolve = self.colours.iter().map(|colours| {

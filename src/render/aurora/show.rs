@@ -227,7 +227,8 @@ fn frequency_ratio(camera: &Camera, time: f64, history: &History, order: u32) ->
     let moving = velocity(&ShipState::new(camera.position, camera.momentum));
     // A millionth of the radius: the light path is good to 1e-12 of it.
     let h = 1e-6 * camera.radius();
-    let path = |s: f64| light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order).map(|path| path.0);
+    let path =
+        |s: f64| light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order).map(|path| path.0);
     let along = (path(h)? - path(-h)?) / (2.0 * h);
     let received = 1.0 - along;
     let sent = 1.0 + gradient.dot(emitted.velocity);
