@@ -12,11 +12,16 @@ mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
+mod render_disk;
+#[cfg(feature = "game")]
+mod render_lookup;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
 mod scene_aurora;
 mod scene_config;
+mod scene_disk;
 mod scene_files;
 mod scene_models;
 mod scene_sky;

@@ -87,9 +87,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     if most <= BLOCK {
         let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
-        if !emit_work(piece, vec4<u32>(levels, 1u), most, 1u) {
-            emit_triangle(slots.x, slots.y, slots.z, placement);
-        }
+        emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
     emit_piece(0u, chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);

@@ -2,12 +2,14 @@
 //!
 //! `formulas` holds closed forms that are right near the camera and where the field is weak; the table holds what is left, over
 //! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
-//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does. `paper` is the
+//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
+//! and point both inside the horizon. `paper` is the
 //! method of paper 1, for comparison, and `score` measures the error of either.
 
 pub mod bake;
 pub mod command;
 pub mod grid;
+pub mod inside;
 pub mod lookup;
 pub mod paper;
 pub mod score;
@@ -31,7 +33,7 @@ pub mod single {
     include!("formulas.rs");
 }
 
-pub use lookup::{LensRay, lens_lookup, lens_lookup_at};
+pub use lookup::{LensRay, lens_lookup, lens_lookup_aged, lens_lookup_at};
 pub use slice::Slice;
 pub use table::{Scheme, Table, TableError, load_or_bake};
 

@@ -2,6 +2,7 @@
 
 pub mod aurora;
 pub mod chart;
+pub mod disk;
 pub mod picture_file;
 pub mod plot;
 pub mod project;

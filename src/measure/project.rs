@@ -78,15 +78,14 @@ impl Projector for Exact {
 pub struct Table(pub lensing::Table);
 
 impl Projector for Table {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
         let [low, high] = lensing::grid::CAMERA_RANGE;
-        let [far, near] = lensing::double::POINT_RANGE;
-        let u = 1.0 / query.r;
-        if !(low..=high).contains(&query.camera) || !(far..=near).contains(&u) {
+        let far = lensing::double::POINT_RANGE[0];
+        if !(low..=high).contains(&query.camera) || 1.0 / query.r < far {
             return None;
         }
         let slice = lensing::Slice::new(&self.0, query.camera);
-        let ray = lensing::score::look_up_row(&slice, [query.r, query.phi, query.camera], order);
+        let ray = lensing::score::look_up_row_on(&slice, [query.r, query.phi, query.camera], order, branch);
         ray.valid.then(|| Sight {
             psi_rain: f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)),
             psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / query.camera),

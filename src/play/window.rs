@@ -150,9 +150,9 @@ fn make_frame(
     mut frame: ResMut<FrameToDraw>,
     mut panel: ResMut<Panel>,
 ) {
-    // Nothing is drawn into a window without a size.
-    let width = windows.iter().map(Window::physical_width).max().unwrap_or(0);
-    let Some(staged) = staged.filter(|_| width > 0) else { return };
+    // A window without area (minimised, say) shows nothing and waits.
+    let Some(size) = windows.iter().map(|window| window.physical_size().to_array()).find(|size| size[0] > 0 && size[1] > 0) else { return };
+    let Some(staged) = staged else { return };
     let all: Vec<_> = fleet.0.iter().filter_map(|&ship| ships.get(ship).ok()).collect();
     let histories: Vec<&History> = all.iter().map(|ship| ship.0).collect();
     let me = session.player();
@@ -178,7 +178,7 @@ fn make_frame(
     let mut settings = settings(config);
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
-    frame.0 = Some(staged.0.frame(camera, width, time, &histories, cockpit.then_some(me), &settings));
+    frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
 
     let target = session.target().and_then(|target| histories.get(target));
     let there = target.map(|history| state_of(&history.at(time)));

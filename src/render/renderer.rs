@@ -10,12 +10,15 @@ use crate::scene::model::Model;
 use super::Gpu;
 use super::aurora::Aurora;
 use super::develop::Develop;
+use super::disk::types::DiskCounters;
+use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
 use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
+use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
-use super::sky::table::{NODES, sky_table};
+use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::targets::Targets;
 use super::timing::Timing;
@@ -47,8 +50,12 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
-    /// The radius that the slices are for.
-    sliced: f64,
+    /// The radius and the method that the slices are for.
+    sliced: (f64, Method),
+    slice: Option<Slice>,
+    disk: Option<DiskPasses>,
+    /// Whether the scene has a disk; its passes are kept for the next that has.
+    has_disk: bool,
     models: Models,
     geometry: Geometry,
     background: Background,
@@ -97,7 +104,10 @@ impl Renderer {
             frame_layout,
             format,
             frame_group,
-            sliced: f64::NAN,
+            sliced: (f64::NAN, Method::default()),
+            slice: None,
+            disk: None,
+            has_disk: false,
             develop,
             targets,
         }
@@ -123,6 +133,28 @@ impl Renderer {
     pub fn clear_models(&mut self) {
         self.geometry.models_changed();
         self.models.clear();
+    }
+
+    /// Draws this disk from now on, or none.
+    pub fn set_disk(&mut self, disk: Option<Disk>) {
+        self.has_disk = disk.is_some();
+        match (disk, &mut self.disk) {
+            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
+            (None, _) => {}
+        }
+    }
+
+    /// The passes of the disk, if the scene has one.
+    pub fn disk(&self) -> Option<&DiskPasses> {
+        self.disk.as_ref().filter(|_| self.has_disk)
+    }
+
+    /// What the stages of the disk counted in the last frame; None without a disk.
+    pub fn disk_counters(&self) -> Result<Option<DiskCounters>, PictureError> {
+        let Some(disk) = self.disk() else { return Ok(None) };
+        let bytes = readback::buffer(&self.gpu, disk.arcs().counters())?;
+        Ok(Some(bytemuck::pod_read_unaligned(&bytes[..size_of::<DiskCounters>()])))
     }
 
     /// The size of the output, in pixels.
@@ -154,18 +186,27 @@ impl Renderer {
             return false;
         }
         let l = camera.radius();
-        // The slices depend on the radius alone.
-        if self.sliced != l {
-            self.sliced = l;
+        // The slices depend on radius and method alone.
+        let method = input.settings.method;
+        if self.sliced != (l, method) {
+            if self.sliced.1 != method {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
+            }
+            self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
             if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
                 let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
-            self.sky = sky_table(l);
+            self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
+            self.slice = Some(slice);
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
+            disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
+        }
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
@@ -198,6 +239,11 @@ impl Renderer {
             compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
             compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
         }
+        let disk = self.disk.as_ref().filter(|_| self.has_disk);
+        if let Some(disk) = disk {
+            compute(encoder, "disk arcs", &|pass| disk.compute(pass));
+            compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
+        }
 
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -212,6 +258,17 @@ impl Renderer {
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
         }
+        if let Some(disk) = disk {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("disk"),
+                color_attachments: &[Some(colour(&self.targets.picture, false))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                timestamp_writes: self.timing.render("disk"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            disk.draw(&mut pass);
+        }
         if geometry.has_thin() {
             {
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -225,6 +282,20 @@ impl Renderer {
                 geometry.draw_thin(&mut pass);
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
+        }
+        for image in 0..self.aurora.images() {
+            let Some(light) = self.aurora.light() else { break };
+            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
+            }
         }
         self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);

@@ -3,6 +3,8 @@
 //! A pass is its own file after the library files it needs; the order is the order of the floors. Nothing is generated, so a line of an
 //! error message can be found by counting through the list.
 
+use super::method::Method;
+
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
@@ -16,6 +18,11 @@ const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
+const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
+const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
+const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
+const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
+const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
 /// The passes of a frame, by the file that holds their entry points.
@@ -59,11 +66,23 @@ pub enum Pass {
     Exposure,
     /// Exposes, blooms, encodes.
     Develop,
+    /// Projects the places of the disk's arcs.
+    DiskVertices,
+    /// Decides how often arcs are halved.
+    DiskSegments,
+    /// Projects what halving asks for.
+    DiskMesh,
+    /// Joins the arcs' points by triangles.
+    DiskStrips,
+    /// Turns the disk's counts into indirect arguments.
+    DiskArguments,
+    /// Rasterises the disk.
+    DiskDraw,
 }
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 19] = [
+    pub const ALL: [Pass; 25] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -83,11 +102,22 @@ impl Pass {
         Pass::Bloom,
         Pass::Exposure,
         Pass::Develop,
+        Pass::DiskVertices,
+        Pass::DiskSegments,
+        Pass::DiskMesh,
+        Pass::DiskStrips,
+        Pass::DiskArguments,
+        Pass::DiskDraw,
     ];
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        self.source_by(Method::default())
+    }
+
+    /// The same with another method of projection, where the pass looks rays up.
+    pub fn source_by(self, method: Method) -> String {
+        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -108,6 +138,12 @@ impl Pass {
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
             Pass::Develop => include_str!("../../shaders/develop/develop.wgsl"),
+            Pass::DiskVertices => include_str!("../../shaders/disk/vertices.wgsl"),
+            Pass::DiskSegments => include_str!("../../shaders/disk/segments.wgsl"),
+            Pass::DiskMesh => include_str!("../../shaders/disk/mesh.wgsl"),
+            Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
+            Pass::DiskArguments => include_str!("../../shaders/disk/arguments.wgsl"),
+            Pass::DiskDraw => include_str!("../../shaders/disk/draw.wgsl"),
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
@@ -116,11 +152,16 @@ impl Pass {
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
-            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, PROJECT, STREAKS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
             Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
+            Pass::DiskVertices | Pass::DiskMesh => {
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+            }
+            Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
+            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
     }

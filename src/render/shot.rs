@@ -86,7 +86,7 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
     let camera = stage.camera(moment.time(), &moment.ships());
-    let frame = stage.frame(camera, request.size[0], moment.time(), &moment.histories(), None, &settings(config));
+    let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
     Ok(renderer.picture(&frame, request.layers)?)
 }
 

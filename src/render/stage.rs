@@ -14,7 +14,9 @@ use crate::spacetime::orbit::static_momentum;
 use super::Renderer;
 use super::aurora::{Show, planet_history};
 use super::coarse::coarse;
+use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
+use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, View, place};
 
@@ -31,20 +33,24 @@ pub struct Stage {
     ambient: f32,
     has_ships: bool,
     planet: Option<Planet>,
+    has_disk: bool,
     /// The planet's model, and the coarse one.
     globe: [ModelRange; 2],
     /// Shared, because a stage is only read when it makes a frame.
     show: Arc<Mutex<Option<Show>>>,
 }
 
-/// A planet's night side, where only stars shine; and its day side, which the hole's surroundings light.
+/// Light on a planet's night side, where only stars shine; and on its day side, if a disk shines on it.
 const NIGHT: f32 = 0.004;
 const DAY: f32 = 0.35;
+/// A scene without a disk is lit by the stars beyond the hole, gathered by its lensing: just enough to see the planet by.
+const STARLIGHT: f32 = 0.015;
 
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
         renderer.clear_models();
+        renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
         let assembly = scene.assemble(config);
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
@@ -75,6 +81,7 @@ impl Stage {
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
             planet: scene.planet,
+            has_disk: scene.disk(config).is_some(),
             globe,
             show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
         }
@@ -87,19 +94,20 @@ impl Stage {
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
         camera: Camera,
-        width: u32,
+        size: [u32; 2],
         time: f64,
         histories: &[&History],
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
-        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel };
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
+        let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
+        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -128,7 +136,8 @@ impl Stage {
             if let Some(history) = planet_history(planet, time, back, DQuat::IDENTITY) {
                 let position = history.at(time).position;
                 let to_hole = -position.normalize_or_zero();
-                let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * DAY * c)).to_array());
+                let day = if self.has_disk { DAY } else { STARLIGHT };
+                let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
                 let object = Object {
                     model: self.globe[0],
                     coarse: self.globe[1],
@@ -159,6 +168,14 @@ pub fn settings(config: &GameConfig) -> Settings {
     Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
+        method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
+        light_delay: render.light_delay,
+        halvings: render.tessellation_max_level,
+        vertex_budget: render.vertex_budget,
+        min_width: render.min_width as f32,
+        thin_below: render.thin_below,
+        coarse_below: render.coarse_below,
+        least_width: render.least_width,
         doppler: render.doppler,
         beaming: render.beaming,
         star_brightness: config.sky.star_brightness as f32,

@@ -8,6 +8,7 @@ pub mod blackbody;
 pub mod camera;
 pub mod config;
 mod config_fields;
+pub mod disk;
 mod document;
 pub mod error;
 pub mod import;

@@ -5,7 +5,8 @@ use wgpu::{BufferUsages, ShaderStages};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, Segment};
 use crate::render::Gpu;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, storage};
+use crate::render::method::Method;
 use crate::render::shaders::Pass;
 use crate::render::targets::{Targets, target};
 use crate::render::types::Placement;
@@ -102,6 +103,12 @@ impl Aurora {
             splat_layout,
             resolve_layout,
         }
+    }
+
+    /// Projects by another method from now on.
+    pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
+        let groups = [Some(frame_layout), Some(&self.walk_layout)];
+        self.project = compute_of(device, "aurora project", &Pass::AuroraProject.source_by(method), "main", &groups);
     }
 
     /// Uploads what the frame needs; None draws nothing.
