@@ -19,7 +19,7 @@ use crate::scene::lighting::Surroundings;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::sim::History;
 use crate::sim::flight::Command;
-use crate::spacetime::light::Order;
+use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};
 
 /// Rows of the history that red light waits in, and seconds between two.
@@ -223,12 +223,13 @@ impl Show {
 fn frequency_ratio(camera: &Camera, time: f64, history: &History, order: u32) -> Option<f64> {
     let order = Order::new(order as u8)?;
     let emitted = history.at(emission_time(camera, time, history, order)?);
-    let (_, gradient) = light_path(camera, emitted.position, order)?;
+    let (_, gradient) = light_path(camera, emitted.position, order, Branch::Plus)?;
     let moving = velocity(&ShipState::new(camera.position, camera.momentum));
     // A millionth of the radius: the light path is good to 1e-12 of it.
     let h = 1e-6 * camera.radius();
-    let path =
-        |s: f64| light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order).map(|path| path.0);
+    let path = |s: f64| {
+        light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order, Branch::Plus).map(|path| path.0)
+    };
     let along = (path(h)? - path(-h)?) / (2.0 * h);
     let received = 1.0 - along;
     let sent = 1.0 + gradient.dot(emitted.velocity);
