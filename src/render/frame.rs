@@ -7,6 +7,7 @@ use crate::scene::{blackbody, milky_way};
 use crate::spacetime::orbit::static_momentum;
 use crate::spacetime::{frames, light};
 
+use super::aurora::AuroraFrame;
 use super::method::Method;
 use super::placements::Placed;
 use super::types::{self, flags};
@@ -166,6 +167,8 @@ pub struct FrameInput {
     pub time: f64,
     /// Objects in each order they are seen in.
     pub placed: Vec<Placed>,
+    /// The aurora, if there is one in sight.
+    pub aurora: Option<AuroraFrame>,
     /// How to draw.
     pub settings: Settings,
 }

@@ -8,6 +8,7 @@ use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
 use crate::scene::model::Model;
 
 use super::Gpu;
+use super::aurora::Aurora;
 use super::develop::Develop;
 use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
@@ -61,6 +62,7 @@ pub struct Renderer {
     geometry: Geometry,
     background: Background,
     stars: Stars,
+    aurora: Aurora,
     develop: Develop,
     targets: Targets,
     /// The output has no size.
@@ -92,6 +94,7 @@ impl Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
@@ -204,6 +207,7 @@ impl Renderer {
         if self.sliced != (l, method) {
             if self.sliced.1 != method {
                 self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
@@ -231,6 +235,7 @@ impl Renderer {
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
         self.background.prepare(&self.gpu, self.targets.size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         true
     }
 
@@ -253,6 +258,10 @@ impl Renderer {
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
+            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+        }
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         if let Some(disk) = disk {
             compute(encoder, "disk arcs", &|pass| disk.compute(pass));
@@ -296,6 +305,20 @@ impl Renderer {
                 geometry.draw_thin(&mut pass);
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
+        }
+        for image in 0..self.aurora.images() {
+            let Some(light) = self.aurora.light() else { break };
+            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
+            }
         }
         self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);

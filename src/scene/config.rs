@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 pub use super::config_fields::{
-    Assist, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
+    Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
 };
 use super::document::{complain, syntax};
 use super::error::{Complaint, ConfigError};

@@ -158,6 +158,23 @@ config! {
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
     }
+    /// The aurora of a planet.
+    aurora: AuroraConfig {
+        enabled: bool = true, Switch, "", "the aurora is simulated and drawn";
+        walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in paper 3";
+        streaks: u32 = 24_000u32, integer(64, 200_000), "streaks", "most electrons drawn; fewer when the aurora is small on the screen";
+        splats: u32 = 14u32, integer(4, 48), "splats", "luminous points along one electron's fall";
+        radius: f64 = 0.8, number(0.05, 50.0), "km", "spread of a luminous point (the planet's radius is 6371 km)";
+        energy: f64 = 4.0, number(0.1, 100.0), "keV", "energy that electrons gain in the potential above the aurora";
+        thermal: f64 = 1.5, number(0.05, 50.0), "keV", "thermal energy on top of it";
+        flux: f64 = 20.0, number(0.0, 1000.0), "erg cm^-2 s^-1", "energy flux in a curtain";
+        brightness: f64 = 0.02, number(0.0, 10.0), "per kilorayleigh", "what a kilorayleigh of green light is in the picture";
+        field: f64 = 30.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";
+        renewal: f64 = 45.0, number(1.0, 1000.0), "s", "time in which new electrons bring a curtain back to its place";
+        contrast: f64 = 0.7, number(0.0, 1.0), "", "contrast of the rays and of the brightness that travels along the curtains";
+        pace: f64 = 4.0, number(0.0, 1000.0), "s per r_s/c", "how fast the aurora moves against the game's clock";
+        seed: u32 = 1u32, integer(0, u32::MAX), "", "which aurora";
+    }
     /// The player's ship.
     ship: ShipConfig {
         thrust: f64 = 0.06, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
