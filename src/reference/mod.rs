@@ -6,12 +6,14 @@
 //! - [`shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: what a pixel shows of a scene of triangles.
 //! - [`bvh`]: trees of boxes over what a scene holds, and straight rays through them.
+//! - [`scenes`]: what straight rays are measured on.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
 
 pub mod bvh;
 pub mod geodesic;
 pub mod ray;
+pub mod scenes;
 pub mod shoot;
 pub mod trace;
 
