@@ -56,8 +56,6 @@ pub(super) struct Planes<L> {
     axes: Axes,
     offsets: [[L; 2]; 2],
     slopes: [[L; 2]; 2],
-    /// [x, y]: whether the lowest and the highest plane are reached at the far side of a box.
-    far: [[bool; 2]; 2],
     sign: L,
     enter: L,
     leave: L,
@@ -74,7 +72,6 @@ impl<L: Lanes> Planes<L> {
             axes: *axes,
             offsets: hull.offsets.map(|[low, high]| [L::splat(low - pad), L::splat(high + pad)]),
             slopes: hull.slopes.map(|s| s.map(L::splat)),
-            far: hull.slopes.map(|[low, high]| [low < 0.0, high >= 0.0]),
             sign: L::splat(axes.sign),
             enter: L::splat(axes.front + shift),
             leave: L::splat(axes.front - shift),
@@ -90,14 +87,14 @@ impl<L: Lanes> Planes<L> {
         let zero = L::splat(0.0);
         let near = L::load(&node.bounds[z][first]).sub(self.enter).mul(self.sign).max(zero);
         let far = L::load(&node.bounds[z][1 - first]).sub(self.leave).mul(self.sign);
-        let mut met = near.at_most(far) & near.at_most(L::splat(until));
+        let mut met = near.at_most(far).and(near.at_most(L::splat(until)));
         for (k, axis) in [x, y].into_iter().enumerate() {
-            let at = |side: usize| if self.far[k][side] { far } else { near };
-            let low = self.offsets[k][0].add(self.slopes[k][0].mul(at(0)));
-            let high = self.offsets[k][1].add(self.slopes[k][1].mul(at(1)));
-            met &= low.at_most(L::load(&node.bounds[axis][1])) & L::load(&node.bounds[axis][0]).at_most(high);
+            let [[a, b], [s, r]] = [self.offsets[k], self.slopes[k]];
+            let low = a.add(s.mul(near).min(s.mul(far)));
+            let high = b.add(r.mul(near).max(r.mul(far)));
+            met = met.and(low.at_most(L::load(&node.bounds[axis][1]))).and(L::load(&node.bounds[axis][0]).at_most(high));
         }
-        (met, near)
+        (met.bits(), near)
     }
 
     /// Which of a block's triangles are not wholly outside one of the planes.
@@ -105,14 +102,14 @@ impl<L: Lanes> Planes<L> {
     pub fn triangles(&self, block: &Block) -> u32 {
         let [x, y, z] = self.axes.axes;
         let depth: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][z]).sub(self.front).mul(self.sign));
-        let mut met = !0;
+        let mut met = L::splat(0.0).at_most(L::splat(0.0));
         for (k, axis) in [x, y].into_iter().enumerate() {
             let across: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][axis]));
             let beside = |side: usize| -> [L; 3] { std::array::from_fn(|i| across[i].sub(self.slopes[k][side].mul(depth[i]))) };
             let [low, high] = [beside(0), beside(1)];
-            met &= self.offsets[k][0].at_most(low[0].max(low[1]).max(low[2]));
-            met &= high[0].min(high[1]).min(high[2]).at_most(self.offsets[k][1]);
+            met = met.and(self.offsets[k][0].at_most(low[0].max(low[1]).max(low[2])));
+            met = met.and(high[0].min(high[1]).min(high[2]).at_most(self.offsets[k][1]));
         }
-        met
+        met.bits()
     }
 }

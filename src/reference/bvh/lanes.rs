@@ -13,16 +13,29 @@ pub(super) trait Lanes: Copy {
     fn min(self, other: Self) -> Self;
     /// The larger; `other` where either is not a number.
     fn max(self, other: Self) -> Self;
-    /// One bit a lane, lane 0 lowest: self < other.
-    fn less(self, other: Self) -> u32;
+    /// self < other: a mask, all bits of a lane set or none.
+    fn less(self, other: Self) -> Self;
     /// self ≤ other.
-    fn at_most(self, other: Self) -> u32;
-    /// One bit a lane: the sign, of zeros and of what is not a number too.
-    fn signs(self) -> u32;
-    /// The bits of both.
+    fn at_most(self, other: Self) -> Self;
+    /// One bit a lane of a mask, lane 0 lowest.
+    fn bits(self) -> u32;
+    /// The lanes set in both masks.
     fn and(self, other: Self) -> Self;
-    /// The bits of either.
+    /// The lanes set in either mask.
     fn or(self, other: Self) -> Self;
+    /// Lanes of `yes` where the mask is set, else of `no`.
+    fn select(self, yes: Self, no: Self) -> Self;
+    /// The least lane. No lane may be other than a number.
+    fn least(self) -> f32;
+    /// The greatest lane. No lane may be other than a number.
+    fn greatest(self) -> f32;
+    /// Asks for memory that will be needed soon.
+    fn prefetch<T>(soon: &T);
+    /// Without the sign.
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.max(Self::splat(0.0).sub(self))
+    }
 }
 
 /// For processors without AVX2, and to test against.
@@ -35,8 +48,8 @@ fn zip(a: Portable, b: Portable, f: impl Fn(f32, f32) -> f32) -> Portable {
 }
 
 #[inline(always)]
-fn compare(a: Portable, b: Portable, f: impl Fn(f32, f32) -> bool) -> u32 {
-    (0..8).fold(0, |bits, i| bits | u32::from(f(a.0[i], b.0[i])) << i)
+fn compare(a: Portable, b: Portable, f: impl Fn(f32, f32) -> bool) -> Portable {
+    zip(a, b, |a, b| f32::from_bits(if f(a, b) { u32::MAX } else { 0 }))
 }
 
 impl Lanes for Portable {
@@ -77,16 +90,16 @@ impl Lanes for Portable {
         zip(self, other, |a, b| if a > b { a } else { b })
     }
     #[inline(always)]
-    fn less(self, other: Self) -> u32 {
+    fn less(self, other: Self) -> Self {
         compare(self, other, |a, b| a < b)
     }
     #[inline(always)]
-    fn at_most(self, other: Self) -> u32 {
+    fn at_most(self, other: Self) -> Self {
         compare(self, other, |a, b| a <= b)
     }
     #[inline(always)]
-    fn signs(self) -> u32 {
-        compare(self, self, |a, _| a.is_sign_negative())
+    fn bits(self) -> u32 {
+        (0..8).fold(0, |bits, i| bits | self.0[i].to_bits() >> 31 << i)
     }
     #[inline(always)]
     fn and(self, other: Self) -> Self {
@@ -96,6 +109,20 @@ impl Lanes for Portable {
     fn or(self, other: Self) -> Self {
         zip(self, other, |a, b| f32::from_bits(a.to_bits() | b.to_bits()))
     }
+    #[inline(always)]
+    fn select(self, yes: Self, no: Self) -> Self {
+        Portable(std::array::from_fn(|i| if self.0[i].is_sign_negative() { yes.0[i] } else { no.0[i] }))
+    }
+    #[inline(always)]
+    fn least(self) -> f32 {
+        self.0.into_iter().fold(f32::INFINITY, f32::min)
+    }
+    #[inline(always)]
+    fn greatest(self) -> f32 {
+        self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
+    }
+    #[inline(always)]
+    fn prefetch<T>(_: &T) {}
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -154,15 +181,15 @@ mod avx {
             Avx(unsafe { _mm256_max_ps(self.0, other.0) })
         }
         #[inline(always)]
-        fn less(self, other: Self) -> u32 {
-            unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0)) as u32 }
+        fn less(self, other: Self) -> Self {
+            Avx(unsafe { _mm256_cmp_ps::<_CMP_LT_OQ>(self.0, other.0) })
         }
         #[inline(always)]
-        fn at_most(self, other: Self) -> u32 {
-            unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
+        fn at_most(self, other: Self) -> Self {
+            Avx(unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, other.0) })
         }
         #[inline(always)]
-        fn signs(self) -> u32 {
+        fn bits(self) -> u32 {
             unsafe { _mm256_movemask_ps(self.0) as u32 }
         }
         #[inline(always)]
@@ -172,6 +199,34 @@ mod avx {
         #[inline(always)]
         fn or(self, other: Self) -> Self {
             Avx(unsafe { _mm256_or_ps(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn select(self, yes: Self, no: Self) -> Self {
+            Avx(unsafe { _mm256_blendv_ps(no.0, yes.0, self.0) })
+        }
+        #[inline(always)]
+        fn least(self) -> f32 {
+            unsafe {
+                let four = _mm_min_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+                let two = _mm_min_ps(four, _mm_movehl_ps(four, four));
+                _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps::<1>(two, two)))
+            }
+        }
+        #[inline(always)]
+        fn greatest(self) -> f32 {
+            unsafe {
+                let four = _mm_max_ps(_mm256_castps256_ps128(self.0), _mm256_extractf128_ps::<1>(self.0));
+                let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
+                _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(two, two)))
+            }
+        }
+        #[inline(always)]
+        fn prefetch<T>(soon: &T) {
+            let start = std::ptr::from_ref(soon).cast::<i8>();
+            for line in (0..size_of::<T>()).step_by(64) {
+                // Inside the object that the reference names.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(start.add(line)) };
+            }
         }
     }
 }

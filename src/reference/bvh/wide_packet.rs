@@ -9,7 +9,7 @@ use super::hull::{Axes, Hull, Planes};
 use super::lanes::{Lanes, Portable};
 use super::ray::{Hit, Ray, widening};
 use super::triangle::{Shear, fastest};
-use super::wide::{Block, LEAF, STACK, Wide};
+use super::wide::{Block, LEAF, STACK, Wide, leaf};
 use super::wide_ray::meet;
 
 /// Rays that are tested at once.
@@ -123,43 +123,58 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
     }
 }
 
+/// Eight rays or fewer; lanes without one repeat the last, with an end before its start.
+#[inline(always)]
+fn eight<'a>(rays: &'a [Ray], spare: &'a mut [Ray; GROUP]) -> &'a [Ray; GROUP] {
+    if let Ok(full) = rays.try_into() {
+        return full;
+    }
+    *spare = [Ray { until: -1.0, ..rays[rays.len() - 1] }; GROUP];
+    spare[..rays.len()].copy_from_slice(rays);
+    spare
+}
+
+#[inline(always)]
+fn lanes<L: Lanes>(rays: &[Ray; GROUP], number: impl Fn(&Ray) -> f32) -> L {
+    L::load(&std::array::from_fn(|i| number(&rays[i])))
+}
+
 /// The common direction of the rays and the hull of each group; None if they have none.
 #[inline(always)]
 fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<Axes> {
+    let mut spare = [rays[0]; GROUP];
     let middle = rays[rays.len() / 2].direction;
     let z = fastest(middle);
     let axes = [(z + 1) % 3, (z + 2) % 3, z];
     let sign = 1f32.copysign(middle[z]);
-    let mut front = f32::INFINITY;
-    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for ray in rays {
-        // Also false for what is not a number.
-        let forward = ray.direction[z] * sign > 0.0;
-        if !forward {
-            return None;
-        }
-        front = front.min(ray.origin[z] * sign);
+    let (mut low, mut high) = ([L::splat(f32::INFINITY); 3], [L::splat(f32::NEG_INFINITY); 3]);
+    for rays in rays.chunks(GROUP) {
+        let eight = eight(rays, &mut spare);
         for axis in 0..3 {
-            low[axis] = low[axis].min(ray.origin[axis]);
-            high[axis] = high[axis].max(ray.origin[axis]);
+            let origin = lanes::<L>(eight, |r| r.origin[axis]);
+            low[axis] = origin.min(low[axis]);
+            high[axis] = origin.max(high[axis]);
         }
     }
+    let (low, high) = (low.map(L::least), high.map(L::greatest));
+    let front = if sign > 0.0 { low[z] } else { high[z] };
     let widening = widening(&wide.root, low).max(widening(&wide.root, high));
-    let axes = Axes { axes, sign, front: front * sign, widening };
+    let axes = Axes { axes, sign, front, widening };
     hulls.clear();
     for rays in rays.chunks(GROUP) {
+        let eight = eight(rays, &mut spare);
+        let along = lanes::<L>(eight, |r| r.direction[z]).mul(L::splat(sign));
+        let depth = lanes::<L>(eight, |r| r.origin[z]).sub(L::splat(front)).mul(L::splat(sign));
         let mut hull = Hull::EMPTY;
-        for ray in rays {
-            let depth = (ray.origin[z] - axes.front) * sign;
-            let along = ray.direction[z] * sign;
-            for k in 0..2 {
-                let slope = ray.direction[axes.axes[k]] / along;
-                let offset = ray.origin[axes.axes[k]] - slope * depth;
-                hull.slopes[k] = [hull.slopes[k][0].min(slope), hull.slopes[k][1].max(slope)];
-                hull.offsets[k] = [hull.offsets[k][0].min(offset), hull.offsets[k][1].max(offset)];
-            }
+        for k in 0..2 {
+            let axis = axes.axes[k];
+            let slope = lanes::<L>(eight, |r| r.direction[axis]).div(along);
+            let offset = lanes::<L>(eight, |r| r.origin[axis]).sub(slope.mul(depth));
+            hull.slopes[k] = [slope.least(), slope.greatest()];
+            hull.offsets[k] = [offset.least(), offset.greatest()];
         }
-        if !hull.is_gentle() {
+        // The comparison also fails where something is not a number.
+        if L::splat(0.0).less(along).bits() != 0xff || !hull.is_gentle() {
             return None;
         }
         hulls.push(hull);
@@ -192,18 +207,19 @@ fn sift<L: Lanes>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<I
             items.push(Item { node: at, children: met & !inner });
         }
         let nears = near.store();
-        push(stack, &mut height, inner, &node.children, &nears);
+        push::<L>(wide, stack, &mut height, inner, &node.children, &nears);
     }
 }
 
 /// Puts children on the stack, the nearest on top.
 #[inline(always)]
-fn push(stack: &mut [(u32, f32); STACK], height: &mut usize, mut lanes: u32, children: &[u32; 8], nears: &[f32; 8]) {
+fn push<L: Lanes>(wide: &Wide, stack: &mut [(u32, f32); STACK], height: &mut usize, mut lanes: u32, children: &[u32; 8], nears: &[f32; 8]) {
     let ground = *height;
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
         let waits = (children[lane], nears[lane]);
+        wide.fetch::<L>(waits.0);
         let mut place = *height;
         while place > ground && stack[place - 1].1 < waits.1 {
             stack[place] = stack[place - 1];
@@ -214,65 +230,74 @@ fn push(stack: &mut [(u32, f32); STACK], height: &mut usize, mut lanes: u32, chi
     }
 }
 
-/// Eight rays laid out lane by lane.
-struct Group<L> {
+/// Eight rays laid out lane by lane, and what they have met.
+struct Group<'a, L> {
+    rays: &'a [Ray; GROUP],
     origin: [L; 3],
     /// Of `Shear`, each lane along its own fastest axis.
     slopes: [L; 3],
     /// By axis: the lanes that move fastest along it.
-    fastest: [u32; 3],
-    hits: [Hit; GROUP],
-    until: [f32; GROUP],
-    /// By lane: the depth of the ray's start, and depth for t.
-    depth: [[f32; GROUP]; 2],
+    fastest: [L; 3],
+    until: L,
+    t: L,
+    /// Numbers of triangles as bits.
+    triangle: L,
+    /// The depth where each ray starts, and depth for t.
+    depth: [L; 2],
 }
 
-impl<L: Lanes> Group<L> {
+impl<'a, L: Lanes> Group<'a, L> {
     #[inline(always)]
-    fn new(rays: &[Ray], axes: &Axes) -> Group<L> {
-        let (mut origin, mut slopes) = ([[0.0; GROUP]; 3], [[0.0; GROUP]; 3]);
-        let mut group = Group {
-            origin: [L::splat(0.0); 3],
-            slopes: [L::splat(0.0); 3],
-            fastest: [0; 3],
-            hits: [Hit::MISS; GROUP],
-            until: [-1.0; GROUP],
-            depth: [[0.0; GROUP]; 2],
+    fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, L> {
+        let origin: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.origin[k]));
+        let direction: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.direction[k]));
+        // As `fastest`.
+        let [x, y, z] = direction.map(L::abs);
+        let (all, none) = (L::splat(0.0).at_most(L::splat(0.0)), L::splat(0.0));
+        let first = y.at_most(x).and(z.at_most(x));
+        let second = first.select(none, z.at_most(y));
+        let fastest = [first, second, first.or(second).select(none, all)];
+        let slopes_along = |axis: usize| {
+            let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis].map(|k| direction[k]);
+            [x.div(z), y.div(z), L::splat(1.0).div(z)]
         };
-        let z = axes.axes[2];
-        for (lane, ray) in rays.iter().enumerate() {
-            let shear = Shear::new(ray);
-            group.fastest[shear.axis] |= 1 << lane;
-            group.until[lane] = ray.until;
-            group.depth[0][lane] = (ray.origin[z] - axes.front) * axes.sign;
-            group.depth[1][lane] = ray.direction[z] * axes.sign;
-            for k in 0..3 {
-                origin[k][lane] = ray.origin[k];
-                slopes[k][lane] = shear.slopes[k];
+        let slopes = match fastest.iter().position(|mask| mask.bits() == 0xff) {
+            Some(axis) => slopes_along(axis),
+            None => {
+                let [a, b, c] = [0, 1, 2].map(slopes_along);
+                std::array::from_fn(|k| first.select(a[k], second.select(b[k], c[k])))
             }
+        };
+        let depth = axes.axes[2];
+        let sign = L::splat(axes.sign);
+        Group {
+            rays,
+            origin,
+            slopes,
+            fastest,
+            until: lanes(rays, |r| r.until),
+            t: L::splat(Hit::MISS.t),
+            triangle: L::splat(f32::from_bits(Hit::NONE)),
+            depth: [origin[depth].sub(L::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
         }
-        group.origin = origin.map(|o| L::load(&o));
-        group.slopes = slopes.map(|s| L::load(&s));
-        group
     }
 
     /// Behind this depth nothing can be nearer than what every ray has.
     #[inline(always)]
     fn deepest(&self) -> f32 {
-        let depth = |lane: usize| self.depth[0][lane] + self.depth[1][lane] * self.hits[lane].t.min(self.until[lane].max(0.0));
-        (0..GROUP).map(depth).fold(0.0, f32::max)
+        self.depth[0].add(self.depth[1].mul(self.t.min(self.until))).greatest()
     }
 
     /// Tests one block, and says whether a ray has met something nearer.
     #[inline(always)]
-    fn block(&mut self, block: &Block, mut lanes: u32, rays: &[Ray]) -> bool {
+    fn block(&mut self, block: &Block, mut lanes: u32) -> bool {
         let mut nearer = false;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
             for axis in 0..3 {
-                if self.fastest[axis] != 0 {
-                    nearer |= self.triangle(block, lane, axis, rays);
+                if self.fastest[axis].bits() != 0 {
+                    nearer |= self.triangle(block, lane, axis);
                 }
             }
         }
@@ -281,36 +306,47 @@ impl<L: Lanes> Group<L> {
 
     /// `Shear::meet` for the lanes that move fastest along one axis.
     #[inline(always)]
-    fn triangle(&mut self, block: &Block, lane: usize, axis: usize, rays: &[Ray]) -> bool {
+    fn triangle(&mut self, block: &Block, lane: usize, axis: usize) -> bool {
         let axes = [(axis + 1) % 3, (axis + 2) % 3, axis];
         let corner = |i: usize| {
             let [x, y, z] = std::array::from_fn(|k| L::splat(block.corners[i][axes[k]][lane]).sub(self.origin[axes[k]]));
             [x.sub(self.slopes[0].mul(z)), y.sub(self.slopes[1].mul(z)), self.slopes[2].mul(z)]
         };
-        let (inside, exact, ts) = meet(corner(0), corner(1), corner(2));
-        let mut inside = inside & self.fastest[axis];
-        if inside == 0 {
+        let met = meet(corner(0), corner(1), corner(2));
+        let inside = met.inside.and(self.fastest[axis]);
+        if inside.bits() == 0 {
             return false;
         }
-        let triangle = block.triangles[lane];
-        let ts = ts().store();
-        let mut nearer = false;
-        while inside != 0 {
-            let ray = inside.trailing_zeros() as usize;
-            inside &= inside - 1;
-            let best = &mut self.hits[ray];
-            let before = *best;
-            if exact >> ray & 1 == 1 {
-                Shear::new(&rays[ray]).update(&block.lane(lane), triangle, self.until[ray], best);
-            } else {
-                let hit = Hit { t: ts[ray], triangle };
-                if hit.t >= 0.0 && hit.t <= self.until[ray] && hit.before(best) {
-                    *best = hit;
-                }
-            }
-            nearer |= *best != before;
+        let number = block.triangles[lane];
+        let t = met.t();
+        let nearer = inside.and(L::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
+        // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
+        let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
+        if seldom.bits() != 0 {
+            return self.one_by_one(inside.bits(), &block.lane(lane), number);
         }
-        nearer
+        self.t = nearer.select(t, self.t);
+        self.triangle = nearer.select(L::splat(f32::from_bits(number)), self.triangle);
+        nearer.bits() != 0
+    }
+
+    #[inline(never)]
+    fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
+        let mut hits = self.hits();
+        let before = hits;
+        for lane in (0..GROUP).filter(|lane| lanes >> lane & 1 == 1) {
+            let ray = &self.rays[lane];
+            Shear::new(ray).update(corners, number, ray.until, &mut hits[lane]);
+        }
+        self.t = L::load(&hits.map(|h| h.t));
+        self.triangle = L::load(&hits.map(|h| f32::from_bits(h.triangle)));
+        hits != before
+    }
+
+    #[inline(always)]
+    fn hits(&self) -> [Hit; GROUP] {
+        let (t, triangle) = (self.t.store(), self.triangle.store());
+        std::array::from_fn(|i| Hit { t: t[i], triangle: triangle[i].to_bits() })
     }
 }
 
@@ -325,7 +361,8 @@ fn group<L: Lanes>(
     items: &[Item],
     stack: &mut [(u32, f32); STACK],
 ) {
-    let mut group = Group::<L>::new(rays, axes);
+    let mut spare = [rays[0]; GROUP];
+    let mut group = Group::<L>::new(eight(rays, &mut spare), axes);
     let mut until = f32::INFINITY;
     for item in items {
         let mut only = item.children;
@@ -343,16 +380,17 @@ fn group<L: Lanes>(
                 let met = met & only;
                 only = !0;
                 if met != 0 {
-                    push(stack, &mut height, met, &node.children, &near.store());
+                    push::<L>(wide, stack, &mut height, met, &node.children, &near.store());
                 }
             } else {
-                let block = &wide.blocks[(at & !LEAF) as usize];
-                let lanes = if block.count > 1 { planes.triangles(block) } else { 1 } & ((1 << block.count) - 1);
-                if group.block(block, lanes, rays) {
+                let (block, count) = leaf(at);
+                let block = &wide.blocks[block];
+                let lanes = if count > 1 { planes.triangles(block) } else { 1 };
+                if group.block(block, lanes) {
                     until = group.deepest() + axes.widening;
                 }
             }
         }
     }
-    hits.copy_from_slice(&group.hits[..rays.len()]);
+    hits.copy_from_slice(&group.hits()[..rays.len()]);
 }

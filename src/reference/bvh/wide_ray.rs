@@ -3,7 +3,7 @@
 use super::lanes::{Lanes, Portable};
 use super::ray::{Hit, Ray, Slabs, widening};
 use super::triangle::Shear;
-use super::wide::{Block, LEAF, STACK, Wide};
+use super::wide::{Block, LEAF, NOBODY, STACK, Wide, leaf};
 
 /// What a traversal keeps from ray to ray, so that it need not be cleared for each.
 pub(super) type Stack = [(u32, f32); STACK];
@@ -34,6 +34,16 @@ impl Wide {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
         let mut stack = [(0, 0.0); STACK];
         self.each::<true>(rays, hits, &mut stack);
+    }
+
+    /// Asks for the memory of a child.
+    #[inline(always)]
+    pub(super) fn fetch<L: Lanes>(&self, child: u32) {
+        if child & LEAF == 0 {
+            L::prefetch(&self.nodes[child as usize]);
+        } else {
+            L::prefetch(&self.blocks[leaf(child).0]);
+        }
     }
 
     pub(super) fn each<const ANY: bool>(&self, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
@@ -90,9 +100,9 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
                 near = low.sub(enter[axis]).mul(inverse[axis]).max(near);
                 far = high.sub(leave[axis]).mul(inverse[axis]).min(far);
             }
-            let mut met = near.at_most(far);
+            let mut met = near.at_most(far).bits();
             if met == 0 {
-                at = u32::MAX;
+                at = NOBODY;
                 break;
             }
             let nears = near.store();
@@ -109,6 +119,7 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
                 let lane = met.trailing_zeros() as usize;
                 met &= met - 1;
                 let mut waits = (node.children[lane], nears[lane]);
+                wide.fetch::<L>(waits.0);
                 if waits.1 < nearest {
                     std::mem::swap(&mut waits.0, &mut at);
                     std::mem::swap(&mut waits.1, &mut nearest);
@@ -122,8 +133,8 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
                 height += 1;
             }
         }
-        if at != u32::MAX {
-            block::<L>(&wide.blocks[(at & !LEAF) as usize], &shear, ray.until, &mut best);
+        if at != NOBODY {
+            block::<L>(&wide.blocks[leaf(at).0], &shear, ray.until, &mut best);
             until = until.min(best.t);
             if ANY && best.is_hit() {
                 break;
@@ -144,11 +155,12 @@ fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
         [x.sub(slopes[0].mul(z)), y.sub(slopes[1].mul(z)), slopes[2].mul(z)]
     };
     let [a, b, c] = [corner(0), corner(1), corner(2)];
-    let (mut inside, exact, ts) = meet(a, b, c);
+    let met = meet(a, b, c);
+    let mut inside = met.inside.bits();
     if inside == 0 {
         return;
     }
-    let ts = ts().store();
+    let (exact, ts) = (met.exact().bits(), met.t().store());
     while inside != 0 {
         let lane = inside.trailing_zeros() as usize;
         inside &= inside - 1;
@@ -161,21 +173,44 @@ fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
     }
 }
 
-/// Sheared corners of eight pairs of a ray and a triangle: which may meet, which of those need exact edges, and t.
+/// Eight pairs of a ray and a triangle that may meet.
+#[derive(Clone, Copy)]
+pub(super) struct Met<L> {
+    edges: [L; 3],
+    depths: [L; 3],
+    least: L,
+    most: L,
+    /// Mask: the edges are of one sign.
+    pub inside: L,
+}
+
+/// `Shear::meet` for eight pairs, given their sheared corners.
 #[inline(always)]
-pub(super) fn meet<L: Lanes>(a: [L; 3], b: [L; 3], c: [L; 3]) -> (u32, u32, impl Fn() -> L) {
+pub(super) fn meet<L: Lanes>(a: [L; 3], b: [L; 3], c: [L; 3]) -> Met<L> {
     let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
     let v = a[0].mul(c[1]).sub(a[1].mul(c[0]));
     let w = b[0].mul(a[1]).sub(b[1].mul(a[0]));
     let zero = L::splat(0.0);
     let (least, most) = (u.min(v).min(w), u.max(v).max(w));
-    let (positive, negative) = (zero.at_most(least), most.at_most(zero));
-    let inside = positive | negative;
-    // An edge function of 0 beside edges of one sign: only f64 can tell. Beside edges of both signs it does not matter.
-    let exact = if inside == 0 { 0 } else { positive & least.at_most(zero) | negative & zero.at_most(most) };
-    let t = move || {
+    let inside = zero.at_most(least).or(most.at_most(zero));
+    Met { edges: [u, v, w], depths: [a[2], b[2], c[2]], least, most, inside }
+}
+
+impl<L: Lanes> Met<L> {
+    /// Mask: pairs inside that have an edge function of 0, whose sign only f64 can tell. (Beside edges of both signs it does not matter.)
+    #[inline(always)]
+    pub fn exact(&self) -> L {
+        let zero = L::splat(0.0);
+        // One sign: either the least is 0 and none is below, or the most is 0 and none is above.
+        let touches = zero.at_most(self.least).and(self.least.at_most(zero)).or(zero.at_most(self.most).and(self.most.at_most(zero)));
+        touches.and(self.inside)
+    }
+
+    /// t of each pair.
+    #[inline(always)]
+    pub fn t(&self) -> L {
+        let [u, v, w] = self.edges;
         let whole = u.add(v).add(w);
-        u.mul(a[2]).add(v.mul(b[2])).add(w.mul(c[2])).div(whole)
-    };
-    (inside, exact, t)
+        u.mul(self.depths[0]).add(v.mul(self.depths[1])).add(w.mul(self.depths[2])).div(whole)
+    }
 }
