@@ -4,6 +4,7 @@ mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_charts;
 mod measure_project;
 mod reference_bvh_build;
 mod reference_oracles;

@@ -10,6 +10,7 @@ struct Arguments {
     opaque: vec4<u32>,
     opaque_rest: vec4<u32>,
     thin: vec4<u32>,
+    mesh_vertices: vec4<u32>,
 }
 
 
@@ -29,6 +30,8 @@ fn finish() {
     let items = min(atomicLoad(&counters.work), frame.capacity.z);
     // Two dimensions: one holds 65,535 groups at most.
     arguments.mesh = vec4<u32>(min(items, 32768u), (items + 32767u) / 32768u, 1u, 0u);
+    let groups = (min(atomicLoad(&counters.vertices), frame.capacity.x) - counters.model_vertices + 63u) / 64u;
+    arguments.mesh_vertices = vec4<u32>(min(groups, 32768u), (groups + 32767u) / 32768u, 1u, 0u);
     arguments.opaque = vec4<u32>(min(atomicLoad(&counters.indices), frame.capacity.y), 1u, 0u, 0u);
 }
 

@@ -39,7 +39,9 @@ struct Counters {
     cut: atomic<u32>,
     /// Results that were not finite, caught.
     caught: atomic<u32>,
-    unused: array<u32, 2>,
+    /// Seen vertices before those of the mesh stage.
+    model_vertices: u32,
+    unused: u32,
 }
 
 const NO_PLACEMENT: u32 = 0xffffffffu;

@@ -116,6 +116,10 @@ fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) -> bool {
                 return false;
             }
             work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, triangle_count));
+            // So that a thread of the mesh stage finds the item of its vertex.
+            for (var i = 0u; i < vertex_count; i++) {
+                seen[first_vertex + i].surface.x = bitcast<f32>(slot);
+            }
             column += BLOCK;
         }
         row += BLOCK;

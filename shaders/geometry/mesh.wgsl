@@ -1,4 +1,4 @@
-// Stage 5, the mesh stage: one workgroup per work item. Evaluates the projection for each vertex of the block, writes vertices and indices.
+// Stage 5, the mesh stage: evaluates the projection for each vertex of the work items, then writes their triangles.
 
 /// Rows and columns of the vertex `k` of a block.
 fn triangle_row(k: u32) -> u32 {
@@ -15,37 +15,48 @@ fn snapped(i: u32, n: u32, level: u32) -> f32 {
     return round(f32(i) * f32(level) / f32(n)) / f32(level);
 }
 
+/// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
+/// served one item would leave most of its lanes idle.
 @compute @workgroup_size(64)
-fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let index = counters.model_vertices + (group.y * groups.x + group.x) * 64u + lane;
+    if index >= min(atomicLoad(&counters.vertices), frame.capacity.x) {
+        return;
+    }
+    // Left there by the stage that made the item.
+    let item = work[bitcast<u32>(seen[index].surface.x)];
+    let placement = placements[item.piece.what.x];
+    let triangle = model_triangles[item.piece.what.y];
+    let k = index - item.place.x;
+    var corner: vec3<f32>;
+    var s = 1.0;
+    if item.piece.what.z == PIECE_FAN {
+        let w = min(BLOCK, item.grid.y - item.grid.w);
+        let point = fan_point(item, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
+        corner = point.xyz;
+        s = point.w;
+    } else {
+        corner = triangle_point(item, k);
+    }
+    seen[index] = vertex_at(item, placement, triangle, corner, s);
+}
+
+/// One group per work item: joins its vertices to triangles.
+@compute @workgroup_size(32)
+fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
     if index >= min(atomicLoad(&counters.work), frame.capacity.z) {
         return;
     }
-    let item = work[index];
-    let placement = placements[item.piece.what.x];
-    let triangle = model_triangles[item.piece.what.y];
-    let fan = item.piece.what.z == PIECE_FAN;
-    let h = min(BLOCK, item.grid.x - item.grid.z);
-    let w = min(BLOCK, item.grid.y - item.grid.w);
-
-    for (var k = lane; k < item.place.z; k += 64u) {
-        var corner: vec3<f32>;
-        var s = 1.0;
-        if fan {
-            let point = fan_point(item, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
-            corner = point.xyz;
-            s = point.w;
-        } else {
-            corner = triangle_point(item, k);
-        }
-        seen[item.place.x + k] = vertex_at(item, placement, triangle, corner, s);
-    }
-    storageBarrier();
-
-    let first = item.place.x;
-    for (var k = lane; k < item.place.w; k += 64u) {
+    let place = work[index].place;
+    let what = work[index].piece.what;
+    let grid = work[index].grid;
+    let placement = placements[what.x];
+    let w = min(BLOCK, grid.y - grid.w);
+    let first = place.x;
+    for (var k = lane; k < place.w; k += 32u) {
         var a: u32; var b: u32; var c: u32;
-        if fan {
+        if what.z == PIECE_FAN {
             let cell = k / 2u;
             let row = cell / w;
             let column = cell % w;
@@ -68,7 +79,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
                 a = upper + column; b = lower + column + 1u; c = upper + column + 1u;
             }
         }
-        let slot = item.place.y + 3u * k;
+        let slot = place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
         if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement) {
             b = a;

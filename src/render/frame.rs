@@ -151,7 +151,7 @@ pub struct Capacity {
 pub const SKY_UNIT: f32 = 4e-4;
 
 /// The uniform of a frame of `size` pixels.
-pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacity) -> types::Frame {
+pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types::Frame {
     let camera = &input.camera;
     let settings = &input.settings;
     let [n, a, b] = camera.axis_frame();
@@ -188,7 +188,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacit
             settings.bloom,
         ],
         exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, light::shadow_angle(1.0 / radius) as f32],
-        switches: [switches, 64, if settings.stars { stars } else { 0 }, settings.orders],
+        switches: [switches, 64, 0, settings.orders],
         sky_x: [1.0, 0.0, 0.0, 0.0],
         sky_y: [0.0, 1.0, 0.0, 0.0],
         sky_z: [0.0, 0.0, 1.0, 0.0],

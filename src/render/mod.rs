@@ -4,6 +4,7 @@
 //! file: [`placements`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
 //! (Milky Way, stars) → [`develop`] (bloom, exposure, tone curve).
 
+pub mod bench;
 pub mod coarse;
 pub mod develop;
 pub mod device;
@@ -22,6 +23,7 @@ pub mod stage;
 pub mod targets;
 pub mod timing;
 pub mod types;
+pub mod visibility;
 
 pub use device::{DeviceError, Gpu};
 pub use renderer::Renderer;

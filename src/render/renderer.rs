@@ -39,6 +39,8 @@ pub struct Renderer {
     frame: wgpu::Buffer,
     lens_slice: Growing,
     sky_slice: wgpu::Buffer,
+    /// The table of the sky for the radius that the slices are for.
+    sky: Vec<[f32; 4]>,
     blackbody: wgpu::Buffer,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
@@ -86,6 +88,7 @@ impl Renderer {
             frame,
             lens_slice,
             sky_slice,
+            sky: Vec::new(),
             blackbody,
             adaptation,
             frame_layout,
@@ -156,12 +159,15 @@ impl Renderer {
                 let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
             }
-            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky_table(l)));
+            self.sky = sky_table(l);
+            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed);
-        let uniform = uniform(input, self.targets.size, self.stars.count(), self.geometry.capacity());
+        let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
-        self.stars.reset(&self.gpu);
+        let edge = f64::from(uniform.exposure[3]);
+        self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        self.background.prepare(&self.gpu, self.targets.size);
         true
     }
 
@@ -182,6 +188,7 @@ impl Renderer {
         compute(encoder, "triangles", &|pass| geometry.triangles(pass));
         compute(encoder, "refine", &|pass| geometry.refine(pass));
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
 
         {
@@ -209,9 +216,9 @@ impl Renderer {
                 pass.set_bind_group(0, group, &[]);
                 geometry.draw_thin(&mut pass);
             }
-            self.develop.compose(encoder, group, &self.targets);
+            self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
-        self.develop.run(encoder, group, &self.targets, output);
+        self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);
     }
 

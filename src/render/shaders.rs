@@ -8,6 +8,7 @@ const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
+const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
@@ -33,6 +34,8 @@ pub enum Pass {
     Mesh,
     /// Rasterises.
     Draw,
+    /// Works the sky out at the corners of cells.
+    SkyCells,
     /// The sky behind everything.
     Background,
     /// Projects stars.
@@ -51,7 +54,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 14] = [
+    pub const ALL: [Pass; 15] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -59,6 +62,7 @@ impl Pass {
         Pass::Arguments,
         Pass::Mesh,
         Pass::Draw,
+        Pass::SkyCells,
         Pass::Background,
         Pass::StarsProject,
         Pass::StarsDraw,
@@ -79,6 +83,7 @@ impl Pass {
             Pass::Arguments => include_str!("../../shaders/geometry/arguments.wgsl"),
             Pass::Mesh => include_str!("../../shaders/geometry/mesh.wgsl"),
             Pass::Draw => include_str!("../../shaders/geometry/draw.wgsl"),
+            Pass::SkyCells => include_str!("../../shaders/sky/cells.wgsl"),
             Pass::Background => include_str!("../../shaders/sky/background.wgsl"),
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
@@ -91,7 +96,8 @@ impl Pass {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
             Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
-            Pass::Background | Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
+            Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
+            Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw => vec![TYPES, BINDINGS],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],

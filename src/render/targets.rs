@@ -3,8 +3,9 @@
 use super::geometry::LAYERS_FORMAT;
 use super::layout::{DEPTH_FORMAT, HDR_FORMAT};
 
-/// Halvings of the picture for bloom and metering.
-const BLOOM_LEVELS: usize = 6;
+/// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all
+/// the others, for a glow of two pixels.
+const BLOOM_LEVELS: usize = 5;
 
 /// Targets of one size.
 #[derive(Debug)]
@@ -19,7 +20,7 @@ pub struct Targets {
     pub depth: wgpu::TextureView,
     /// Sum of thin triangles.
     pub thin: wgpu::TextureView,
-    /// The picture halved, halved again, and so on.
+    /// The picture at a quarter of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,
     /// Object id, order, travel time, g; made when first asked for.
     pub layers: Option<(wgpu::Texture, wgpu::TextureView, wgpu::TextureView)>,
@@ -33,7 +34,8 @@ impl Targets {
         let mut bloom = Vec::new();
         let mut level = size;
         while bloom.len() < BLOOM_LEVELS {
-            level = level.map(|side| side.div_ceil(2));
+            let step = if bloom.is_empty() { 4 } else { 2 };
+            level = level.map(|side: u32| side.div_ceil(step));
             bloom.push(target(device, "bloom", level, HDR_FORMAT).1);
             if level[0].min(level[1]) <= 4 {
                 break;
@@ -52,7 +54,7 @@ impl Targets {
 
     /// The level of the bloom that is metered: an eighth of the picture, or the smallest there is.
     pub fn meter_level(&self) -> usize {
-        2.min(self.bloom.len() - 1)
+        1.min(self.bloom.len() - 1)
     }
 
     /// The target of the layers and its depth.

@@ -3,7 +3,7 @@
 use super::Gpu;
 
 /// Passes that can be timed in one frame.
-const PASSES: u32 = 16;
+const PASSES: u32 = 40;
 
 /// Timestamps around passes. Results come a few frames late, and never make the processor wait.
 #[derive(Debug)]
@@ -98,7 +98,7 @@ impl Timing {
         inner.copied = Some(inner.labels.clone());
     }
 
-    /// Durations in milliseconds of the passes of an earlier frame; call once a frame, after it was submitted.
+    /// Durations in milliseconds of the passes of an earlier frame, those of one label added; call once a frame, after it was submitted.
     pub fn latest(&mut self) -> &[(&'static str, f32)] {
         let Some(inner) = &mut self.inner else { return &[] };
         if let Some(labels) = inner.copied.take() {
@@ -117,11 +117,14 @@ impl Timing {
                 let ticks: Vec<u64> =
                     range.chunks_exact(8).map(|b| u64::from_le_bytes([b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7]])).collect();
                 drop(range);
-                inner.latest = labels
-                    .iter()
-                    .zip(ticks.chunks_exact(2))
-                    .map(|(&label, pair)| (label, pair[1].saturating_sub(pair[0]) as f32 * inner.period * 1e-6))
-                    .collect();
+                inner.latest.clear();
+                for (&label, pair) in labels.iter().zip(ticks.chunks_exact(2)) {
+                    let time = pair[1].saturating_sub(pair[0]) as f32 * inner.period * 1e-6;
+                    match inner.latest.iter_mut().find(|(known, _)| *known == label) {
+                        Some((_, sum)) => *sum += time,
+                        None => inner.latest.push((label, time)),
+                    }
+                }
                 inner.mapped.unmap();
             }
         }

@@ -128,7 +128,8 @@ pub struct Counters {
     pub coarse: u32,
     pub cut: u32,
     pub caught: u32,
-    pub unused: [u32; 2],
+    pub model_vertices: u32,
+    pub unused: u32,
 }
 
 /// Bytes of `Piece` in WGSL.
@@ -138,12 +139,29 @@ pub const WORK_BYTES: u64 = 112;
 /// Bytes of `ThinVertex` in WGSL.
 pub const THIN_BYTES: u64 = 32;
 /// Bytes of `Arguments` in WGSL, and where each part of it lies.
-pub const ARGUMENTS_BYTES: u64 = 80;
+pub const ARGUMENTS_BYTES: u64 = 96;
 /// Offset of the dispatch of the refine stage.
 pub const ARGUMENTS_REFINE: u64 = 0;
-/// Offset of the dispatch of the mesh stage.
+/// Offset of the dispatch over the work items of the mesh stage.
 pub const ARGUMENTS_MESH: u64 = 16;
+/// Offset of the dispatch over its vertices.
+pub const ARGUMENTS_MESH_VERTICES: u64 = 80;
 /// Offset of the indexed draw of opaque triangles.
 pub const ARGUMENTS_OPAQUE: u64 = 32;
 /// Offset of the draw of thin triangles.
 pub const ARGUMENTS_THIN: u64 = 64;
+/// Bytes of `SkyCorner` in WGSL.
+pub const SKY_CORNER_BYTES: u64 = 64;
+
+/// Arguments of the two draws of the sky's cells, interpolated and exact, and the grid; `CellDraws` of WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/sky/cells.wgsl")]
+pub struct CellDraws {
+    pub smooth: [u32; 5],
+    pub exact: [u32; 5],
+    pub columns: u32,
+    pub rows: u32,
+    pub side: u32,
+    pub unused: u32,
+}

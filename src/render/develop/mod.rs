@@ -6,6 +6,7 @@ use super::Gpu;
 use super::layout::{HDR_FORMAT, Raster, Slot, bind, compute, layout, module, raster};
 use super::shaders::Pass;
 use super::targets::Targets;
+use super::timing::Timing;
 
 /// The passes after the picture is drawn.
 #[derive(Debug)]
@@ -93,34 +94,53 @@ impl Develop {
     }
 
     /// Lays the thin triangles over the picture.
-    pub fn compose(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup, targets: &Targets) {
+    pub fn compose(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup, targets: &Targets) {
         let Some(groups) = &self.groups else { return };
-        screen(encoder, "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
+        screen(encoder, timing.render("compose"), "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
     }
 
     /// Bloom, exposure, and the picture into `output`.
-    pub fn run(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup, targets: &Targets, output: &wgpu::TextureView) {
+    pub fn run(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timing: &mut Timing,
+        frame: &wgpu::BindGroup,
+        targets: &Targets,
+        output: &wgpu::TextureView,
+    ) {
         let Some(groups) = &self.groups else { return };
         for (level, view) in targets.bloom.iter().enumerate() {
-            screen(encoder, "bloom down", view, true, &self.down, frame, &groups.sampled[level]);
+            screen(encoder, timing.render("bloom"), "bloom down", view, true, &self.down, frame, &groups.sampled[level]);
         }
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: None });
+            let mut pass = encoder
+                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: timing.compute("exposure") });
             pass.set_pipeline(&self.meter);
             pass.set_bind_group(0, frame, &[]);
             pass.set_bind_group(2, &groups.meter, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }
         for level in (1..targets.bloom.len()).rev() {
-            screen(encoder, "bloom up", &targets.bloom[level - 1], false, &self.up, frame, &groups.sampled[level + 1]);
+            screen(
+                encoder,
+                timing.render("bloom"),
+                "bloom up",
+                &targets.bloom[level - 1],
+                false,
+                &self.up,
+                frame,
+                &groups.sampled[level + 1],
+            );
         }
-        screen(encoder, "develop", output, true, &self.develop, frame, &groups.develop);
+        screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
     }
 }
 
 /// One triangle over the whole of `view`.
+#[allow(clippy::too_many_arguments, reason = "one call says all that a pass is")]
 fn screen(
     encoder: &mut wgpu::CommandEncoder,
+    timestamps: Option<wgpu::RenderPassTimestampWrites>,
     label: &str,
     view: &wgpu::TextureView,
     fresh: bool,
@@ -137,6 +157,7 @@ fn screen(
             resolve_target: None,
             ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
         })],
+        timestamp_writes: timestamps,
         ..Default::default()
     });
     pass.set_pipeline(pipeline);

@@ -61,7 +61,8 @@ struct Stages {
     next_pieces: wgpu::ComputePipeline,
     finish: wgpu::ComputePipeline,
     finish_thin: wgpu::ComputePipeline,
-    mesh: wgpu::ComputePipeline,
+    mesh_vertices: wgpu::ComputePipeline,
+    mesh_triangles: wgpu::ComputePipeline,
 }
 
 #[derive(Debug)]
@@ -97,7 +98,8 @@ impl Geometry {
             next_pieces: argument("next_pieces"),
             finish: argument("finish"),
             finish_thin: argument("finish_thin"),
-            mesh: stage("mesh", Pass::Mesh),
+            mesh_vertices: compute(device, "mesh vertices", Pass::Mesh, "vertices", &groups),
+            mesh_triangles: compute(device, "mesh triangles", Pass::Mesh, "triangles", &groups),
         };
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
@@ -202,7 +204,7 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, turn: 1, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 
@@ -297,7 +299,8 @@ impl Geometry {
 
     /// Stage 5: the mesh stage.
     pub fn mesh(&self, pass: &mut wgpu::ComputePass) {
-        self.indirect(pass, &self.stages.mesh, types::ARGUMENTS_MESH);
+        self.indirect(pass, &self.stages.mesh_vertices, types::ARGUMENTS_MESH_VERTICES);
+        self.indirect(pass, &self.stages.mesh_triangles, types::ARGUMENTS_MESH);
         self.single(pass, &self.stages.finish_thin);
     }
 

@@ -1,0 +1,50 @@
+//! What all charts share: where they go, the sheet of numbers they are drawn from, timing side by side, and what stands under them.
+//!
+//! A chart measures into a [`Sheet`], writes it as CSV, and draws from the sheet alone, so `--redraw` needs no new timing.
+
+pub mod provenance;
+pub mod sheet;
+pub mod timing;
+
+use std::path::{Path, PathBuf};
+
+pub use provenance::Provenance;
+pub use sheet::{Sheet, SheetError};
+pub use timing::{Timing, interleaved};
+
+/// Where charts go unless said otherwise.
+pub const DEFAULT_FOLDER: &str = "out/charts";
+
+/// What every chart is asked for.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// The folder for CSV, SVG and PNG.
+    pub folder: PathBuf,
+    /// Draws from the CSV that lies in the folder instead of measuring.
+    pub redraw: bool,
+}
+
+impl Output {
+    /// The file `<folder>/<name>.csv`.
+    pub fn csv(&self, name: &str) -> PathBuf {
+        self.folder.join(format!("{name}.csv"))
+    }
+
+    /// The sheet called `name`: read from the folder if this is a redrawing, else measured now and written there.
+    pub fn sheet<E: From<SheetError>>(&self, name: &str, measure: impl FnOnce() -> Result<Sheet, E>) -> Result<Sheet, E> {
+        let path = self.csv(name);
+        if self.redraw {
+            return Ok(Sheet::load(&path)?);
+        }
+        let sheet = measure()?;
+        sheet.save(&path)?;
+        Ok(sheet)
+    }
+}
+
+/// Says on stderr which files were written.
+pub fn announce(paths: &[impl AsRef<Path>]) {
+    for path in paths {
+        eprintln!("wrote {}", path.as_ref().display());
+    }
+}

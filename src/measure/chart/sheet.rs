@@ -1,0 +1,112 @@
+//! Numbers of a chart as CSV, with what they were measured on in the lines before the header.
+
+use std::path::{Path, PathBuf};
+
+/// Rows of text under named columns. Cells hold neither commas nor line breaks: they are replaced when written.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// What the numbers were measured on: name and text, written as `# name: text`.
+    pub notes: Vec<(String, String)>,
+    /// The columns, with their units.
+    pub columns: Vec<String>,
+    /// The rows, each as long as `columns`.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// Why a sheet cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum SheetError {
+    /// The file cannot be read or written.
+    #[error("{}: cannot be read or written: {}", .0.display(), .1)]
+    Io(PathBuf, std::io::Error),
+    /// The file has no header.
+    #[error("{}: no line of column names", .0.display())]
+    Header(PathBuf),
+    /// A row has another number of cells than the header.
+    #[error("{}: line {}: {} cells, the header has {}", .0.display(), .1, .2, .3)]
+    Row(PathBuf, usize, usize, usize),
+    /// The chart needs a column that is missing.
+    #[error("{}: there is no column {:?}", .0, .1)]
+    Column(String, String),
+}
+
+impl Sheet {
+    /// An empty sheet.
+    pub fn new(columns: &[&str]) -> Sheet {
+        Sheet { notes: Vec::new(), columns: columns.iter().map(|c| (*c).to_owned()).collect(), rows: Vec::new() }
+    }
+
+    /// Adds a row.
+    pub fn push<S: ToString>(&mut self, cells: impl IntoIterator<Item = S>) {
+        self.rows.push(cells.into_iter().map(|cell| cell.to_string()).collect());
+    }
+
+    /// The text of a note.
+    pub fn note(&self, name: &str) -> Option<&str> {
+        self.notes.iter().find(|(n, _)| n == name).map(|(_, text)| text.as_str())
+    }
+
+    /// The place of the column called `name`.
+    pub fn column(&self, name: &str) -> Result<usize, SheetError> {
+        self.columns.iter().position(|c| c == name).ok_or_else(|| SheetError::Column("the chart's CSV".into(), name.to_owned()))
+    }
+
+    /// The text in a row's column; empty where there is none.
+    pub fn text<'a>(&'a self, row: &'a [String], name: &str) -> &'a str {
+        self.columns.iter().position(|c| c == name).and_then(|i| row.get(i)).map_or("", String::as_str)
+    }
+
+    /// The number in a row's column; NaN where there is none.
+    pub fn number(&self, row: &[String], name: &str) -> f64 {
+        self.text(row, name).trim().parse().unwrap_or(f64::NAN)
+    }
+
+    /// The sheet as CSV.
+    pub fn to_csv(&self) -> String {
+        let clean = |cell: &String| cell.replace([',', '\n', '\r'], ";");
+        let mut out = String::new();
+        for (name, text) in &self.notes {
+            out.push_str(&format!("# {name}: {}\n", text.replace(['\n', '\r'], " ")));
+        }
+        for line in std::iter::once(&self.columns).chain(&self.rows) {
+            out.push_str(&line.iter().map(clean).collect::<Vec<_>>().join(","));
+            out.push('\n');
+        }
+        out
+    }
+
+    /// The sheet in the CSV text of the file `path`.
+    pub fn from_csv(path: &Path, text: &str) -> Result<Sheet, SheetError> {
+        let mut sheet = Sheet::default();
+        for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
+            if let Some((name, note)) = line.strip_prefix("# ").and_then(|rest| rest.split_once(": ")) {
+                sheet.notes.push((name.to_owned(), note.to_owned()));
+                continue;
+            }
+            let cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+            if sheet.columns.is_empty() {
+                sheet.columns = cells;
+            } else if cells.len() == sheet.columns.len() {
+                sheet.rows.push(cells);
+            } else {
+                return Err(SheetError::Row(path.to_path_buf(), index + 1, cells.len(), sheet.columns.len()));
+            }
+        }
+        if sheet.columns.is_empty() { Err(SheetError::Header(path.to_path_buf())) } else { Ok(sheet) }
+    }
+
+    /// Writes the file; makes its folder.
+    pub fn save(&self, path: &Path) -> Result<(), SheetError> {
+        let wrong = |error| SheetError::Io(path.to_path_buf(), error);
+        if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
+            std::fs::create_dir_all(folder).map_err(wrong)?;
+        }
+        std::fs::write(path, self.to_csv()).map_err(wrong)
+    }
+
+    /// Reads the file.
+    pub fn load(path: &Path) -> Result<Sheet, SheetError> {
+        let text = std::fs::read_to_string(path).map_err(|error| SheetError::Io(path.to_path_buf(), error))?;
+        Sheet::from_csv(path, &text)
+    }
+}

@@ -1,0 +1,62 @@
+//! Curves over two axes.
+
+use super::Guide;
+use super::axis::{self, Area, Axis, Titles};
+use super::paint::Shape;
+use super::style::color;
+
+/// A panel of curves.
+#[derive(Clone, Debug, Default)]
+pub struct Lines {
+    /// Above the panel.
+    pub title: String,
+    /// The axis across.
+    pub x: Axis,
+    /// The axis upward.
+    pub y: Axis,
+    /// The curves, each with a colour of its own.
+    pub lines: Vec<Line>,
+    /// Values of the axis upward to mark.
+    pub guides: Vec<Guide>,
+    /// Values of the axis across to mark.
+    pub guides_x: Vec<Guide>,
+}
+
+/// A curve.
+#[derive(Clone, Debug, Default)]
+pub struct Line {
+    /// Its name in the legend.
+    pub name: String,
+    /// Its points, in the order drawn; where one is not finite the curve is broken.
+    pub points: Vec<[f64; 2]>,
+    /// Dashed instead of full.
+    pub dashed: bool,
+    /// A disc at each point.
+    pub dots: bool,
+    /// The colour's index; None takes the place in the list.
+    pub color: Option<usize>,
+}
+
+pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
+    let ink = |i: usize| color(panel.lines[i].color.unwrap_or(i));
+    let entries: Vec<_> = panel.lines.iter().enumerate().map(|(i, line)| (line.name.as_str(), ink(i))).collect();
+    if entries.iter().any(|(name, _)| !name.is_empty()) {
+        area.y[1] -= axis::legend(&entries, [0.0, 0.0], area.x[1] - area.x[0] - 60.0, &mut Vec::new());
+        axis::legend(&entries, [area.x[0] + 40.0, area.y[1] + 8.0], area.x[1] - 20.0, shapes);
+    }
+    let all = || panel.lines.iter().flat_map(|line| &line.points);
+    let x = panel.x.fitted(all().map(|p| p[0]).chain(panel.guides_x.iter().map(|g| g.at)));
+    let y = panel.y.fitted(all().map(|p| p[1]).chain(panel.guides.iter().map(|g| g.at)));
+    let plane = axis::frame(area, &Titles { title: &panel.title, x: &panel.x.label, y: &panel.y.label }, [x, y], true, shapes);
+    axis::guides(&plane, &panel.guides, true, shapes);
+    axis::guides(&plane, &panel.guides_x, false, shapes);
+    for (i, line) in panel.lines.iter().enumerate() {
+        for piece in line.points.split(|p| !p.iter().all(|v| v.is_finite())).filter(|piece| !piece.is_empty()) {
+            let points: Vec<_> = piece.iter().map(|p| plane.clamped(p[0], p[1])).collect();
+            if line.dots {
+                shapes.extend(points.iter().map(|at| Shape::Disc { at: *at, radius: 3.0, color: ink(i), filled: true }));
+            }
+            shapes.push(Shape::Path { points, color: ink(i), width: 2.0, dash: if line.dashed { 6.0 } else { 0.0 } });
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Values over a plane, as colours.
+
+use super::axis::{self, Area, Axis, Titles, tick_text};
+use super::paint::{Anchor, Shape};
+use super::style::{Color, FAILED, INK, SMALL, scale};
+
+/// A panel of coloured cells.
+#[derive(Clone, Debug, Default)]
+pub struct Map {
+    /// Above the panel.
+    pub title: String,
+    /// The axis across: its range is what the columns span evenly (in the logarithm, if it is logarithmic).
+    pub x: Axis,
+    /// The axis upward: the same for the rows.
+    pub y: Axis,
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// One value for each cell, row by row from the lower end of y; NaN is a failure (red), −∞ an empty place (white).
+    pub values: Vec<f64>,
+    /// What the colours stand for.
+    pub colors: Axis,
+    /// Draws the colour scale beside the map.
+    pub legend: bool,
+}
+
+pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
+    let right = area.x[1];
+    if panel.legend {
+        area.x[1] -= 84.0;
+    }
+    let range = |axis: &Axis| axis.fitted(std::iter::empty());
+    let titles = Titles { title: &panel.title, x: &panel.x.label, y: &panel.y.label };
+    let plane = axis::frame(area, &titles, [range(&panel.x), range(&panel.y)], true, shapes);
+    let colors = panel.colors.fitted(panel.values.iter().copied());
+    let Area { x: [left, end], y: [top, bottom] } = plane.inner;
+    let [columns, rows] = panel.size;
+    let paint = |value: f64| -> Option<Color> {
+        match value {
+            v if v.is_nan() => Some(FAILED),
+            v if v == f64::NEG_INFINITY => None,
+            v => Some(scale(colors.share(v))),
+        }
+    };
+    for row in 0..rows {
+        let y = |k: usize| bottom - (bottom - top) * k as f64 / rows as f64;
+        let line = &panel.values[row * columns..(row + 1) * columns];
+        let mut first = 0;
+        // Neighbours of one colour are one rectangle: the SVG stays small.
+        for column in 1..=columns {
+            let color = paint(line[first]);
+            if column < columns && paint(line[column]) == color {
+                continue;
+            }
+            if let Some(color) = color {
+                let x = |k: usize| left + (end - left) * k as f64 / columns as f64;
+                shapes.push(Shape::Rect { from: [x(first), y(row + 1)], to: [x(column), y(row)], color });
+            }
+            first = column;
+        }
+    }
+    if panel.legend {
+        let (x0, x1) = (right - 74.0, right - 58.0);
+        let steps = 64;
+        for i in 0..steps {
+            let y = |k: usize| bottom - (bottom - top) * k as f64 / steps as f64;
+            shapes.push(Shape::Rect { from: [x0, y(i + 1)], to: [x1, y(i)], color: scale((i as f64 + 0.5) / steps as f64) });
+        }
+        for value in colors.ticks(((bottom - top) / 30.0) as usize) {
+            let at = bottom - (bottom - top) * colors.share(value);
+            shapes.push(Shape::line([x1, at], [x1 + 4.0, at], INK, 1.0));
+            shapes.push(Shape::text([x1 + 7.0, at], tick_text(value), SMALL, INK, Anchor::Start));
+        }
+        let label = [right - 7.0, 0.5 * (top + bottom)];
+        shapes.push(Shape::Text {
+            at: label,
+            text: panel.colors.label.clone(),
+            size: SMALL,
+            color: INK,
+            anchor: Anchor::Middle,
+            upward: true,
+        });
+    }
+}

@@ -1,0 +1,148 @@
+//! How long whole frames of a scene take, and their passes: `lensrunner chart frame`.
+
+use std::fmt;
+use std::io::Write;
+use std::time::Instant;
+
+use crate::scene::{self, GameConfig};
+
+use super::readback::PictureError;
+use super::renderer::Surroundings;
+use super::shot::{Moment, ShotError, surroundings};
+use super::stage::{Stage, settings};
+use super::targets::target;
+use super::{Gpu, Renderer};
+
+/// What to time.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Names or files of scenes.
+    pub scenes: Vec<String>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Frames that are timed, after two that are not.
+    pub frames: u32,
+    /// T of the frames, in r_s/c.
+    pub at: f64,
+}
+
+/// One scene's times, in milliseconds.
+#[derive(Clone, Debug)]
+pub struct FrameTimes {
+    /// The scene.
+    pub scene: String,
+    /// From the first frame asked for to its end: pipelines are compiled, models uploaded.
+    pub first: f64,
+    /// Whole frames from preparation to the end of the GPU's work: the least, the median, the greatest.
+    pub whole: [f64; 3],
+    /// Of that the median on the processor, before submission.
+    pub prepare: f64,
+    /// Processor time of all threads for a frame, where the system tells it: on a software driver it says more than the clock does when
+    /// other programs run.
+    pub processor: Option<f64>,
+    /// Median of each pass by the GPU's timestamps, where it has them.
+    pub passes: Vec<(&'static str, f64)>,
+}
+
+impl fmt::Display for FrameTimes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [least, median, most] = self.whole;
+        write!(f, "{}: median {median:.1} ms (least {least:.1}, greatest {most:.1}; first {:.0}", self.scene, self.first)?;
+        write!(f, ", of each {:.1} before submission", self.prepare)?;
+        if let Some(time) = self.processor {
+            write!(f, "; {time:.0} of processor time")?;
+        }
+        write!(f, ")")?;
+        for (label, time) in &self.passes {
+            write!(f, "\n  {label:<12} {time:8.2} ms")?;
+        }
+        Ok(())
+    }
+}
+
+/// Times the scenes one after the other and says each result as it comes.
+pub fn run(request: &Request, config: &GameConfig, out: &mut impl Write) -> Result<(), ShotError> {
+    let gpu = Gpu::headless()?;
+    let surroundings = surroundings();
+    let [width, height] = request.size;
+    let say = |error: std::io::Error| PictureError::Write { path: "standard output".into(), reason: error.to_string() };
+    writeln!(out, "{}, {width}x{height}, {} frames", gpu.adapter.name, request.frames).map_err(say)?;
+    for scene in &request.scenes {
+        let times = frame_times(&gpu, &surroundings, scene, request, config)?;
+        writeln!(out, "{times}").map_err(say)?;
+    }
+    Ok(())
+}
+
+/// Draws a scene again and again and times the frames one by one: a frame is submitted when the one before is done.
+pub fn frame_times(
+    gpu: &Gpu,
+    surroundings: &Surroundings,
+    name: &str,
+    request: &Request,
+    config: &GameConfig,
+) -> Result<FrameTimes, ShotError> {
+    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+    let (_, view) = target(&gpu.device, "bench", request.size, format);
+    let scene = scene::load(name)?;
+    let start = Instant::now();
+    let mut renderer = Renderer::new(gpu, surroundings, format, request.size);
+    let stage = Stage::new(&mut renderer, &scene, config);
+    let moment = Moment::new(&scene, config, request.at, 0);
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let mut whole = Vec::new();
+    let mut prepared = Vec::new();
+    let mut passes: Vec<(&'static str, Vec<f64>)> = Vec::new();
+    let mut first = 0.0;
+    let mut spent = None;
+    for number in 0..request.frames + 2 {
+        let begin = Instant::now();
+        let frame = stage.frame(camera, request.size[0], moment.time(), &moment.histories(), None, &settings(config));
+        renderer.prepare(&frame);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        renderer.encode(&mut encoder, &view);
+        let ready = begin.elapsed();
+        gpu.queue.submit([encoder.finish()]);
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+        let latest = renderer.timing().latest();
+        if number == 0 {
+            first = start.elapsed().as_secs_f64() * 1e3;
+        }
+        if number < 2 {
+            spent = processor_time();
+            continue;
+        }
+        whole.push(begin.elapsed().as_secs_f64() * 1e3);
+        prepared.push(ready.as_secs_f64() * 1e3);
+        for &(label, time) in latest {
+            match passes.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, times)) => times.push(f64::from(time)),
+                None => passes.push((label, vec![f64::from(time)])),
+            }
+        }
+    }
+    let processor = processor_time().zip(spent).map(|(now, then)| (now - then) / f64::from(request.frames));
+    Ok(FrameTimes {
+        scene: name.to_owned(),
+        first,
+        whole: [quantile(&mut whole, 0.0), quantile(&mut whole, 0.5), quantile(&mut whole, 1.0)],
+        prepare: quantile(&mut prepared, 0.5),
+        processor,
+        passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
+    })
+}
+
+fn quantile(values: &mut [f64], q: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(f64::NAN)
+}
+
+/// Milliseconds that all threads of this process have run so far, on Linux.
+fn processor_time() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // Fields 14 and 15, counted behind the name in brackets: user and system time in ticks of 10 ms (USER_HZ is 100 on every Linux).
+    let mut fields = status.rsplit_once(')')?.1.split_whitespace().skip(11);
+    let ticks: f64 = fields.next()?.parse().ok()?;
+    let system: f64 = fields.next()?.parse().ok()?;
+    Some((ticks + system) * 10.0)
+}
