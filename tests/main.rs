@@ -7,6 +7,8 @@ mod light_against_judge;
 mod measure_charts;
 mod measure_project;
 mod reference_bvh_build;
+mod reference_bvh_rays;
+mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_trace;
 #[cfg(feature = "game")]

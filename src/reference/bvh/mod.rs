@@ -7,6 +7,9 @@
 //! - [`wide`]: the tree of eight, ray by ray, and in packets of any size that split as they descend.
 //! - [`order`]: which pixels make good packets.
 
+// An axis indexes several arrays at once.
+#![allow(clippy::needless_range_loop)]
+
 pub mod bounds;
 pub mod build;
 mod hull;

@@ -57,11 +57,13 @@ pub const WIDENING: f32 = 1.0 / (1 << 19) as f32;
 /// The length by which boxes are widened for a ray from `origin` through a tree of this root.
 #[inline]
 pub fn widening(root: &Bounds<f32>, origin: [f32; 3]) -> f32 {
-    let mut far = 0f32;
+    let (mut far, mut offset) = (0f32, 0f32);
     for axis in 0..3 {
         far = far.max((root.min[axis] - origin[axis]).abs()).max((root.max[axis] - origin[axis]).abs());
+        offset = offset.max(origin[axis].abs());
     }
-    far * WIDENING
+    // It is added to coordinates of the origin: enough that their rounding leaves it.
+    far * WIDENING + offset * (1.0 / (1 << 22) as f32)
 }
 
 /// A ray made ready for boxes: the slab test with inclusive faces that a 0 · ∞ cannot spoil.

@@ -72,8 +72,7 @@ impl Background {
         });
         let view = texture.create_view(&Default::default());
         let cells_layout = layout(device, "sky cells", wgpu::ShaderStages::COMPUTE, &[Slot::Write, Slot::Write, Slot::Write]);
-        let draw_layout =
-            layout(device, "background", wgpu::ShaderStages::VERTEX_FRAGMENT, &[Slot::Read, Slot::Texture, Slot::Sampler]);
+        let draw_layout = layout(device, "background", wgpu::ShaderStages::VERTEX_FRAGMENT, &[Slot::Read, Slot::Texture, Slot::Sampler]);
         let shader = module(device, "background", Pass::Background);
         let draw = |label, vertex, fragment| {
             let stage = Raster { vertex, fragment, targets: &[(HDR_FORMAT, None)], depth: Some(false) };
@@ -91,12 +90,7 @@ impl Background {
             sampler,
             corners: Growing::new(device, "sky corners", wgpu::BufferUsages::STORAGE),
             indices: Growing::new(device, "sky indices", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDEX),
-            draws: buffer(
-                device,
-                "sky draws",
-                size_of::<CellDraws>() as u64,
-                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT,
-            ),
+            draws: buffer(device, "sky draws", size_of::<CellDraws>() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT),
             groups: None,
             grid: [0; 2],
         }

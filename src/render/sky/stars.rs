@@ -108,7 +108,8 @@ impl Stars {
         let seen =
             buffer(device, "seen stars", SEEN_STAR_BYTES * (stars.len().max(1) as u64) * u64::from(ORDERS), wgpu::BufferUsages::STORAGE);
         let arguments = buffer(device, "star draw", 16, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT);
-        let project_layout = layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write, Slot::Read]);
+        let project_layout =
+            layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write, Slot::Read]);
         let project_group = project_bindings(device, &project_layout, [&catalogue, &seen, &arguments, &listed.buffer]);
         let project = compute(device, "stars project", Pass::StarsProject, "main", &[Some(frame_layout), Some(&project_layout)]);
         let draw_layout = layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read]);
@@ -128,7 +129,20 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars { count: stars.len() as u32, clusters, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
+        Stars {
+            count: stars.len() as u32,
+            clusters,
+            listed,
+            groups: 0,
+            project_layout,
+            catalogue,
+            seen,
+            project,
+            project_group,
+            draw,
+            draw_group,
+            arguments,
+        }
     }
 
     /// Number of stars in the catalogue.
