@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{chart, projection};
+use lensrunner::measure::{bvh, chart, projection};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -38,6 +38,7 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Bvh(ChartBvhArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
 }
@@ -70,6 +71,25 @@ struct ChartProjectionArgs {
     /// Seed of the points.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+}
+
+/// Tracers of straight rays on one thread: ours, paper 4's, the crates obvhs and bvh, and Embree in a build with the feature embree.
+#[derive(Args)]
+struct ChartBvhArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
+    scenes: Vec<String>,
+    /// How often each method runs; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
+    #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
+    bunny: PathBuf,
+    /// Compares hits instead of timing: all methods with each other, 2,000 rays and every dispute with brute force in f64.
+    #[arg(long)]
+    check: bool,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -221,6 +241,7 @@ fn main() -> ExitCode {
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Bvh(args) => run_chart_bvh(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
         },
@@ -244,6 +265,21 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
     finish_chart(projection::run(&request))
+}
+
+fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {
+    let request = bvh::Request {
+        output: args.chart.into(),
+        scenes: args.scenes,
+        size: [1024, 768],
+        rounds: args.rounds.into(),
+        bunny: args.bunny,
+        check: args.check,
+    };
+    match bvh::run(&request) {
+        Err(error) if error.is_input() => fail(&error, 2),
+        done => finish_chart(done),
+    }
 }
 
 /// Says what was written, or what went wrong.
