@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
 use lensrunner::measure::projection::ChartError;
-use lensrunner::measure::{aurora, chart, methods, projection, thin_disk, trace};
+use lensrunner::measure::{aurora, bvh, chart, methods, projection, thin_disk, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -48,6 +48,7 @@ enum ChartCommand {
     Projection(ChartProjectionArgs),
     Trace(ChartTraceArgs),
     Aurora(ChartAuroraArgs),
+    Bvh(ChartBvhArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
 }
@@ -115,6 +116,25 @@ struct ChartTraceArgs {
     /// Pixels along each side of the picture.
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=1024))]
     pixels: u32,
+}
+
+/// Tracers of straight rays on one thread: ours, paper 4's, the crates obvhs and bvh, and Embree in a build with the feature embree.
+#[derive(Args)]
+struct ChartBvhArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
+    scenes: Vec<String>,
+    /// How often each method runs; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
+    #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
+    bunny: PathBuf,
+    /// Compares hits instead of timing: all methods with each other, 2,000 rays and every dispute with brute force in f64.
+    #[arg(long)]
+    check: bool,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -347,6 +367,7 @@ fn main() -> ExitCode {
                 finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
             }
             ChartCommand::Aurora(args) => run_chart_aurora(args),
+            ChartCommand::Bvh(args) => run_chart_bvh(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
         },
@@ -385,6 +406,21 @@ fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
     };
     let mut runners = Vec::new();
     finish_chart(aurora::chart::run(&args.chart.into(), &experiment, "", &mut runners))
+}
+
+fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {
+    let request = bvh::Request {
+        output: args.chart.into(),
+        scenes: args.scenes,
+        size: [1024, 768],
+        rounds: args.rounds.into(),
+        bunny: args.bunny,
+        check: args.check,
+    };
+    match bvh::run(&request) {
+        Err(error) if error.is_input() => fail(&error, 2),
+        done => finish_chart(done),
+    }
 }
 
 /// Says what was written, or what went wrong.

@@ -11,6 +11,8 @@ mod measure_compare;
 mod measure_project;
 mod measure_projection;
 mod reference_bvh_build;
+mod reference_bvh_rays;
+mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;

@@ -1,6 +1,7 @@
 //! Instruments: what the methods of the game give for the same question, and the charts that set error against time.
 
 pub mod aurora;
+pub mod bvh;
 pub mod chart;
 pub mod compare;
 pub mod disk;
