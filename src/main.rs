@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{chart, projection};
+use lensrunner::measure::{aurora, chart, projection, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -30,6 +30,7 @@ enum Command {
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
+    Trace(TraceArgs),
     #[command(subcommand)]
     Chart(ChartCommand),
 }
@@ -38,6 +39,7 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Aurora(ChartAuroraArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
 }
@@ -70,6 +72,28 @@ struct ChartProjectionArgs {
     /// Seed of the points.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+}
+
+/// The experiment of paper 3: auroras by the particle method and by screen walks, time against error, from four views.
+#[derive(Args)]
+struct ChartAuroraArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How many of the ten auroras.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u8).range(1..=10))]
+    auroras: u8,
+    /// Numbers of electrons.
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1000,4000,16000", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    electrons: Vec<u32>,
+    /// Standard deviations of a point's light in km, 0.1 to 50.
+    #[arg(long, value_name = "KM,…", value_delimiter = ',', default_value = "1,2,4", value_parser = aurora::chart::radius)]
+    radii: Vec<f32>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = aurora::chart::size)]
+    size: [usize; 2],
+    /// Runs of which the median is taken.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+    repeats: u8,
 }
 
 /// Times whole frames of scenes, and each pass of them.
@@ -110,6 +134,42 @@ struct ShotArgs {
     #[arg(long, value_name = "T", default_value_t = 0.0)]
     at: f64,
     /// Adds object id, image order, travel time and g to an .exr.
+    #[arg(long)]
+    layers: bool,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The picture: .png or .exr.
+    #[arg(short, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// Traces one picture of a scene, each pixel by a light ray of its own: the exact picture that the game's is judged by.
+///
+/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers what the centre of each pixel shows: object.id,
+/// triangle.id, barycentric.a to c, texture.u and v, image.order, swept.angle (radians), travel.time (r_s/c) and frequency.ratio
+/// (g = ν_observed/ν_emitted).
+#[derive(Args)]
+struct TraceArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// Rays a pixel: a square number, 1 to 256.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    samples: u32,
+    /// Threads; 0 as many as there are cores.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    tolerance: f64,
+    /// Adds what each pixel shows to an .exr.
     #[arg(long)]
     layers: bool,
     /// The game's configuration [default: built in, as the game.toml that comes with the game].
@@ -219,8 +279,10 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
+        Some(Command::Trace(args)) => run_trace(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Aurora(args) => run_chart_aurora(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
         },
@@ -244,6 +306,18 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
     finish_chart(projection::run(&request))
+}
+
+fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
+    let experiment = aurora::experiment::Request {
+        auroras: usize::from(args.auroras),
+        counts: args.electrons,
+        radii: args.radii,
+        size: args.size,
+        repeats: usize::from(args.repeats),
+    };
+    let mut runners = Vec::new();
+    finish_chart(aurora::chart::run(&args.chart.into(), &experiment, "", &mut runners))
 }
 
 /// Says what was written, or what went wrong.
@@ -275,6 +349,24 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
         ShotError::Picture(PictureError::Format(_)) => fail(error, 2),
         ShotError::Device(_) | ShotError::Picture(_) => fail(error, 1),
         _ => fail(error, 2),
+    }
+}
+
+fn run_trace(args: &TraceArgs) -> ExitCode {
+    let request = trace::Request {
+        scene: args.scene.clone(),
+        size: args.size,
+        at: args.at,
+        samples: args.samples,
+        threads: args.threads,
+        tolerance: args.tolerance,
+    };
+    match trace::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
+        Ok(rate) => {
+            eprintln!("{rate:.0} rays per second and thread");
+            ExitCode::SUCCESS
+        }
+        Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }
 

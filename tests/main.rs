@@ -4,10 +4,12 @@ mod house;
 mod lensing_integrator;
 mod lensing_tables;
 mod light_against_judge;
+mod measure_aurora;
 mod measure_charts;
 mod measure_project;
 mod reference_bvh_build;
 mod reference_oracles;
+mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
 mod render_disk;
@@ -15,6 +17,7 @@ mod render_disk;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+mod scene_aurora;
 mod scene_config;
 mod scene_disk;
 mod scene_files;

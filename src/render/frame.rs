@@ -2,6 +2,7 @@
 
 use glam::{DMat4, DQuat, DVec3};
 
+use crate::scene::stars::SKY_UNIT;
 use crate::scene::{blackbody, milky_way};
 use crate::spacetime::{frames, light};
 
@@ -145,10 +146,6 @@ pub struct Capacity {
     /// Vertices of thin triangles.
     pub thin: u32,
 }
-
-/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
-/// stars down to magnitude 6 show beside a lit ship.
-pub const SKY_UNIT: f32 = 4e-4;
 
 /// The uniform of a frame of `size` pixels.
 pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types::Frame {

@@ -24,6 +24,7 @@ pub mod stage;
 pub mod targets;
 pub mod timing;
 pub mod types;
+pub mod visibility;
 
 pub use device::{DeviceError, Gpu};
 pub use renderer::Renderer;

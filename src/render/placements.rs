@@ -4,6 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
+pub use crate::scene::lighting::Surroundings;
 use crate::sim::History;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
@@ -24,15 +25,6 @@ pub enum Motion<'a> {
     },
     /// A ship with a worldline: rest shape, attitude, boosted to rain axes.
     Flying(&'a History),
-}
-
-/// Light that falls on an object from around it: ambient and first harmonic, per channel, in the scene's unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Surroundings {
-    /// The mean of what shines, linear RGB.
-    pub ambient: [f32; 3],
-    /// For each channel the vector whose product with a surface normal (rain axes) is added.
-    pub directed: [[f32; 3]; 3],
 }
 
 /// An object to draw.

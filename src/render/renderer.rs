@@ -13,7 +13,7 @@ use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
 use super::sky::table::{NODES, sky_table};
@@ -39,7 +39,7 @@ pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
     frame: wgpu::Buffer,
-    lens_slice: Growing,
+    lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
     /// The table of the sky for the radius that the slices are for.
     sky: Vec<[f32; 4]>,
@@ -71,10 +71,10 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
+        let lens_slice = Numbers::new(device, "lens slice", 0);
         let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
         let blackbody = storage(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
@@ -82,7 +82,7 @@ impl Renderer {
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size);
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
@@ -186,9 +186,9 @@ impl Renderer {
         if self.sliced != l {
             self.sliced = l;
             let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, slice.texels()) {
-                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+                let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
             self.sky = sky_table(l);
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
@@ -336,8 +336,16 @@ impl Renderer {
     }
 }
 
-fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
-    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+fn frame_bindings(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    lens_slice: &wgpu::TextureView,
+    buffers: [&wgpu::Buffer; 3],
+) -> wgpu::BindGroup {
+    let [sky_slice, blackbody, adaptation] = buffers.map(|buffer| buffer.as_entire_binding());
+    let slice = wgpu::BindingResource::TextureView(lens_slice);
+    bind(device, "frame", layout, &[frame.as_entire_binding(), slice, sky_slice, blackbody, adaptation])
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {

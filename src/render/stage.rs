@@ -2,13 +2,13 @@
 
 use std::sync::Arc;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Body, GameConfig, Mount, Scene};
+use crate::scene::{self, Body, GameConfig, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
-use crate::spacetime::matter::{ShipState, gamma, step};
+use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
@@ -16,7 +16,7 @@ use super::coarse::coarse;
 use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
 use super::models::ModelRange;
-use super::placements::{Motion, Object, Surroundings, View, place};
+use super::placements::{Motion, Object, View, place};
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
@@ -25,16 +25,12 @@ pub struct Stage {
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
-    mount: Mount,
-    field_of_view: f64,
+    camera: scene::Camera,
     sky: (bool, bool, f32),
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
     has_ships: bool,
 }
-
-/// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
-const CAMERA_FLOOR: f64 = 1.003;
 
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
@@ -61,8 +57,7 @@ impl Stage {
             objects: objects.collect(),
             reaches,
             table: renderer.table().clone(),
-            mount: scene.camera.mount.clone(),
-            field_of_view: scene.camera.fov,
+            camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
@@ -71,23 +66,8 @@ impl Stage {
 
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
     pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Camera {
-        let state = match &self.mount {
-            Mount::Static(state) => *state,
-            Mount::Falling(state) => step_to(state, time),
-            Mount::Follow { ship, offset, look, up } => {
-                let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
-                    return Camera {
-                        position: DVec3::Z * 20.0,
-                        momentum: DVec3::ZERO,
-                        attitude: DQuat::IDENTITY,
-                        field_of_view: self.field_of_view,
-                    };
-                };
-                let view = frames::look(*look, *up).unwrap_or(DQuat::IDENTITY);
-                return third_person(state, *offset, view, self.field_of_view);
-            }
-        };
-        Camera { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.field_of_view }
+        let view = self.camera.viewpoint(time, ships);
+        Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view }
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
@@ -121,7 +101,7 @@ impl Stage {
                 scale: DVec3::splat(object.scale),
                 id: number as u32 + 1,
                 two_sided: matches!(object.body, Body::Held { .. }),
-                light: self.light_at(position),
+                light: lighting::at(position, self.has_ships, self.ambient),
             };
             placed.extend(place(&view, time, &object, settings.orders));
         }
@@ -131,31 +111,6 @@ impl Stage {
         settings.star_brightness *= self.sky.2;
         settings.sky_brightness *= self.sky.2;
         FrameInput { camera, time, placed, settings }
-    }
-
-    /// What shines on an object at `position`. Without ships it is a picture of shapes: light from everywhere, and a little from above, so
-    /// that they look round. Flying ships are lit by the disk's inner ring (an annulus at r = 3 to 6 in the plane z = 0, light bent little at
-    /// this distance) and by the stars.
-    fn light_at(&self, position: DVec3) -> Surroundings {
-        if !self.has_ships {
-            return Surroundings { ambient: [0.75; 3], directed: [[0.0, 0.25, 0.0]; 3] };
-        }
-        // Twelve points of the ring, each a patch that sends light as its cosine says.
-        let mut directed = DVec3::ZERO;
-        let mut total = 0.0;
-        for k in 0..12 {
-            let azimuth = std::f64::consts::TAU * f64::from(k) / 12.0;
-            let to_source = DVec3::new(4.0 * azimuth.cos(), 4.0 * azimuth.sin(), 0.0) - position;
-            let distance = to_source.length().max(0.5);
-            let cosine = (to_source.z.abs() / distance).max(0.05);
-            let light = cosine / (distance * distance);
-            directed += to_source / distance * light;
-            total += light;
-        }
-        // Hot gas, a little warmer than white; strength so that a ship at r = 8 is well lit.
-        let colour = [1.0, 0.82, 0.62].map(|c: f32| c * 14.0);
-        let tint = |c: f32| (directed.as_vec3() * (0.5 * c)).to_array();
-        Surroundings { ambient: colour.map(|c| self.ambient * 1.5 + 0.25 * total as f32 * c), directed: colour.map(tint) }
     }
 }
 
@@ -177,16 +132,8 @@ pub fn settings(config: &GameConfig) -> Settings {
 
 /// A camera beside a ship: at `offset` in the ship's rest frame, moving as the ship does, outside r = 1 as long as the ship is.
 pub fn third_person(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Camera {
-    let away = state.attitude * offset;
-    // On the slice T = const a rest length is contracted along the momentum.
-    let p = state.momentum;
-    let g = gamma(p);
-    let contraction = DMat3::IDENTITY - DMat3::from_cols(p * p.x, p * p.y, p * p.z) * (1.0 / (g * (1.0 + g)));
-    let mut position = state.position + contraction * away;
-    if state.position.length() > CAMERA_FLOOR && position.length() < CAMERA_FLOOR {
-        position = position.normalize() * CAMERA_FLOOR;
-    }
-    Camera { position, momentum: p, attitude: state.attitude * view, field_of_view }
+    let beside = viewpoint::beside(state, offset, view, field_of_view);
+    Camera { position: beside.position, momentum: beside.momentum, attitude: beside.attitude, field_of_view }
 }
 
 /// A hovering camera, looking along `look` (its own axes); falling with the rain inside r = 1.
@@ -197,12 +144,4 @@ pub fn static_camera(position: DVec3, look: DVec3, up: DVec3, field_of_view: f64
         attitude: frames::look(look, up).unwrap_or(DQuat::IDENTITY),
         field_of_view,
     }
-}
-
-/// Free fall from T = 0.
-fn step_to(state: &ShipState, time: f64) -> ShipState {
-    /// As the simulation's step.
-    const STEP: f64 = 0.01;
-    let steps = (time / STEP).ceil().max(1.0);
-    (0..steps as u64).fold(*state, |state, _| step(&state, time / steps, DVec3::ZERO, DVec3::ZERO))
 }

@@ -65,6 +65,14 @@ impl Default for Camera {
     }
 }
 
+/// The size of a picture, `WIDTHxHEIGHT`.
+pub fn picture_size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || format!("`{text}` is no size: WIDTHxHEIGHT in pixels, each from 1 to 8192, as 1280x720");
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
+    let side = |text: &str| text.parse().ok().filter(|side| (1..=8192).contains(side)).ok_or_else(wrong);
+    Ok([side(width)?, side(height)?])
+}
+
 /// The rain-frame momentum per mass of an observer at rest at `position`: γβn with γ = (1 − β²)^{-1/2}; `None` at r ≤ 1.
 pub fn static_momentum(position: DVec3) -> Option<DVec3> {
     let r = position.length();

@@ -9,6 +9,7 @@ use crate::render::frame::Camera;
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
 use crate::render::types::Star;
+use crate::render::visibility::may_be_seen;
 
 use super::table::sky_seen;
 
@@ -55,7 +56,7 @@ fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
 }
 
 /// Whether the image of this order of a cluster may touch the screen. Errs towards yes: the image is held in a cone around it.
-fn may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
+fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
     let n = camera.axis_frame()[0];
     let phi = cluster.middle.angle_between(n);
     let (low, high) = ((phi - cluster.spread).max(0.0), (phi + cluster.spread).min(PI));
@@ -73,24 +74,10 @@ fn may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[[f32; 4]
     }
     let round = (cluster.spread.sin() / phi.sin()).min(1.0).asin();
     let radius = half + round * (psi + half).min(FRAC_PI_2).sin().max((psi - half).sin());
-    if radius > 0.5 {
-        return true;
-    }
     let side = (cluster.middle - n * cluster.middle.dot(n)).normalize_or_zero() * if order == 2 { -1.0 } else { 1.0 };
     let look = n * psi.cos() + side * psi.sin();
-    let centre = camera.seen_direction(look);
-    // Aberration turns a cone into a cone: its greatest radius about the image of the middle, from four places of its rim.
-    let (u, v) = look.any_orthonormal_pair();
-    let rim = [u, -u, v, -v].map(|d| camera.seen_direction(look * radius.cos() + d * radius.sin()).angle_between(centre));
-    // Half as much again for the rim between them, and the size of a spot.
-    let radius = 1.5 * rim.into_iter().fold(0.0, f64::max) + 0.02;
-    if radius > FRAC_PI_2 {
-        return true;
-    }
-    // Outside one plane of the view's pyramid by more than the radius: not seen.
-    let tangent = (0.5 * camera.field_of_view).tan();
-    let inside = |across: f64, tangent: f64| (-centre.z * tangent - across.abs()) / tangent.hypot(1.0) > -radius.sin();
-    inside(centre.x, tangent) && inside(centre.y, tangent * aspect)
+    // The size of a spot is a few pixels more.
+    may_be_seen(camera, look, radius, 0.02, aspect)
 }
 
 /// The catalogue on the GPU and the two passes over it.
@@ -170,7 +157,7 @@ impl Stars {
         let orders = if table.is_empty() { 0 } else { ORDERS };
         let listed: Vec<[u32; 4]> = (1..=orders)
             .flat_map(|order| self.clusters.iter().map(move |cluster| (order, cluster)))
-            .filter(|(order, cluster)| may_be_seen(cluster, *order, camera, table, edge, aspect))
+            .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
             .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
             .collect();
         self.groups = listed.len() as u32;
@@ -238,7 +225,7 @@ mod tests {
             let n = camera.axis_frame()[0];
             for order in 1..=ORDERS {
                 for cluster in &clusters {
-                    let keep = may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
+                    let keep = cluster_may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
                     kept += u32::from(keep);
                     for star in &sorted[cluster.first as usize..(cluster.first + cluster.count) as usize] {
                         let d = DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize();
