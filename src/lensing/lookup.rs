@@ -165,6 +165,11 @@ pub(crate) fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, res
     } else {
         return NOTHING;
     }
+    ray_of(cam, c, room, [w, e, w_e, delay])
+}
+
+/// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
+pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
     let frequency = (radial * radial + cam.a * cam.a).sqrt();
     let leaving = radial_momentum(w_e, e, c, c.sqrt(), room);
