@@ -8,6 +8,7 @@ mod measure_aurora;
 mod measure_charts;
 mod measure_compare;
 mod measure_project;
+mod measure_thin_disk;
 mod reference_bvh_build;
 mod reference_oracles;
 mod reference_picture;
