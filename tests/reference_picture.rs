@@ -278,7 +278,7 @@ fn stars_are_seen_where_shooting_sees_them() {
     use glam::Vec3;
     use lensrunner::reference::picture::shade::Shift;
     use lensrunner::reference::picture::sky::stars;
-    use lensrunner::reference::{Branch, shoot_sky};
+    use lensrunner::reference::shoot_sky;
     use lensrunner::scene::stars::Star;
     let mut rng = StdRng::seed_from_u64(17);
     let mut seen = [0; 3];
@@ -302,7 +302,8 @@ fn stars_are_seen_where_shooting_sees_them() {
                 let side = across.normalize() * if order == 2 { -1.0 } else { 1.0 };
                 let look = DVec3::Z * sighting.psi_rain.cos() + side * sighting.psi_rain.sin();
                 let Some((place, _)) = camera.seen_at(look) else { continue };
-                let near = spots.iter().map(|spot| (spot.place[0] - place[0]).hypot(spot.place[1] - place[1])).fold(f64::INFINITY, f64::min);
+                let near =
+                    spots.iter().map(|spot| (spot.place[0] - place[0]).hypot(spot.place[1] - place[1])).fold(f64::INFINITY, f64::min);
                 if (0.0..1000.0).contains(&place[0]) && (0.0..1000.0).contains(&place[1]) {
                     assert!(near < 1e-5, "radius {radius}, order {order}, Φ {phi}: {near} px off");
                     seen[order as usize] += 1;
@@ -311,6 +312,5 @@ fn stars_are_seen_where_shooting_sees_them() {
             assert!(spots.iter().all(|spot| spot.light.min_element() >= 0.0 && spot.light != Vec3::ZERO));
         }
     }
-    let _ = Branch::Plus;
     assert!(seen[1] > 10 && seen[2] > 10, "{seen:?}");
 }

@@ -88,7 +88,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             }));
         }
     }
-    let frame = FrameInput { camera, time: 0.0, placed, settings: Settings::default() };
+    let frame = FrameInput { camera, time: 0.0, placed, aurora: None, settings: Settings::default() };
     renderer.picture(&frame, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.geometry().seen()).unwrap();
     let seen: &[SeenVertex] = bytemuck::cast_slice(&bytes);

@@ -8,6 +8,7 @@
 //! - [`picture`]: whole pictures of a scene, with a tree.
 //! - [`thin_disk`]: the image of a thin disk, by the shape of its rays alone, four at a time.
 //! - [`bvh`]: trees of boxes over what a scene holds, and straight rays through them.
+//! - [`scenes`]: what straight rays are measured on.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
 
@@ -15,6 +16,7 @@ pub mod bvh;
 pub mod geodesic;
 pub mod picture;
 pub mod ray;
+pub mod scenes;
 pub mod shoot;
 pub mod thin_disk;
 pub mod trace;

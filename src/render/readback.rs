@@ -12,6 +12,12 @@ pub enum PictureError {
     /// The GPU did not hand the data over.
     #[error("the GPU did not return the picture: {0}")]
     Map(String),
+    /// The device is gone, or refuses.
+    #[error("{0}")]
+    Device(String),
+    /// There is nothing to draw.
+    #[error("nothing was drawn: the camera's numbers are not finite, or the picture has no size")]
+    Nothing,
     /// The file could not be written.
     #[error("cannot write {path}: {reason}")]
     Write {
@@ -71,6 +77,13 @@ pub fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, Pictur
 }
 
 fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    mapped(gpu, copy).map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
+}
+
+fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    if let Some(complaint) = gpu.watch.complaint() {
+        return Err(PictureError::Device(complaint));
+    }
     let (send, receive) = std::sync::mpsc::channel();
     copy.slice(..).map_async(wgpu::MapMode::Read, move |result| {
         // The receiver waits below; if it is gone there is nobody to tell.

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{Slice, Table};
+use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
 use crate::scene::model::Model;
 
 use super::Gpu;
+use super::aurora::Aurora;
 use super::develop::Develop;
 use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
@@ -39,6 +40,8 @@ pub struct Surroundings {
 pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
+    /// Paper 1's tables, once they are asked for.
+    paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
     lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
@@ -59,8 +62,11 @@ pub struct Renderer {
     geometry: Geometry,
     background: Background,
     stars: Stars,
+    aurora: Aurora,
     develop: Develop,
     targets: Targets,
+    /// The output has no size.
+    hidden: bool,
     timing: Timing,
 }
 
@@ -81,17 +87,19 @@ impl Renderer {
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
-        let targets = Targets::new(device, size);
+        let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
         let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
             table: surroundings.table.clone(),
+            paper: None,
             frame,
             lens_slice,
             sky_slice,
@@ -107,6 +115,7 @@ impl Renderer {
             has_disk: false,
             develop,
             targets,
+            hidden: size.contains(&0),
         }
     }
 
@@ -118,6 +127,11 @@ impl Renderer {
     /// The baked table.
     pub fn table(&self) -> &Arc<Table> {
         &self.table
+    }
+
+    /// The tables for the method "paper1", instead of those that are loaded or baked when it is first drawn.
+    pub fn set_paper_table(&mut self, table: Arc<Table>) {
+        self.paper = Some(table);
     }
 
     /// Adds a model.
@@ -159,9 +173,10 @@ impl Renderer {
         self.targets.size
     }
 
-    /// Makes targets of another size.
+    /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
-        if size != self.targets.size {
+        self.hidden = size.contains(&0);
+        if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
             self.develop.resize(&self.gpu, &self.targets);
         }
@@ -176,9 +191,13 @@ impl Renderer {
         }
     }
 
-    /// Uploads what the frame needs. The camera must be finite and away from r = 0; else the frame stays as it was, and false is returned.
+    /// Uploads what the frame needs. There must be a device and a size, and the camera must be finite and away from r = 0; else the frame
+    /// stays as it was, and false is returned.
     pub fn prepare(&mut self, input: &FrameInput) -> bool {
         let camera = &input.camera;
+        if self.hidden || self.gpu.watch.complaint().is_some() {
+            return false;
+        }
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
@@ -188,10 +207,18 @@ impl Renderer {
         if self.sliced != (l, method) {
             if self.sliced.1 != method {
                 self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+            let texels = match method {
+                Method::Paper1 => {
+                    let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
+                    paper::slice(table, l)
+                }
+                Method::Table | Method::Flat => slice.texels().to_vec(),
+            };
+            if self.lens_slice.write(&self.gpu, "lens slice", &texels) {
                 let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
@@ -208,6 +235,7 @@ impl Renderer {
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
         self.background.prepare(&self.gpu, self.targets.size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         true
     }
 
@@ -230,6 +258,10 @@ impl Renderer {
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
+            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+        }
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         if let Some(disk) = disk {
             compute(encoder, "disk arcs", &|pass| disk.compute(pass));
@@ -274,6 +306,20 @@ impl Renderer {
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
+        for image in 0..self.aurora.images() {
+            let Some(light) = self.aurora.light() else { break };
+            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
+            }
+        }
         self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);
     }
@@ -283,7 +329,9 @@ impl Renderer {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
         for _ in 0..2 {
-            self.prepare(input);
+            if !self.prepare(input) {
+                return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
+            }
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(&mut encoder, &view);
             if layers {
@@ -337,6 +385,15 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
+}
+
+/// Nodes along each axis of paper 1's tables, when they are baked here: a few seconds on two cores, and about the error of the paper's 64³.
+const PAPER_NODES: usize = 64;
+
+fn paper_table() -> Table {
+    let file = lensing::default_file().with_file_name("paper1.lut");
+    let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
+    lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
 fn frame_bindings(

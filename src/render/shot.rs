@@ -53,7 +53,7 @@ pub struct Request<'a> {
 
 /// Everything around: table, stars, Milky Way, from the project's files. What cannot be read is said in the log and replaced.
 pub fn surroundings() -> Surroundings {
-    let file = scene::assets_folder().join("..").join("tables").join("default.lut");
+    let file = lensing::default_file();
     let complain = |error: &lensing::TableError| warn!("{error}; the table is baked anew");
     let table = lensing::load_or_bake(&file, lensing::Scheme::Residual, lensing::SMALL_NODES, complain, |_| ());
     let (stars, wrong) = scene::stars::load_or_stand_in();

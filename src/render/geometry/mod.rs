@@ -55,8 +55,6 @@ pub struct Geometry {
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
     has_thin: bool,
     capacity: Capacity,
-    /// Objects of the prepared frame that were left out because a number of theirs is not finite.
-    refused: u32,
 }
 
 #[derive(Debug)]
@@ -171,7 +169,6 @@ impl Geometry {
             groups: None,
             has_thin: false,
             capacity: room(0, 0, 0),
-            refused: 0,
         }
     }
 
@@ -195,20 +192,16 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// How many objects of the prepared frame were left out because a number of theirs is not finite.
-    pub fn refused(&self) -> u32 {
-        self.refused
-    }
-
     /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
     pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32) {
         let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
-        self.refused = 0;
+        let mut refused = 0;
         for item in placed {
             if !item.placement.is_finite() {
-                self.refused += 1;
+                // Caught at the door: counted with what the shaders catch.
+                refused += 1;
                 continue;
             }
             let model = item.model;
@@ -248,7 +241,7 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 
