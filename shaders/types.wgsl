@@ -24,7 +24,8 @@ struct Frame {
     exposure: vec4<f32>,
     /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
     switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns.
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to; standard deviation of a
+    /// star's spot in pixels; least flux of a star.
     sky_x: vec4<f32>,
     sky_y: vec4<f32>,
     sky_z: vec4<f32>,

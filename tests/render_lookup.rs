@@ -1,6 +1,6 @@
 //! Vertices on the GPU against the exact ray and the judge: inside the horizon, across it, near it from afar, moving and turning.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, bake};
@@ -21,6 +21,14 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
 use crate::render_shaders::GPU;
+
+/// One for all: most of a renderer's time here is the compiling of its passes.
+static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
+
+pub fn bench() -> MutexGuard<'static, Bench> {
+    // Another test's failure is no reason to fail.
+    BENCH.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// A renderer without sky, and a small ball on it.
 pub struct Bench {
@@ -58,7 +66,7 @@ impl Bench {
         let frame = FrameInput { camera, time, placed, settings };
         self.renderer.picture(&frame, false).unwrap();
         let bytes = readback::buffer(&GPU, self.renderer.geometry().seen()).unwrap();
-        bytemuck::cast_slice(&bytes).to_vec()
+        bytemuck::cast_slice(&bytes[..bytes.len() / size_of::<SeenVertex>() * size_of::<SeenVertex>()]).to_vec()
     }
 
     /// Body points of the vertices, in the order of the GPU.
@@ -97,7 +105,7 @@ fn falling(position: DVec3, momentum: DVec3) -> Camera {
 /// A camera inside sees a ball that is held inside twice, by light of either sign of E, each vertex where the judge sees it.
 #[test]
 fn a_camera_inside_sees_what_is_inside_twice() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let camera = falling(DVec3::new(0.0, 0.05, 0.45), DVec3::new(0.1, -0.2, 0.05));
     let settings = Settings::default();
     for position in [DVec3::new(0.05, 0.1, 0.7), DVec3::new(-0.3, 0.2, 0.62), DVec3::new(0.0, -0.06, 0.9)] {
@@ -164,7 +172,7 @@ fn emission(camera: &Camera, time: f64, history: &History, body: DVec3, order: u
 
 /// Every vertex of a ship in flight is where the judge sees the place that it had at its own emission time.
 fn check_flight(camera: Camera, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { orders, ..Settings::default() };
     let placed = bench.place(&camera, time, &bench.object(Motion::Flying(history), size, 1), &settings);
     assert_eq!(placed.len(), orders as usize, "not every order is seen");
@@ -201,7 +209,7 @@ fn every_vertex_of_a_turning_ship_has_its_own_emission_time() {
     let state = ship(DVec3::new(6.0, 0.5, -3.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command { thrust: DVec3::new(0.0, 0.02, -0.03), rates: DVec3::new(0.1, 0.35, -0.2) }, 60.0);
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.0, -0.2, -1.0), DVec3::Y, 1.0);
-    check_flight(camera, 40.0, &history, 0.3, 2, 0.02);
+    check_flight(camera, 16.0, &history, 0.3, 2, 0.02);
 }
 
 /// A ship falls in behind a falling camera: its light reaches the camera from outside, from inside, and across r = 1.
@@ -213,32 +221,30 @@ fn a_ship_that_crosses_the_horizon_is_seen_from_inside() {
     let camera = falling(DVec3::new(0.02, 0.0, 0.5), DVec3::new(0.0, 0.0, -0.1));
     let (mut plus, mut minus) = (0, 0);
     for after in [0.2, 0.9, 1.3, 1.7] {
-        let [p, m] = check_flight(camera, crossing + after, &history, 0.12, 1, 0.05);
+        let [p, m] = check_flight(camera, crossing + after, &history, 0.05, 1, 0.02);
         (plus, minus) = (plus + p, minus + m);
     }
     assert!(plus > 0, "{plus} {minus}");
 }
 
-/// A ship that leaves the camera's past where E < 0: it hangs just under the horizon while the camera is deep.
+/// A ship that fell in ahead of the camera, and has ended by now, is seen ahead by the light that it sent outward inside: E < 0. Some of its
+/// vertices are met there and others where E > 0, while the camera looks across.
 #[test]
-fn a_ship_may_be_seen_by_light_of_negative_energy() {
-    // Outward momentum keeps it under the horizon for long.
-    let state = ship(DVec3::new(0.05, 0.0, 0.97), DVec3::new(0.0, 0.0, 6.0));
-    let history = flight(state, Command::default(), 20.0);
-    let camera = falling(DVec3::new(0.0, 0.03, 0.3), DVec3::ZERO);
+fn a_ship_ahead_is_seen_by_light_of_negative_energy() {
+    let state = ship(DVec3::new(0.0, 0.02, 1.3), DVec3::ZERO);
+    let history = flight(state, Command { rates: DVec3::new(0.3, 0.1, 0.0), ..Command::default() }, 1.2);
+    let camera = falling(DVec3::new(0.02, 0.0, 0.3), DVec3::new(0.1, 0.0, 0.0));
     let mut minus = 0;
-    for time in [0.6, 1.0, 1.5, 2.0] {
-        if history.at(time).position.length() > 0.35 {
-            minus += check_flight(camera, time, &history, 0.01, 1, 0.05)[1];
-        }
+    for time in [1.1, 1.3, 1.5] {
+        minus += check_flight(camera, time, &history, 0.02, 1, 0.02)[1];
     }
-    assert!(minus > 20, "only {minus} vertices were seen by E < 0");
+    assert!(minus >= 100, "only {minus} vertices were seen by E < 0");
 }
 
 /// From 5,000 r_s away an offset in f32 no longer tells r − 1: vertices near the horizon get it from their place at the hole.
 #[test]
 fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let camera = static_camera(DVec3::new(0.0, 3000.0, 4000.0), DVec3::new(0.0, -3.0, -4.0), DVec3::X, 1.0);
     let settings = Settings { orders: 2, ..Settings::default() };
     // A ball just over the horizon: its lowest vertices lie at r = 1.0005.
@@ -263,7 +269,7 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
 /// Method "flat": what hovers is seen along the straight line, at its distance, once.
 #[test]
 fn flat_space_projects_straight() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { method: Method::Flat, ..Settings::default() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 7.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     let position = DVec3::new(0.5, -1.0, -5.0);
@@ -288,17 +294,63 @@ fn flat_space_projects_straight() {
 /// Without light delay a ship is seen where it is at the frame's time.
 #[test]
 fn without_light_delay_things_are_seen_where_they_are_now() {
-    let mut bench = Bench::new([64, 36]);
+    let mut bench = bench();
     let settings = Settings { light_delay: false, orders: 1, ..Settings::default() };
     let state = ship(DVec3::new(3.0, 0.5, -2.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command::default(), 30.0);
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.0, -0.2, -1.0), DVec3::Y, 1.0);
-    let placed = bench.place(&camera, 20.0, &bench.object(Motion::Flying(&history), 0.3, 1), &settings);
+    let placed = bench.place(&camera, 1.5, &bench.object(Motion::Flying(&history), 0.3, 1), &settings);
     let points = bench.points();
-    let seen = bench.seen(camera, 20.0, placed, settings);
+    let seen = bench.seen(camera, 1.5, placed, settings);
     for (point, vertex) in points.iter().zip(&seen) {
-        let (want, _) = judged(&camera, point_at(&history, 20.0, *point * 0.3), 1, Branch::Plus).unwrap();
+        let (want, _) = judged(&camera, point_at(&history, 1.5, *point * 0.3), 1, Branch::Plus).unwrap();
         let angle = apparent(vertex).normalize().angle_between(want).to_degrees();
         assert!(angle < 0.01, "{angle}° off");
     }
+}
+
+/// Method "paper1": vertices lie where the tables as their author used them say, evaluated on the processor; of a square behind the hole the
+/// triangles at the axis are dropped, which leaves a gap in the ring that ours closes.
+#[test]
+fn paper_one_projects_by_its_tables_and_drops_triangles() {
+    use lensrunner::lensing::paper;
+    let mut bench = bench();
+    let table = Arc::new(bake(Scheme::Paper, 24, |_| ()));
+    bench.renderer.set_paper_table(table.clone());
+    let settings = Settings { method: Method::Paper1, orders: 3, stars: false, milky_way: false, ..Settings::default() };
+    let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
+    for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
+        let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
+        assert_eq!(placed.len(), 2, "paper 1 has two orders");
+        let points = bench.points();
+        let seen = bench.seen(camera, 0.0, placed, settings);
+        for order in [1u8, 2] {
+            for (point, vertex) in points.iter().zip(&seen[(usize::from(order) - 1) * points.len()..]) {
+                let (r, phi, n, side) = polar(&camera, position + *point * 0.5);
+                let [psi, _] = paper::lookup(&table, [r, phi, camera.radius()], order);
+                let side = if order == 2 { -side } else { side };
+                // A hovering camera's own axes: no aberration against the static frame.
+                let want = camera.attitude.conjugate() * (n * psi.cos() + side * psi.sin());
+                let angle = apparent(vertex).normalize().angle_between(want).to_degrees();
+                assert!(angle < 0.02, "order {order} {position}: {angle}° from the table's {psi}");
+            }
+        }
+    }
+    let square = bench.renderer.add_model(&shapes::square(200, shapes::Anchor::Inside, Material::default()));
+    let count = |bench: &mut Bench, method| {
+        let settings = Settings { method, ..settings };
+        let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
+        let mut object = bench.object(motion, 8.0, 1);
+        (object.model, object.coarse, object.two_sided) = (square, square, true);
+        let eye = static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 1.0);
+        let placed = bench.place(&eye, 0.0, &object, &settings);
+        let frame = FrameInput { camera: eye, time: 0.0, placed, settings };
+        let picture = bench.renderer.picture(&frame, true).unwrap();
+        (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), bench.renderer.counters().unwrap().indices / 3)
+    };
+    let (holed, drawn) = count(&mut bench, Method::Paper1);
+    let (whole, _) = count(&mut bench, Method::Table);
+    println!("{holed} pixels by paper 1 ({drawn} triangles), {whole} by the table");
+    assert!(drawn < 2 * 200 && drawn > 200, "{drawn} triangles of two orders of 200");
+    assert!(holed < whole);
 }

@@ -112,14 +112,16 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         for (row, pair) in rows.iter().zip(out.chunks_exact(2)) {
             let want = lens_lookup_aged(&slice, row[0], row[1], slice.camera.l + row[0], row[2] as u32, row[3]);
             let (a, b) = (pair[0], pair[1]);
+            // Inside, near the fold of the image at E = 0, a direction goes as the root of what the last place of a sine is worth.
+            let fold = if l < 1.0 && row[3] != YOUNG || want.energy.abs() < 1.0 { 20.0 } else { 1.0 };
             assert_eq!(b[3] == 1.0, want.valid, "L = {l}, row {row:?}");
             if !want.valid {
                 continue;
             }
             seen += 1;
             for (name, got, want, relative) in [
-                ("cos ψ", a[0], want.cos_psi, 2e-5),
-                ("sin ψ", a[1], want.sin_psi, 2e-5),
+                ("cos ψ", a[0], want.cos_psi, 2e-5 * fold),
+                ("sin ψ", a[1], want.sin_psi, 2e-5 * fold),
                 ("delay", a[2], want.delay, 2e-4),
                 ("frequency", a[3], want.frequency, 1e-3),
                 ("frequency at the point", b[2], want.emission_frequency, 2e-2),

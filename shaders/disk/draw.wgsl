@@ -1,5 +1,7 @@
 // The rasteriser's part of the disk of arcs. One draw per image order, the farthest first; each is laid over what is behind it.
 
+@group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];

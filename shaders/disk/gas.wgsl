@@ -1,11 +1,10 @@
 // The gas in a pixel: streaks from the pattern, light from the black-body texture.
 
 @group(2) @binding(0) var<uniform> disk: DiskFrame;
-@group(2) @binding(1) var<storage, read> disk_vertices: array<DiskVertex>;
-@group(2) @binding(2) var pattern: texture_2d<f32>;
-@group(2) @binding(3) var pattern_sampler: sampler;
-@group(2) @binding(4) var black_body: texture_2d<f32>;
-@group(2) @binding(5) var black_body_sampler: sampler;
+@group(2) @binding(1) var pattern: texture_2d<f32>;
+@group(2) @binding(2) var pattern_sampler: sampler;
+@group(2) @binding(3) var black_body: texture_2d<f32>;
+@group(2) @binding(4) var black_body_sampler: sampler;
 
 struct Gas {
     @builtin(position) position: vec4<f32>,

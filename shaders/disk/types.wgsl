@@ -20,6 +20,8 @@ struct DiskFrame {
     /// x: vertices that there is room for; y: 1 for a close look (finest octaves, slant in each pixel); z: half height over radius
     /// (bits of an f32); w unused.
     room: vec4<u32>,
+    /// x: radius of a sprite in r_s; y: the scene's unit of light over the black body's; z, w unused.
+    sprites: vec4<f32>,
     /// xy: where in the pattern each generation begins.
     offsets: array<vec4<f32>, 16>,
 }

@@ -377,10 +377,25 @@ fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
 const YOUNG: f32 = 0.0;
 const OLD: f32 = 3e38;
 
+/// The answer where there is none.
+fn no_ray() -> LensRay {
+    return LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
+}
+
+fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
+    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
+    let frequency = sqrt(radial * radial + cam.a * cam.a);
+    let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
+    let emission_frequency = sqrt(leaving * leaving + c * c);
+    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
+        return no_ray();
+    }
+    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
+}
+
 fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
-    let nothing = LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
-        return nothing;
+        return no_ray();
     }
     let swept = max(sweep, SMALLEST_SWEEP);
     let c = 1.0 / at.r;
@@ -407,19 +422,12 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         w_e = ray.z;
         delay = ray.w;
         if !(delay > 0.0) {
-            return nothing;
+            return no_ray();
         }
     } else {
-        return nothing;
+        return no_ray();
     }
-    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
-    let frequency = sqrt(radial * radial + cam.a * cam.a);
-    let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
-    let emission_frequency = sqrt(leaving * leaving + c * c);
-    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
-        return nothing;
-    }
-    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
+    return ray_of(cam, c, room, w, e, w_e, delay);
 }
 
 /// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the

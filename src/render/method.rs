@@ -8,17 +8,20 @@ pub enum Method {
     Table,
     /// Straight light in a space without a hole.
     Flat,
+    /// Paper 1's tables and its filter of triangles.
+    Paper1,
 }
 
 impl Method {
     /// All methods.
-    pub const ALL: [Method; 2] = [Method::Table, Method::Flat];
+    pub const ALL: [Method; 3] = [Method::Table, Method::Flat, Method::Paper1];
 
     /// The name in `game.toml`.
     pub fn name(self) -> &'static str {
         match self {
             Method::Table => "table",
             Method::Flat => "flat",
+            Method::Paper1 => "paper1",
         }
     }
 
@@ -32,11 +35,21 @@ impl Method {
         self != Method::Flat
     }
 
+    /// How many orders of images it knows.
+    pub fn orders(self) -> u32 {
+        match self {
+            Method::Table => 3,
+            Method::Flat => 1,
+            Method::Paper1 => 2,
+        }
+    }
+
     /// Its shader.
     pub fn source(self) -> &'static str {
         match self {
             Method::Table => include_str!("../../shaders/methods/table.wgsl"),
             Method::Flat => include_str!("../../shaders/methods/flat.wgsl"),
+            Method::Paper1 => include_str!("../../shaders/methods/paper1.wgsl"),
         }
     }
 }

@@ -105,7 +105,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         Motion::Flying(_) => false,
     };
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
-    let orders = if settings.method.bends() { orders } else { 1 };
+    let orders = orders.min(settings.method.orders());
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 

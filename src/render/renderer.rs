@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{Slice, Table};
+use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
 use crate::scene::model::Model;
 
 use super::Gpu;
@@ -40,6 +40,8 @@ pub struct Surroundings {
 pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
+    /// Paper 1's tables, once they are asked for.
+    paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
     lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
@@ -63,6 +65,8 @@ pub struct Renderer {
     aurora: Aurora,
     develop: Develop,
     targets: Targets,
+    /// The output has no size.
+    hidden: bool,
     timing: Timing,
 }
 
@@ -83,7 +87,7 @@ impl Renderer {
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
-        let targets = Targets::new(device, size);
+        let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
         let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
@@ -95,6 +99,7 @@ impl Renderer {
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
             table: surroundings.table.clone(),
+            paper: None,
             frame,
             lens_slice,
             sky_slice,
@@ -110,6 +115,7 @@ impl Renderer {
             has_disk: false,
             develop,
             targets,
+            hidden: size.contains(&0),
         }
     }
 
@@ -121,6 +127,11 @@ impl Renderer {
     /// The baked table.
     pub fn table(&self) -> &Arc<Table> {
         &self.table
+    }
+
+    /// The tables for the method "paper1", instead of those that are loaded or baked when it is first drawn.
+    pub fn set_paper_table(&mut self, table: Arc<Table>) {
+        self.paper = Some(table);
     }
 
     /// Adds a model.
@@ -139,7 +150,7 @@ impl Renderer {
     pub fn set_disk(&mut self, disk: Option<Disk>) {
         self.has_disk = disk.is_some();
         match (disk, &mut self.disk) {
-            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), Some(passes)) => passes.set(&self.gpu, &self.frame_layout, disk),
             (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
             (None, _) => {}
         }
@@ -162,9 +173,10 @@ impl Renderer {
         self.targets.size
     }
 
-    /// Makes targets of another size.
+    /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
-        if size != self.targets.size {
+        self.hidden = size.contains(&0);
+        if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
             self.develop.resize(&self.gpu, &self.targets);
         }
@@ -179,9 +191,13 @@ impl Renderer {
         }
     }
 
-    /// Uploads what the frame needs. The camera must be finite and away from r = 0; else the frame stays as it was, and false is returned.
+    /// Uploads what the frame needs. There must be a device and a size, and the camera must be finite and away from r = 0; else the frame
+    /// stays as it was, and false is returned.
     pub fn prepare(&mut self, input: &FrameInput) -> bool {
         let camera = &input.camera;
+        if self.hidden || self.gpu.watch.complaint().is_some() {
+            return false;
+        }
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
@@ -195,7 +211,14 @@ impl Renderer {
             }
             self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+            let texels = match method {
+                Method::Paper1 => {
+                    let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
+                    paper::slice(table, l)
+                }
+                Method::Table | Method::Flat => slice.texels().to_vec(),
+            };
+            if self.lens_slice.write(&self.gpu, "lens slice", &texels) {
                 let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
@@ -306,7 +329,9 @@ impl Renderer {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
         for _ in 0..2 {
-            self.prepare(input);
+            if !self.prepare(input) {
+                return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
+            }
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(&mut encoder, &view);
             if layers {
@@ -320,27 +345,25 @@ impl Renderer {
             .chunks_exact(8)
             .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
             .collect();
-        let layers = match &self.targets.layers {
-            Some((texture, _, _)) if layers => {
-                let bytes = readback::texture(&self.gpu, texture, 16)?;
-                bytes
-                    .chunks_exact(16)
-                    .map(|texel| {
-                        std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]]))
-                    })
-                    .collect()
-            }
-            _ => Vec::new(),
+        let (layers, surface) = match &self.targets.layers {
+            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            _ => Default::default(),
         };
-        Ok(Picture { size: self.targets.size, developed, linear, layers })
+        let thin = if self.geometry.has_thin() {
+            let halves = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            halves.chunks_exact(8).map(|texel| half::f16::from_le_bytes([texel[6], texel[7]]).to_f32()).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Picture { size: self.targets.size, developed, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let (_, view, depth_view) = self.targets.layers(&self.gpu.device);
+        let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("layers"),
-            color_attachments: &[Some(colour(view, true))],
-            depth_stencil_attachment: Some(depth(depth_view, true)),
+            color_attachments: &[Some(colour(&targets.what.1, true)), Some(colour(&targets.surface.1, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
             ..Default::default()
         });
         pass.set_bind_group(0, &self.frame_group, &[]);
@@ -362,6 +385,15 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
+}
+
+/// Nodes along each axis of paper 1's tables, when they are baked here: a few seconds on two cores, and about the error of the paper's 64³.
+const PAPER_NODES: usize = 64;
+
+fn paper_table() -> Table {
+    let file = lensing::default_file().with_file_name("paper1.lut");
+    let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
+    lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
 fn frame_bindings(

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Body, GameConfig, Planet, Scene, lighting, viewpoint};
+use crate::scene::{self, Assembly, Body, GameConfig, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
@@ -49,9 +49,13 @@ const STARLIGHT: f32 = 0.015;
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
+        Stage::of(renderer, scene, scene.assemble(config), config)
+    }
+
+    /// The same with models made elsewhere.
+    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
         renderer.clear_models();
         renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
-        let assembly = scene.assemble(config);
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
@@ -162,6 +166,10 @@ impl Stage {
     }
 }
 
+/// Standard deviation of a star's spot over its radius. 0.7 pixels at the default radius is the narrowest Gaussian whose light, sampled at
+/// pixel centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
+const SPOT_SIGMA: f64 = 0.7 / 1.1;
+
 /// The settings that `game.toml` asks for.
 pub fn settings(config: &GameConfig) -> Settings {
     let render = &config.render;
@@ -181,6 +189,9 @@ pub fn settings(config: &GameConfig) -> Settings {
         star_brightness: config.sky.star_brightness as f32,
         sky_brightness: config.sky.milky_way_brightness as f32,
         bloom: render.bloom as f32,
+        exposure_key: render.exposure_key as f32,
+        star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
+        faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         ..Settings::default()
     }

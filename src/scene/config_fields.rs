@@ -115,7 +115,7 @@ config! {
     render: Render {
         pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
         orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
-        method: String = "table", Choice(&["table", "flat"]), "", "how a vertex is projected";
+        method: String = "table", Choice(&["table", "flat", "paper1"]), "", "how a vertex is projected";
         tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
         vertex_budget: u32 = 600_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
         min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";
@@ -129,7 +129,7 @@ config! {
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
         exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
-        exposure_key: f64 = 0.16, number(0.01, 1.0), "", "grey that the mean of the picture is brought to";
+        exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
@@ -197,7 +197,6 @@ config! {
         hold_time: f64 = 2.0, number(0.0, 1000.0), "r_s/c", "for this long without a break";
         time_limit: f64 = 400.0, number(1.0, 1e9), "r_s/c", "the hunter loses after this time";
         arena_radius: f64 = 20.0, number(5.0, 1e6), "r_s", "the quarry turns back before this radius";
-        start_distance: f64 = 8.0, number(0.5, 1000.0), "r_s", "distance between the ships when a chase is drawn by seed";
     }
     /// Flight assistance.
     assist: Assist {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
-use crate::scene::disk::{RENEWAL, SHEARED};
+use crate::scene::disk::{DISK_UNIT, RENEWAL, SHEARED};
 
 use super::Disk;
 use super::textures::TEMPERATURES;
@@ -91,6 +91,7 @@ impl DiskView {
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
                 room: [0, u32::from(close), (disk.gas.thickness as f32).to_bits(), 0],
+                sprites: [(0.7 * disk.sprite_radius()) as f32, DISK_UNIT as f32, 0.0, 0.0],
                 offsets,
             },
             circles,

@@ -55,8 +55,6 @@ pub struct Geometry {
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
     has_thin: bool,
     capacity: Capacity,
-    /// Objects of the prepared frame that were left out because a number of theirs is not finite.
-    refused: u32,
 }
 
 #[derive(Debug)]
@@ -124,15 +122,17 @@ impl Geometry {
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let draw = |label, vertex, fragment, format, blend, write| {
-            let stage = Raster { vertex, fragment, targets: &[(format, blend)], depth: Some(write) };
+        let draw_to = |label, vertex, fragment, targets: &[_], write| {
+            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
             raster(device, label, &shader, stage, &draw_groups)
         };
+        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
+        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
         let draws = Draws {
             opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
             thin: draw("thin", "thin_vertex", "thin_fragment", HDR_FORMAT, Some(sum), false),
-            layers: draw("layers", "opaque_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
-            layers_thin: draw("layers thin", "thin_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
+            layers: layers("layers", "opaque_vertex"),
+            layers_thin: layers("layers thin", "thin_vertex"),
         };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
@@ -169,7 +169,6 @@ impl Geometry {
             groups: None,
             has_thin: false,
             capacity: room(0, 0, 0),
-            refused: 0,
         }
     }
 
@@ -193,20 +192,16 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// How many objects of the prepared frame were left out because a number of theirs is not finite.
-    pub fn refused(&self) -> u32 {
-        self.refused
-    }
-
     /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
     pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32) {
         let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
-        self.refused = 0;
+        let mut refused = 0;
         for item in placed {
             if !item.placement.is_finite() {
-                self.refused += 1;
+                // Caught at the door: counted with what the shaders catch.
+                refused += 1;
                 continue;
             }
             let model = item.model;
@@ -246,7 +241,7 @@ impl Geometry {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 
@@ -382,6 +377,11 @@ impl Geometry {
     /// Seen vertices: first those of the models, object by object and order by order, then those of the mesh stage.
     pub fn seen(&self) -> &wgpu::Buffer {
         &self.seen.buffer
+    }
+
+    /// Indirect arguments, laid out as `types::ARGUMENTS_*` say.
+    pub fn arguments(&self) -> &wgpu::Buffer {
+        &self.arguments
     }
 
     /// Indices of opaque triangles.
