@@ -18,6 +18,8 @@ mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
+mod render_aurora;
+#[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
 mod render_lookup;
