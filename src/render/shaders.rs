@@ -3,6 +3,8 @@
 //! A pass is its own file after the library files it needs; the order is the order of the floors. Nothing is generated, so a line of an
 //! error message can be found by counting through the list.
 
+use super::method::Method;
+
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
@@ -15,6 +17,14 @@ const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
+const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
+const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
+const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
+const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
+const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
+const DISK_RADIAL: &str = include_str!("../../shaders/disk/radial.wgsl");
+const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.wgsl");
+const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
 /// The passes of a frame, by the file that holds their entry points.
@@ -42,6 +52,14 @@ pub enum Pass {
     StarsProject,
     /// Draws stars.
     StarsDraw,
+    /// Projects the ends of the aurora's chords.
+    AuroraProject,
+    /// Walks between them.
+    AuroraWalk,
+    /// Adds up the aurora's light.
+    AuroraSplat,
+    /// Makes it a colour.
+    AuroraResolve,
     /// Lays thin triangles over the picture.
     Compose,
     /// Halves and doubles the picture.
@@ -50,11 +68,29 @@ pub enum Pass {
     Exposure,
     /// Exposes, blooms, encodes.
     Develop,
+    /// Projects the places of the disk's arcs.
+    DiskVertices,
+    /// Decides how often arcs are halved.
+    DiskSegments,
+    /// Projects what halving asks for.
+    DiskMesh,
+    /// Joins the arcs' points by triangles.
+    DiskStrips,
+    /// Turns the disk's counts into indirect arguments.
+    DiskArguments,
+    /// Rasterises the disk.
+    DiskDraw,
+    /// Rasterises the disk of polygons.
+    DiskPolygons,
+    /// Projects the disk's sprites.
+    DiskSprites,
+    /// Draws the disk's sprites.
+    DiskSpritesDraw,
 }
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 15] = [
+    pub const ALL: [Pass; 28] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -66,15 +102,33 @@ impl Pass {
         Pass::Background,
         Pass::StarsProject,
         Pass::StarsDraw,
+        Pass::AuroraProject,
+        Pass::AuroraWalk,
+        Pass::AuroraSplat,
+        Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
         Pass::Develop,
+        Pass::DiskVertices,
+        Pass::DiskSegments,
+        Pass::DiskMesh,
+        Pass::DiskStrips,
+        Pass::DiskArguments,
+        Pass::DiskDraw,
+        Pass::DiskPolygons,
+        Pass::DiskSprites,
+        Pass::DiskSpritesDraw,
     ];
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        self.source_by(Method::default())
+    }
+
+    /// The same with another method of projection, where the pass looks rays up.
+    pub fn source_by(self, method: Method) -> String {
+        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -87,10 +141,23 @@ impl Pass {
             Pass::Background => include_str!("../../shaders/sky/background.wgsl"),
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
+            Pass::AuroraProject => include_str!("../../shaders/aurora/project.wgsl"),
+            Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
+            Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
             Pass::Develop => include_str!("../../shaders/develop/develop.wgsl"),
+            Pass::DiskVertices => include_str!("../../shaders/disk/vertices.wgsl"),
+            Pass::DiskSegments => include_str!("../../shaders/disk/segments.wgsl"),
+            Pass::DiskMesh => include_str!("../../shaders/disk/mesh.wgsl"),
+            Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
+            Pass::DiskArguments => include_str!("../../shaders/disk/arguments.wgsl"),
+            Pass::DiskDraw => include_str!("../../shaders/disk/draw.wgsl"),
+            Pass::DiskPolygons => include_str!("../../shaders/disk/polygons.wgsl"),
+            Pass::DiskSprites => include_str!("../../shaders/disk/sprites.wgsl"),
+            Pass::DiskSpritesDraw => include_str!("../../shaders/disk/sprites_draw.wgsl"),
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
@@ -98,9 +165,22 @@ impl Pass {
             Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
-            Pass::StarsDraw => vec![TYPES, BINDINGS],
+            Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
+            Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
+            Pass::DiskVertices | Pass::DiskMesh => {
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+            }
+            Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
+            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
+            Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_RADIAL],
+            Pass::DiskSprites => {
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_SPRITES_TYPES, DISK_RADIAL]
+            }
+            Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
     }
