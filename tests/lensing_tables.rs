@@ -238,7 +238,9 @@ fn the_shader_is_valid() {
 #[test]
 fn the_shader_has_every_function_of_its_twin() {
     let shader = include_str!("../shaders/functions/lensing.wgsl");
-    for twin in [include_str!("../src/lensing/formulas.rs"), include_str!("../src/lensing/inside.rs"), include_str!("../src/lensing/lookup.rs")] {
+    for twin in
+        [include_str!("../src/lensing/formulas.rs"), include_str!("../src/lensing/inside.rs"), include_str!("../src/lensing/lookup.rs")]
+    {
         for name in twin.split("pub fn ").skip(1).filter_map(|rest| rest.split('(').next()).filter(|name| *name != "camera") {
             assert!(shader.contains(&format!("fn {name}(")), "the shader lacks {name}");
         }
@@ -294,7 +296,8 @@ fn inside_the_horizon_both_branches_agree_with_the_judge() {
                 let allowed = if r > 0.95 { 0.02 } else { 0.002 } + 2e-5 / share.sqrt();
                 assert!(delay < allowed, "{row:?} {branch:?}: delay {} for {} (share {share})", ray.delay, truth.delay);
                 let tangential = truth.emission.y.abs();
-                let emission = (f64::from(ray.emission_radial).atan2(f64::from(ray.emission_tangential)) - truth.emission.x.atan2(tangential)).abs();
+                let emission =
+                    (f64::from(ray.emission_radial).atan2(f64::from(ray.emission_tangential)) - truth.emission.x.atan2(tangential)).abs();
                 assert!(emission < 2e-3 + 1e-5 / share.sqrt() + 1e-6 / (1.0 - r), "{row:?} {branch:?}: emission off by {emission}");
                 Some((angle, delay))
             })

@@ -151,7 +151,8 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         let bent = bent_sweep(swept);
         let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
         let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-        [w, e, w_e] = joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
+        [w, e, w_e] =
+            joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
         let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
         delay = parts[0] + parts[2] * (parts[1] + table[1]);
     } else if cam.room < 0.0 {

@@ -5,8 +5,8 @@ use glam::{DMat3, DQuat, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::{OLD, lens_lookup_aged};
 use crate::sim::History;
-use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::frames::relative_momentum;
+use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
 use crate::spacetime::orbit::static_momentum;
 
