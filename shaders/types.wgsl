@@ -22,9 +22,10 @@ struct Frame {
     light: vec4<f32>,
     /// x: least exposure, y: greatest exposure, z: adaptation factor of this frame in (0, 1], w: ψ of the edge of the shadow, rain frame.
     exposure: vec4<f32>,
-    /// x: bits of FLAG_*; y: how often an edge may be halved; z: number of stars; w: number of image orders drawn.
+    /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
     switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns.
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to; standard deviation of a
+    /// star's spot in pixels; least flux of a star.
     sky_x: vec4<f32>,
     sky_y: vec4<f32>,
     sky_z: vec4<f32>,
@@ -166,4 +167,14 @@ struct SeenStar {
     place: vec4<f32>,
     /// Linear light of the whole star, to be spread over its spot.
     colour: vec4<f32>,
+}
+
+/// What is seen of the sky at one corner of a cell of the screen.
+struct SkyCorner {
+    /// x, y: place on the panorama; z: how much sky a pixel covers, in radians; w: 0 within the shadow, else 1.
+    place: vec4<f32>,
+    /// Columns of the matrix from the panorama's colour to the seen one; w of the first two: normalised device coordinates.
+    red: vec4<f32>,
+    green: vec4<f32>,
+    blue: vec4<f32>,
 }

@@ -58,7 +58,7 @@ impl Bench {
 
     pub fn place(&self, camera: &Camera, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
-        place(&View { camera, slice: &slice, pixel: 1e-9, settings }, time, object, settings.orders)
+        place(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
     }
 
     /// The model's vertices as the GPU sees them, placement by placement.

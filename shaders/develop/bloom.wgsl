@@ -1,4 +1,4 @@
-// Bloom: the picture halved a few times, then added up again. The first halving also lays the thin triangles over the picture.
+// Bloom: the picture at a quarter of its size, halved a few times, then added up again.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
@@ -14,7 +14,7 @@ fn vertex(@builtin(vertex_index) i: u32) -> Screen {
     return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
 }
 
-/// Four bilinear taps: a 4 × 4 tent over the finer level.
+/// Four bilinear taps: the mean of 4 × 4 texels, which is a box for a quarter of the size and overlaps for a half.
 @fragment
 fn down(in: Screen) -> @location(0) vec4<f32> {
     let d = 1.0 / vec2<f32>(textureDimensions(source));

@@ -31,11 +31,9 @@ fn shaded(in: Surface) -> vec3<f32> {
     let material = materials[in.which.y];
     var base = material.base.rgb;
     var emitted = material.emissive.rgb;
-    // Derivatives are taken where all pixels pass.
-    let dx = dpdx(in.uv.xy);
-    let dy = dpdy(in.uv.xy);
+    // Sampled by all pixels, so that the level comes from differences between them.
+    let texel = textureSample(surface_textures, surface_sampler, in.uv.xy, i32(max(material.surface.y, 0.0))).rgb;
     if material.surface.y >= 0.0 {
-        let texel = textureSampleGrad(surface_textures, surface_sampler, in.uv.xy, i32(material.surface.y), dx, dy).rgb;
         base *= texel;
         emitted *= texel;
     }
@@ -51,7 +49,8 @@ fn shaded(in: Surface) -> vec3<f32> {
     // What a glossy surface mirrors: the surroundings in the mirrored direction, sharpened towards the side the light comes from.
     let mirrored = reflect(-leaving, n);
     let fresnel = mix(vec3<f32>(0.04), base, vec3<f32>(metallic));
-    let rim = pow(1.0 - max(dot(n, leaving), 0.0), 5.0);
+    let grazing = 1.0 - max(dot(n, leaving), 0.0);
+    let rim = grazing * grazing * grazing * grazing * grazing;
     let reflected = irradiance(placement, normalize(mix(mirrored, n, vec3<f32>(roughness * roughness))));
     colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(placement, mirrored, roughness);
     let flags = frame.switches.x;

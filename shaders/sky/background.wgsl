@@ -1,53 +1,54 @@
-// The background: for each pixel the direction at infinity, and the Milky Way there, filtered by the size of the lensed pixel.
+// The background: the Milky Way behind everything, filtered by the size of the lensed pixel. Cells come from cells.wgsl.
 
-@group(1) @binding(0) var milky_way: texture_2d<f32>;
-@group(1) @binding(1) var milky_way_sampler: sampler;
+@group(1) @binding(0) var<storage, read> corners: array<SkyCorner>;
+@group(1) @binding(1) var milky_way: texture_2d<f32>;
+@group(1) @binding(2) var milky_way_sampler: sampler;
 
-struct Screen {
+struct Smooth {
     @builtin(position) position: vec4<f32>,
-    @location(0) ndc: vec2<f32>,
+    /// Place on the panorama, and its level.
+    @location(0) @interpolate(linear) place: vec3<f32>,
+    /// Columns of the matrix from the panorama's colour to the seen one.
+    @location(1) @interpolate(linear) red: vec3<f32>,
+    @location(2) @interpolate(linear) green: vec3<f32>,
+    @location(3) @interpolate(linear) blue: vec3<f32>,
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) i: u32) -> Screen {
-    // One triangle over the screen, at the far end of the reversed depth.
-    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u)) * 2.0 - 1.0;
-    return Screen(vec4<f32>(corner, 0.0, 1.0), corner);
+fn smooth_vertex(@builtin(vertex_index) i: u32) -> Smooth {
+    let corner = corners[i];
+    let level = panorama_level(corner.place.z, textureDimensions(milky_way).y);
+    // At the far end of the reversed depth.
+    return Smooth(vec4<f32>(corner.red.w, corner.green.w, 0.0, 1.0), vec3<f32>(corner.place.xy, level), corner.red.xyz, corner.green.xyz,
+        corner.blue.xyz);
 }
 
 @fragment
-fn fragment(in: Screen) -> @location(0) vec4<f32> {
-    let pixel = normalize(vec3<f32>(in.ndc / frame.projection.xy, -1.0));
-    // Light that arrives from `pixel` is the null vector (pixel, −1) seen into the past.
-    let past = frame.rain_from_camera * vec4<f32>(pixel, -1.0);
-    let look = past.xyz / length(past.xyz);
-    let n = frame.radial.xyz;
-    let cos_psi = clamp(dot(look, n), -1.0, 1.0);
-    let across = look - n * cos_psi;
-    let sin_psi = length(across);
-    let psi = atan2(sin_psi, cos_psi);
-    let edge = frame.exposure.w;
-    if psi >= edge {
+fn smooth_fragment(in: Smooth) -> @location(0) vec4<f32> {
+    let light = textureSampleLevel(milky_way, milky_way_sampler, in.place.xy, in.place.z).rgb;
+    return vec4<f32>(min(in.red * light.r + in.green * light.g + in.blue * light.b, vec3<f32>(6e4)), 1.0);
+}
+
+struct Exact {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(linear) ndc: vec2<f32>,
+}
+
+@vertex
+fn exact_vertex(@builtin(vertex_index) i: u32) -> Exact {
+    let ndc = vec2<f32>(corners[i].red.w, corners[i].green.w);
+    return Exact(vec4<f32>(ndc, 0.0, 1.0), ndc);
+}
+
+@fragment
+fn exact_fragment(in: Exact) -> @location(0) vec4<f32> {
+    let view = sky_view(in.ndc);
+    if !view.lit {
         return vec4<f32>(0.0, 0.0, 0.0, 1.0);
     }
-    let s = -log(max(1.0 - psi / edge, 1e-7));
-    let swept = sky_swept(s);
-    let tangent = across / max(sin_psi, 1e-9);
-    let direction = n * cos(swept.x) + tangent * sin(swept.x);
-
-    // How much sky one pixel covers: along the radius dΦ/dψ, across it sinΦ/sinψ; aberration scales both by 1/D.
-    let doppler = camera_doppler(look);
-    let along = swept.y / max(edge - psi, 1e-7);
-    let sideways = abs(sin(swept.x)) / max(sin_psi, 1e-5);
-    let size = frame.size.z * max(along, max(sideways, 1e-3)) * doppler;
-
-    let icrs = frame.sky_x.xyz * direction.x + frame.sky_y.xyz * direction.y + frame.sky_z.xyz * direction.z;
-    let uv = vec2<f32>(fract(0.5 - atan2(icrs.y, icrs.x) / (2.0 * PI)), acos(clamp(icrs.z, -1.0, 1.0)) / PI);
-    let texels = f32(textureDimensions(milky_way).y) / PI;
-    let level = log2(max(size * texels, 1e-6));
-    let light = textureSampleLevel(milky_way, milky_way_sampler, uv, level).rgb;
-    let g = sky_ratio(cos_psi, doppler);
+    let level = panorama_level(view.size, textureDimensions(milky_way).y);
+    let light = textureSampleLevel(milky_way, milky_way_sampler, view.uv, level).rgb;
     let flags = frame.switches.x;
-    let colour = shifted_colour(light, g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
+    let colour = shifted_colour(light, view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
     return vec4<f32>(min(colour * frame.light.z, vec3<f32>(6e4)), 1.0);
 }

@@ -1,9 +1,12 @@
-// Stars, projected forward: one thread per star and order. Power goes as the black body at gT over the one at T, times the exact ratio of
+// Stars, projected forward: one workgroup per cluster and order, one thread per star. Power goes as the black body at gT over the one at T, times the exact ratio of
 // solid angles in the camera's frame, held below that of a star of finite size.
 
 @group(1) @binding(0) var<storage, read> stars: array<Star>;
 @group(1) @binding(1) var<storage, read_write> seen_stars: array<SeenStar>;
 @group(1) @binding(2) var<storage, read_write> star_draw: StarDraw;
+
+/// Clusters of stars that may be on the screen: first star, how many, image order.
+@group(1) @binding(3) var<storage, read> star_clusters: array<vec4<u32>>;
 
 struct StarDraw {
     vertices: u32,
@@ -17,13 +20,16 @@ struct StarDraw {
 const STAR_DISC: f32 = 1e-6;
 
 @compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let index = id.x;
-    let order = id.y + 1u;
-    if index >= frame.switches.z {
+fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+    let cluster = star_clusters[group.x];
+    let order = cluster.z;
+    if lane >= cluster.y {
         return;
     }
-    let star = stars[index];
+    let star = stars[cluster.x + lane];
+    if star.direction.w < frame.sky_z.w {
+        return;
+    }
     let n = frame.radial.xyz;
     let cos_phi = clamp(dot(star.direction.xyz, n), -1.0, 1.0);
     let across = star.direction.xyz - n * cos_phi;
@@ -74,5 +80,5 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         atomicSub(&star_draw.instances, 1u);
         return;
     }
-    seen_stars[slot] = SeenStar(vec4<f32>(ndc, select(2.5, 1.5, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
+    seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
 }

@@ -24,7 +24,7 @@ pub const INSIDE_NODES: [[f32; 2]; 6] = [
     [0.367_831_5, 0.233_492_54],
     [0.587_317_94, 0.203_167_43],
     [0.769_902_7, 0.160_078_33],
-    [0.904_117_26, 0.106_939_33],
+    [0.904_117_3, 0.106_939_33],
     [0.981_560_65, 0.047_175_337],
 ];
 /// The q from which the substitution needs no root: beyond it W² has no zero near the horizon.

@@ -138,7 +138,11 @@ pub const OLD: f32 = 3e38;
 /// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ). Where camera and point are both
 /// inside the horizon there are two: `elapsed` (r_s/c), the time since the light left as far as it is known, decides ([`YOUNG`], [`OLD`]).
 pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
-    let cam = &slice.camera;
+    lookup_with(&slice.camera, at, sweep, elapsed, |x, y| residuals(slice, x, y))
+}
+
+/// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
+pub(crate) fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
     }
@@ -150,7 +154,7 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         room = room.max(1e-4);
         let bent = bent_sweep(swept);
         let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
-        let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
+        let table = residuals(point_axis(cam, c, room), sweep_axis(cam, c, swept));
         [w, e, w_e] =
             joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
         let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
@@ -192,12 +196,16 @@ pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> 
 /// `height` = L + along, rounded from f64; `elapsed` as in [`lookup`].
 pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let at = place(&slice.camera, along, across, height);
-    let sweep = match order {
+    lookup(slice, at, swept(at, order), elapsed)
+}
+
+/// Φ of `order` for the point at `at`.
+pub(crate) fn swept(at: Place, order: u32) -> f32 {
+    match order {
         2 => 2.0 * HALF_TURN - at.phi,
         3 => 2.0 * HALF_TURN + at.phi,
         _ => at.phi,
-    };
-    lookup(slice, at, sweep, elapsed)
+    }
 }
 
 /// The same for E > 0.

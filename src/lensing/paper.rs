@@ -35,6 +35,16 @@ impl Mesh {
         self.first + (self.last - self.first) * share
     }
 
+    /// A, 0 where it is uniform.
+    pub fn bias(self) -> f64 {
+        self.bias
+    }
+
+    /// a and b.
+    pub fn ends(self) -> [f64; 2] {
+        [self.first, self.last]
+    }
+
     /// The z of a place.
     pub fn coordinate(self, x: f64) -> f64 {
         let share = (x - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);

@@ -344,4 +344,36 @@ mod tests {
         push(&mut app, KeyCode::Comma);
         assert_eq!(app.world().resource::<Session>().config.clock.pace, pace);
     }
+
+    /// A good change of `game.toml` is taken up while the game runs; a wrong one is said with its line, and the last good values stay.
+    #[test]
+    fn the_file_is_read_again_and_a_wrong_one_refused() {
+        use crate::play::live::Notice;
+        use std::time::{Duration, SystemTime};
+        let file = std::env::temp_dir().join(format!("lensrunner-reload-{}.toml", std::process::id()));
+        let write = |text: &str, age: u64| {
+            std::fs::write(&file, text).expect("a temporary file");
+            let open = std::fs::File::options().write(true).open(&file).expect("the same file");
+            open.set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(age)).expect("a time");
+        };
+        write("[ship]\nthrust = 0.05\n", 1000);
+        let mut app = game();
+        app.world_mut().resource_mut::<Session>().config_file = Some(file.clone());
+        let mut wait = || {
+            for _ in 0..12 {
+                app.update();
+            }
+            (app.world().resource::<Session>().config.ship.thrust, app.world().resource::<Notice>().text.clone())
+        };
+        wait();
+        write("[ship]\nthrust = 0.07\n", 2000);
+        assert_eq!(wait().0, 0.07);
+        write("[ship]\nthrust = -3\n", 3000);
+        let (thrust, said) = wait();
+        std::fs::remove_file(&file).expect("the same file");
+        assert_eq!(thrust, 0.07);
+        for word in ["lensrunner-reload", "2", "thrust", "10"] {
+            assert!(said.contains(word), "`{said}` does not name {word}");
+        }
+    }
 }

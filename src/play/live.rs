@@ -68,8 +68,12 @@ fn reload(
     *notice = Notice { text, until: real.elapsed_secs_f64() + 6.0 };
 }
 
-/// Whether the models of the scene are to be made again.
+/// Whether the models and the disk of the scene are to be made again.
 fn restage(before: &GameConfig, now: &GameConfig) -> bool {
+    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width || before.aurora != now.aurora
+    {
+        return true;
+    }
     before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient
 }
 

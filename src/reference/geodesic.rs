@@ -75,6 +75,13 @@ impl Segment {
         Segment { start, length, order, x, p }
     }
 
+    /// Light in flat space, without a hole: from `state` straight on against its momentum, for a delay of `length`.
+    pub fn straight(start: f64, state: State, length: f64) -> Segment {
+        let (mut x, mut p) = ([DVec2::ZERO; MAX_ORDER + 1], [DVec2::ZERO; MAX_ORDER + 1]);
+        (x[0], x[1], p[0]) = (state.position, -state.momentum.normalize(), state.momentum);
+        Segment { start, length, order: 1, x, p }
+    }
+
     /// The delay at the end of the segment.
     pub fn end(&self) -> f64 {
         self.start + self.length
@@ -97,6 +104,24 @@ impl Segment {
             v = v * elapsed + n as f64 * self.x[n];
         }
         v
+    }
+
+    /// d²x/dτ² `elapsed` after the start of the segment.
+    pub fn acceleration(&self, elapsed: f64) -> DVec2 {
+        let mut a = DVec2::ZERO;
+        for n in (2..=self.order).rev() {
+            a = a * elapsed + (n * (n - 1)) as f64 * self.x[n];
+        }
+        a
+    }
+
+    /// A bound on |d²x/dτ²| over the segment, in 1/r_s: each term at its largest.
+    pub fn bend(&self) -> f64 {
+        let mut sum = 0.0;
+        for n in (2..=self.order).rev() {
+            sum = sum * self.length + (n * (n - 1)) as f64 * self.x[n].length();
+        }
+        sum
     }
 
     /// A bound on how far the segment strays from its start, in r_s.

@@ -84,42 +84,21 @@ impl Ray {
     /// Follows the light seen in direction `look` (rain frame, any length but zero) by a camera at `position` (r_s from the hole,
     /// not zero) with a local error of `tolerance` in each step.
     pub fn trace(position: DVec3, look: DVec3, tolerance: f64, stop: &Stop) -> Ray {
-        let outward = position.normalize();
-        let look = look.normalize();
-        let across = look - outward * look.dot(outward);
-        let sine = across.length();
-        let sideways = if sine > 0.0 { across / sine } else { outward.any_orthonormal_vector() };
-        let mut ray = Ray::trace_in_plane(position.length(), DVec2::new(look.dot(outward), sine), tolerance, stop);
-        ray.axes = [outward, sideways];
+        let (axes, in_plane) = orbit_plane(position, look);
+        let mut ray = Ray::trace_in_plane(position.length(), in_plane, tolerance, stop);
+        ray.axes = axes;
         ray
     }
 
     /// The same in the plane of the orbit: the camera at (`radius`, 0), `look` in the rain frame with look.y ≥ 0.
     pub fn trace_in_plane(radius: f64, look: DVec2, tolerance: f64, stop: &Stop) -> Ray {
-        let mut state = State { position: DVec2::new(radius, 0.0), momentum: -look };
+        let mut follower = Follower::new(radius, look, tolerance, *stop);
         let mut ray = Ray { axes: [DVec3::X, DVec3::Y], segments: Vec::with_capacity(32), swept: vec![0.0], end: End::Steps };
-        let doomed = state.energy() <= 0.0;
-        let (mut delay, mut swept) = (0.0, 0.0);
-        for _ in 0..MAX_STEPS {
-            let segment = Segment::step(delay, state, tolerance);
-            delay = segment.end();
-            state = segment.at(segment.length);
-            swept = unwrap(state.position.y.atan2(state.position.x), swept);
+        while let Some(segment) = follower.step() {
             ray.segments.push(segment);
-            ray.swept.push(swept);
-            let r = state.position.length();
-            let outwards = state.radial_rate() > 0.0;
-            if swept >= stop.swept || delay >= stop.delay {
-                ray.end = End::Limit;
-            } else if (doomed || is_captured(r, outwards)) && (r - 1.0).abs() <= stop.horizon_gap {
-                ray.end = End::Captured;
-            } else if is_escaping(r, outwards) && r >= stop.radius {
-                ray.end = End::Escaped;
-            } else {
-                continue;
-            }
-            break;
+            ray.swept.push(follower.swept);
         }
+        ray.end = follower.end.unwrap_or(End::Steps);
         ray
     }
 
@@ -182,6 +161,74 @@ impl Ray {
     }
 }
 
+/// The plane of the orbit of light seen in direction `look` (any length but zero) from `position`: its two axes, and the unit look in them.
+pub(super) fn orbit_plane(position: DVec3, look: DVec3) -> ([DVec3; 2], DVec2) {
+    let outward = position.normalize();
+    let look = look.normalize();
+    let across = look - outward * look.dot(outward);
+    let sine = across.length();
+    let sideways = if sine > 0.0 { across / sine } else { outward.any_orthonormal_vector() };
+    ([outward, sideways], DVec2::new(look.dot(outward), sine))
+}
+
+/// A ray on its way, one step at a time: who finds what he looks for need not follow it to its end.
+#[derive(Clone, Debug)]
+pub struct Follower {
+    state: State,
+    delay: f64,
+    /// Φ swept up to now, radians.
+    pub swept: f64,
+    tolerance: f64,
+    stop: Stop,
+    /// Light of negative energy never leaves the inside.
+    doomed: bool,
+    steps: usize,
+    /// Why the ray ended, once it has.
+    pub end: Option<End>,
+}
+
+impl Follower {
+    /// A ray from a camera at (`radius`, 0) in the plane of its orbit, seen in direction `look` (rain frame, look.y ≥ 0).
+    pub fn new(radius: f64, look: DVec2, tolerance: f64, stop: Stop) -> Follower {
+        let state = State { position: DVec2::new(radius, 0.0), momentum: -look };
+        Follower { state, delay: 0.0, swept: 0.0, tolerance, stop, doomed: state.energy() <= 0.0, steps: 0, end: None }
+    }
+
+    /// The next step of the ray; None once it has ended.
+    pub fn step(&mut self) -> Option<Segment> {
+        if self.end.is_some() {
+            return None;
+        }
+        let segment = Segment::step(self.delay, self.state, self.tolerance);
+        self.delay = segment.end();
+        self.state = segment.at(segment.length);
+        self.swept = unwrap(self.state.position.y.atan2(self.state.position.x), self.swept);
+        self.steps += 1;
+        let r = self.state.position.length();
+        let outwards = self.state.radial_rate() > 0.0;
+        if self.swept >= self.stop.swept || self.delay >= self.stop.delay {
+            self.end = Some(End::Limit);
+        } else if (self.doomed || is_captured(r, outwards)) && (r - 1.0).abs() <= self.stop.horizon_gap {
+            self.end = Some(End::Captured);
+        } else if is_escaping(r, outwards) && r >= self.stop.radius {
+            self.end = Some(End::Escaped);
+        } else if self.steps >= MAX_STEPS {
+            self.end = Some(End::Steps);
+        }
+        Some(segment)
+    }
+
+    /// The energy of the light, in units of the frequency that a rain observer at the camera sees.
+    pub fn energy(&self) -> f64 {
+        self.state.energy()
+    }
+
+    /// Φ∞ of a ray that has escaped, else None.
+    pub fn sky_swept(&self) -> Option<f64> {
+        (self.end == Some(End::Escaped)).then(|| self.swept + swept_beyond(&self.state))
+    }
+}
+
 /// Whether light followed backwards is captured for certain. In an affine parameter d²r = b²(r − 3/2)/r⁴ has the sign of
 /// r − 3/2, so outside the horizon what moves inwards below 3/2 does so for ever.
 fn is_captured(r: f64, outwards: bool) -> bool {
@@ -223,7 +270,7 @@ fn swept_beyond(state: &State) -> f64 {
 }
 
 /// The angle `raw` (from atan2) with whole turns added so that it follows `previous`; a step turns by less than half a turn.
-fn unwrap(raw: f64, previous: f64) -> f64 {
+pub(super) fn unwrap(raw: f64, previous: f64) -> f64 {
     use std::f64::consts::TAU;
     raw + TAU * ((previous - raw) / TAU).round()
 }

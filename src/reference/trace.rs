@@ -38,6 +38,21 @@ impl Camera {
         let frequency = gamma + along;
         (-rain / frequency, 1.0 / frequency)
     }
+
+    /// The inverse: where, in pixels, light is seen that comes from `look` (rain frame, unit), and ν_camera/ν_rain; None behind the camera.
+    pub fn seen_at(&self, look: DVec3) -> Option<([f64; 2], f64)> {
+        let gamma = (1.0 + self.momentum.length_squared()).sqrt();
+        let photon = -look;
+        let blue = gamma - self.momentum.dot(photon);
+        let boosted = photon + self.momentum * (self.momentum.dot(photon) / (1.0 + gamma) - 1.0);
+        let seen = self.attitude.conjugate() * -boosted;
+        if seen.z >= 0.0 {
+            return None;
+        }
+        let [width, height] = self.size.map(f64::from);
+        let focal = 0.5 * width / (0.5 * self.field_of_view).tan();
+        Some(([0.5 * width - focal * seen.x / seen.z, 0.5 * height + focal * seen.y / seen.z], blue))
+    }
 }
 
 /// A set of triangles at rest in Painlevé–Gullstrand coordinates.

@@ -2,10 +2,12 @@
 
 use glam::{DMat4, DQuat, DVec3};
 
+use crate::scene::stars::SKY_UNIT;
 use crate::scene::{blackbody, milky_way};
 use crate::spacetime::orbit::static_momentum;
 use crate::spacetime::{frames, light};
 
+use super::aurora::AuroraFrame;
 use super::method::Method;
 use super::placements::Placed;
 use super::types::{self, flags};
@@ -102,12 +104,18 @@ pub struct Settings {
     pub milky_way: bool,
     /// Factor on the light of stars.
     pub star_brightness: f32,
+    /// Standard deviation of a star's spot, in pixels.
+    pub star_sigma: f32,
+    /// Stars of less flux (1 for magnitude 0) are left out.
+    pub faintest_star: f32,
     /// Factor on the light of the Milky Way.
     pub sky_brightness: f32,
     /// Share of the blurred picture that is added.
     pub bloom: f32,
     /// Least and greatest exposure.
     pub exposure_range: [f32; 2],
+    /// The light that the metered part of the picture is brought to, of 1 for white.
+    pub exposure_key: f32,
     /// Factor on the exposure that was found.
     pub exposure_bias: f32,
     /// How far the exposure moves in this frame towards what it should be, (0, 1]; 1 at once.
@@ -136,9 +144,12 @@ impl Default for Settings {
             stars: true,
             milky_way: true,
             star_brightness: 1.0,
+            star_sigma: 0.7,
+            faintest_star: 0.0,
             sky_brightness: 1.0,
             bloom: 0.08,
             exposure_range: [1e-4, 40.0],
+            exposure_key: 0.35,
             exposure_bias: 1.0,
             adaptation: 1.0,
             hold_exposure: false,
@@ -156,6 +167,8 @@ pub struct FrameInput {
     pub time: f64,
     /// Objects in each order they are seen in.
     pub placed: Vec<Placed>,
+    /// The aurora, if there is one in sight.
+    pub aurora: Option<AuroraFrame>,
     /// How to draw.
     pub settings: Settings,
 }
@@ -173,12 +186,8 @@ pub struct Capacity {
     pub thin: u32,
 }
 
-/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
-/// stars down to magnitude 6 show beside a lit ship.
-pub const SKY_UNIT: f32 = 4e-4;
-
 /// The uniform of a frame of `size` pixels.
-pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacity) -> types::Frame {
+pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types::Frame {
     let camera = &input.camera;
     let settings = &input.settings;
     let [n, a, b] = camera.axis_frame();
@@ -217,10 +226,10 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], stars: u32, capacity: Capacit
             settings.bloom,
         ],
         exposure: [settings.exposure_range[0], settings.exposure_range[1], settings.adaptation, edge as f32],
-        switches: [switches, settings.halvings, if settings.stars { stars } else { 0 }, settings.orders],
-        sky_x: [1.0, 0.0, 0.0, 0.0],
-        sky_y: [0.0, 1.0, 0.0, 0.0],
-        sky_z: [0.0, 0.0, 1.0, 0.0],
+        switches: [switches, settings.halvings, 0, settings.orders],
+        sky_x: [1.0, 0.0, 0.0, settings.exposure_key],
+        sky_y: [0.0, 1.0, 0.0, settings.star_sigma],
+        sky_z: [0.0, 0.0, 1.0, settings.faintest_star],
         capacity: [capacity.vertices, capacity.indices, capacity.work, capacity.thin],
     }
 }

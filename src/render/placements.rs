@@ -1,9 +1,12 @@
 //! Where each object is seen: for each image order the emission time of its centre and the motion around it, in f64, as the GPU's start.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::{OLD, lens_lookup_aged};
+pub use crate::scene::lighting::Surroundings;
 use crate::sim::History;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{self, Branch, Order};
@@ -14,6 +17,7 @@ use super::frame::{Camera, Settings};
 use super::method::Method;
 use super::models::ModelRange;
 use super::types::Placement;
+use super::visibility::may_be_seen;
 
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
@@ -27,15 +31,6 @@ pub enum Motion<'a> {
     },
     /// A ship with a worldline: rest shape, attitude, boosted to rain axes.
     Flying(&'a History),
-}
-
-/// Light that falls on an object from around it: ambient and first harmonic, per channel, in the scene's unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Surroundings {
-    /// The mean of what shines, linear RGB.
-    pub ambient: [f32; 3],
-    /// For each channel the vector whose product with a surface normal (rain axes) is added.
-    pub directed: [[f32; 3]; 3],
 }
 
 /// An object to draw.
@@ -89,7 +84,11 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         if branch == Branch::Minus {
             placement.triangles[3] |= MINUS;
         }
-        let width = view.width(position, object.reach, order, age) / view.pixel;
+        let extent = view.extent(position, object.reach, order, age);
+        if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
+            return None;
+        }
+        let width = extent.width / view.pixel;
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
@@ -128,20 +127,42 @@ pub struct View<'a> {
     pub slice: &'a Slice,
     /// Angle of a pixel in radians.
     pub pixel: f64,
+    /// Height over width of the screen: what lies off it is left out. None: nothing is.
+    pub aspect: Option<f64>,
     /// How the picture is made.
     pub settings: &'a Settings,
 }
 
+/// Where the image of a ball is seen, in the rain frame.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    /// The direction of its centre, a unit vector in rain axes.
+    look: DVec3,
+    /// A cone about it, in radians, that holds the image.
+    radius: f64,
+    /// Its extent in ψ, or its angular size if that is less, in radians.
+    width: f64,
+}
+
+impl Extent {
+    fn may_be_seen(&self, camera: &Camera, aspect: f64) -> bool {
+        /// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
+        const MARGIN: f64 = 3.0;
+        may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
+    }
+}
+
 impl View<'_> {
-    /// The width, in radians, of the image of a ball of radius `reach` at `position`: its extent in ψ, or its angular size if that is less.
+    /// Where the image of a ball of radius `reach` at `position` is seen.
     /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
     /// `age` decides, inside the horizon, which light is meant.
-    fn width(&self, position: DVec3, reach: f64, order: Order, age: f64) -> f64 {
+    fn extent(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Extent {
         let (l, r) = (self.camera.radius(), position.length());
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
-        let half = if reach < r { (reach / r).asin() } else { return std::f64::consts::PI };
+        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI };
+        let half = if reach < r { (reach / r).asin() } else { return anywhere };
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
             if !self.settings.method.bends() {
@@ -156,11 +177,18 @@ impl View<'_> {
         let places = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];
         // Where part of the object is not seen its image ends, as wide as it may be.
         let Some(around) = places.map(|(r, phi)| seen(r, phi)).into_iter().collect::<Option<Vec<_>>>() else {
-            return std::f64::consts::PI;
+            return anywhere;
         };
         let (centre, path) = around[0];
         let (low, high) = around.iter().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
-        (high - low).min(2.0 * reach / path.max(1e-9))
+        let across = position - n * position.dot(n);
+        let distance = across.length();
+        // Round the axis: a ball that meets it is seen all round.
+        let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
+        let turn = if order.flips() { -1.0 } else { 1.0 };
+        let look = n * centre.cos() + across * (turn * centre.sin() / distance.max(1e-300));
+        let steepest = low.sin().max(high.sin()).max(if low < FRAC_PI_2 && high > FRAC_PI_2 { 1.0 } else { 0.0 });
+        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width: (high - low).min(2.0 * reach / path.max(1e-9)) }
     }
 }
 

@@ -70,6 +70,12 @@ pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>,
     Ok(padded.chunks_exact(row as usize).flat_map(|line| &line[..(width * bytes) as usize]).copied().collect())
 }
 
+/// The texels of a texture of four 32-bit floats a texel.
+pub fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
+    let bytes = texture(gpu, source, 16)?;
+    Ok(bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+}
+
 fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
     mapped(gpu, copy).map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
 }
@@ -101,6 +107,10 @@ pub struct Picture {
     pub linear: Vec<[f32; 4]>,
     /// Object id, image order, travel time, g of the nearest surface; empty unless asked for.
     pub layers: Vec<[f32; 4]>,
+    /// Texture coordinates and coverage of that surface; as `layers`.
+    pub surface: Vec<[f32; 4]>,
+    /// The part of each pixel that thin images cover together; empty where there are none.
+    pub thin: Vec<f32>,
 }
 
 impl Picture {
@@ -127,6 +137,7 @@ impl Picture {
         if !self.layers.is_empty() {
             let names = ["object.id", "image.order", "travel.time", "frequency.ratio"];
             channels.extend(names.iter().enumerate().map(|(k, name)| channel(name, &self.layers, k)));
+            channels.extend(["texture.u", "texture.v"].iter().enumerate().map(|(k, name)| channel(name, &self.surface, k)));
         }
         let size = (self.size[0] as usize, self.size[1] as usize);
         let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));

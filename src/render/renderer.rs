@@ -8,10 +8,13 @@ use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
 use crate::scene::model::Model;
 
 use super::Gpu;
+use super::aurora::Aurora;
 use super::develop::Develop;
+use super::disk::types::DiskCounters;
+use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
@@ -40,8 +43,10 @@ pub struct Renderer {
     /// Paper 1's tables, once they are asked for.
     paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
-    lens_slice: Growing,
+    lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
+    /// The table of the sky for the radius that the slices are for.
+    sky: Vec<[f32; 4]>,
     blackbody: wgpu::Buffer,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
@@ -49,10 +54,15 @@ pub struct Renderer {
     frame_group: wgpu::BindGroup,
     /// The radius and the method that the slices are for.
     sliced: (f64, Method),
+    slice: Option<Slice>,
+    disk: Option<DiskPasses>,
+    /// Whether the scene has a disk; its passes are kept for the next that has.
+    has_disk: bool,
     models: Models,
     geometry: Geometry,
     background: Background,
     stars: Stars,
+    aurora: Aurora,
     develop: Develop,
     targets: Targets,
     /// The output has no size.
@@ -68,10 +78,10 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
+        let lens_slice = Numbers::new(device, "lens slice", 0);
         let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
         let blackbody = storage(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
@@ -79,11 +89,12 @@ impl Renderer {
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
@@ -92,12 +103,16 @@ impl Renderer {
             frame,
             lens_slice,
             sky_slice,
+            sky: Vec::new(),
             blackbody,
             adaptation,
             frame_layout,
             format,
             frame_group,
             sliced: (f64::NAN, Method::default()),
+            slice: None,
+            disk: None,
+            has_disk: false,
             develop,
             targets,
             hidden: size.contains(&0),
@@ -129,6 +144,28 @@ impl Renderer {
     pub fn clear_models(&mut self) {
         self.geometry.models_changed();
         self.models.clear();
+    }
+
+    /// Draws this disk from now on, or none.
+    pub fn set_disk(&mut self, disk: Option<Disk>) {
+        self.has_disk = disk.is_some();
+        match (disk, &mut self.disk) {
+            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
+            (None, _) => {}
+        }
+    }
+
+    /// The passes of the disk, if the scene has one.
+    pub fn disk(&self) -> Option<&DiskPasses> {
+        self.disk.as_ref().filter(|_| self.has_disk)
+    }
+
+    /// What the stages of the disk counted in the last frame; None without a disk.
+    pub fn disk_counters(&self) -> Result<Option<DiskCounters>, PictureError> {
+        let Some(disk) = self.disk() else { return Ok(None) };
+        let bytes = readback::buffer(&self.gpu, disk.arcs().counters())?;
+        Ok(Some(bytemuck::pod_read_unaligned(&bytes[..size_of::<DiskCounters>()])))
     }
 
     /// The size of the output, in pixels.
@@ -170,26 +207,35 @@ impl Renderer {
         if self.sliced != (l, method) {
             if self.sliced.1 != method {
                 self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
+            let slice = Slice::new(&self.table, l);
             let texels = match method {
                 Method::Paper1 => {
                     let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
                     paper::slice(table, l)
                 }
-                Method::Table | Method::Flat => Slice::new(&self.table, l).texels().to_vec(),
+                Method::Table | Method::Flat => slice.texels().to_vec(),
             };
-            if self.lens_slice.write(&self.gpu, &texels) {
-                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+            if self.lens_slice.write(&self.gpu, "lens slice", &texels) {
+                let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
-            let sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
-            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&sky));
+            self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
+            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
+            self.slice = Some(slice);
+        }
+        if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
+            disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
-        let uniform = uniform(input, self.targets.size, self.stars.count(), self.geometry.capacity());
+        let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
-        self.stars.reset(&self.gpu);
+        let edge = f64::from(uniform.exposure[3]);
+        self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        self.background.prepare(&self.gpu, self.targets.size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         true
     }
 
@@ -210,7 +256,17 @@ impl Renderer {
         compute(encoder, "triangles", &|pass| geometry.triangles(pass));
         compute(encoder, "refine", &|pass| geometry.refine(pass));
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
+            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+        }
+        let disk = self.disk.as_ref().filter(|_| self.has_disk);
+        if let Some(disk) = disk {
+            compute(encoder, "disk arcs", &|pass| disk.compute(pass));
+            compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
+        }
 
         {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -225,6 +281,17 @@ impl Renderer {
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
         }
+        if let Some(disk) = disk {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("disk"),
+                color_attachments: &[Some(colour(&self.targets.picture, false))],
+                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
+                timestamp_writes: self.timing.render("disk"),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            disk.draw(&mut pass);
+        }
         if geometry.has_thin() {
             {
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -238,6 +305,20 @@ impl Renderer {
                 geometry.draw_thin(&mut pass);
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
+        }
+        for image in 0..self.aurora.images() {
+            let Some(light) = self.aurora.light() else { break };
+            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
+            }
         }
         self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);
@@ -264,27 +345,25 @@ impl Renderer {
             .chunks_exact(8)
             .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
             .collect();
-        let layers = match &self.targets.layers {
-            Some((texture, _, _)) if layers => {
-                let bytes = readback::texture(&self.gpu, texture, 16)?;
-                bytes
-                    .chunks_exact(16)
-                    .map(|texel| {
-                        std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]]))
-                    })
-                    .collect()
-            }
-            _ => Vec::new(),
+        let (layers, surface) = match &self.targets.layers {
+            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            _ => Default::default(),
         };
-        Ok(Picture { size: self.targets.size, developed, linear, layers })
+        let thin = if self.geometry.has_thin() {
+            let halves = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            halves.chunks_exact(8).map(|texel| half::f16::from_le_bytes([texel[6], texel[7]]).to_f32()).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Picture { size: self.targets.size, developed, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let (_, view, depth_view) = self.targets.layers(&self.gpu.device);
+        let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("layers"),
-            color_attachments: &[Some(colour(view, true))],
-            depth_stencil_attachment: Some(depth(depth_view, true)),
+            color_attachments: &[Some(colour(&targets.what.1, true)), Some(colour(&targets.surface.1, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
             ..Default::default()
         });
         pass.set_bind_group(0, &self.frame_group, &[]);
@@ -312,13 +391,21 @@ impl Renderer {
 const PAPER_NODES: usize = 64;
 
 fn paper_table() -> Table {
-    let file = crate::scene::assets_folder().join("..").join("tables").join("paper1.lut");
+    let file = lensing::default_file().with_file_name("paper1.lut");
     let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
     lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
-fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
-    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+fn frame_bindings(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    lens_slice: &wgpu::TextureView,
+    buffers: [&wgpu::Buffer; 3],
+) -> wgpu::BindGroup {
+    let [sky_slice, blackbody, adaptation] = buffers.map(|buffer| buffer.as_entire_binding());
+    let slice = wgpu::BindingResource::TextureView(lens_slice);
+    bind(device, "frame", layout, &[frame.as_entire_binding(), slice, sky_slice, blackbody, adaptation])
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {

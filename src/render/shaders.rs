@@ -10,12 +10,19 @@ const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
+const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
+const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
+const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
+const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
+const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
+const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
+const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
 /// The passes of a frame, by the file that holds their entry points.
@@ -35,12 +42,22 @@ pub enum Pass {
     Mesh,
     /// Rasterises.
     Draw,
+    /// Works the sky out at the corners of cells.
+    SkyCells,
     /// The sky behind everything.
     Background,
     /// Projects stars.
     StarsProject,
     /// Draws stars.
     StarsDraw,
+    /// Projects the ends of the aurora's chords.
+    AuroraProject,
+    /// Walks between them.
+    AuroraWalk,
+    /// Adds up the aurora's light.
+    AuroraSplat,
+    /// Makes it a colour.
+    AuroraResolve,
     /// Lays thin triangles over the picture.
     Compose,
     /// Halves and doubles the picture.
@@ -49,11 +66,23 @@ pub enum Pass {
     Exposure,
     /// Exposes, blooms, encodes.
     Develop,
+    /// Projects the places of the disk's arcs.
+    DiskVertices,
+    /// Decides how often arcs are halved.
+    DiskSegments,
+    /// Projects what halving asks for.
+    DiskMesh,
+    /// Joins the arcs' points by triangles.
+    DiskStrips,
+    /// Turns the disk's counts into indirect arguments.
+    DiskArguments,
+    /// Rasterises the disk.
+    DiskDraw,
 }
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 14] = [
+    pub const ALL: [Pass; 25] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -61,13 +90,24 @@ impl Pass {
         Pass::Arguments,
         Pass::Mesh,
         Pass::Draw,
+        Pass::SkyCells,
         Pass::Background,
         Pass::StarsProject,
         Pass::StarsDraw,
+        Pass::AuroraProject,
+        Pass::AuroraWalk,
+        Pass::AuroraSplat,
+        Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
         Pass::Develop,
+        Pass::DiskVertices,
+        Pass::DiskSegments,
+        Pass::DiskMesh,
+        Pass::DiskStrips,
+        Pass::DiskArguments,
+        Pass::DiskDraw,
     ];
 
     /// The whole WGSL source of the pass.
@@ -86,22 +126,42 @@ impl Pass {
             Pass::Arguments => include_str!("../../shaders/geometry/arguments.wgsl"),
             Pass::Mesh => include_str!("../../shaders/geometry/mesh.wgsl"),
             Pass::Draw => include_str!("../../shaders/geometry/draw.wgsl"),
+            Pass::SkyCells => include_str!("../../shaders/sky/cells.wgsl"),
             Pass::Background => include_str!("../../shaders/sky/background.wgsl"),
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
+            Pass::AuroraProject => include_str!("../../shaders/aurora/project.wgsl"),
+            Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
+            Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
             Pass::Develop => include_str!("../../shaders/develop/develop.wgsl"),
+            Pass::DiskVertices => include_str!("../../shaders/disk/vertices.wgsl"),
+            Pass::DiskSegments => include_str!("../../shaders/disk/segments.wgsl"),
+            Pass::DiskMesh => include_str!("../../shaders/disk/mesh.wgsl"),
+            Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
+            Pass::DiskArguments => include_str!("../../shaders/disk/arguments.wgsl"),
+            Pass::DiskDraw => include_str!("../../shaders/disk/draw.wgsl"),
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
             Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
-            Pass::Background | Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
-            Pass::StarsDraw => vec![TYPES, BINDINGS],
+            Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
+            Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
+            Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
+            Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
+            Pass::DiskVertices | Pass::DiskMesh => {
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+            }
+            Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
+            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
     }

@@ -3,14 +3,15 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use bevy::prelude::*;
+use bevy::log::warn;
 use thiserror::Error;
 
 use crate::lensing;
-use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
-use crate::sim::{Clock, Fleet, History, ShipMotion, simulate};
-use crate::spacetime::matter::ShipState;
+pub use crate::scene::picture_size as size;
+use crate::scene::{self, Assembly, ConfigError, GameConfig, Scene, SceneError};
+pub use crate::sim::Moment;
 
+use super::frame::Settings;
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
 use super::stage::{Stage, settings};
@@ -52,7 +53,7 @@ pub struct Request<'a> {
 
 /// Everything around: table, stars, Milky Way, from the project's files. What cannot be read is said in the log and replaced.
 pub fn surroundings() -> Surroundings {
-    let file = scene::assets_folder().join("..").join("tables").join("default.lut");
+    let file = lensing::default_file();
     let complain = |error: &lensing::TableError| warn!("{error}; the table is baked anew");
     let table = lensing::load_or_bake(&file, lensing::Scheme::Residual, lensing::SMALL_NODES, complain, |_| ());
     let (stars, wrong) = scene::stars::load_or_stand_in();
@@ -66,75 +67,13 @@ pub fn surroundings() -> Surroundings {
     Surroundings {
         table: Arc::new(table),
         stars: stars.iter().map(star).collect(),
-        milky_way: milky_way.levels.iter().map(panorama_level).collect(),
+        milky_way: milky_way.levels.iter().map(|level| (level.width as u32, level.height as u32, level.light())).collect(),
     }
 }
 
 fn star(star: &scene::stars::Star) -> Star {
     let [x, y, z] = star.direction.to_array();
     Star { direction: [x, y, z, star.flux], colour: [star.temperature, 0.0, 0.0, 0.0] }
-}
-
-/// Brightness as the colour of the black body that it goes with, 1 being [`scene::milky_way::PEAK`].
-fn panorama_level(level: &scene::milky_way::Level) -> (u32, u32, Vec<[f32; 3]>) {
-    let colour = |brightness: f32| {
-        let rgb = scene::blackbody::blackbody_rgb(f64::from(scene::milky_way::temperature(brightness)));
-        let scale = brightness / scene::blackbody::luminance(rgb).max(f64::MIN_POSITIVE) as f32;
-        rgb.map(|channel| channel as f32 * scale)
-    };
-    // Eight bits make few different brightnesses on the finest level; the colour is worked out once for each of 1,024.
-    let ramp: Vec<[f32; 3]> = (0..=1024).map(|k| colour(k as f32 / 1024.0)).collect();
-    let pixels = level.brightness.iter().map(|&brightness| {
-        let x = brightness.clamp(0.0, 1.0) * 1024.0;
-        let i = (x as usize).min(1023);
-        std::array::from_fn(|c| ramp[i][c] + (x - i as f32) * (ramp[i + 1][c] - ramp[i][c]))
-    });
-    (level.width as u32, level.height as u32, pixels.collect())
-}
-
-/// The size of a picture, `WIDTHxHEIGHT`.
-pub fn size(text: &str) -> Result<[u32; 2], String> {
-    let wrong = || format!("`{text}` is no size: WIDTHxHEIGHT in pixels, each from 1 to 8192, as 1280x720");
-    let (width, height) = text.split_once(['x', 'X']).ok_or_else(wrong)?;
-    let side = |text: &str| text.parse().ok().filter(|side| (1..=8192).contains(side)).ok_or_else(wrong);
-    Ok([side(width)?, side(height)?])
-}
-
-/// A scene with its ships at a time T.
-pub struct Moment {
-    world: App,
-    names: Vec<String>,
-}
-
-impl Moment {
-    /// Plays the scene from T = 0 to T = `at`.
-    pub fn new(scene: &Scene, config: &GameConfig, at: f64, seed: u64) -> Moment {
-        let mut world = simulate::app_of(scene, config, seed);
-        let clock = *world.world().resource::<Clock>();
-        let steps = (at / clock.step).round() as u64;
-        for _ in 0..steps {
-            world.world_mut().run_schedule(FixedUpdate);
-        }
-        Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() }
-    }
-
-    /// The clock.
-    pub fn time(&self) -> f64 {
-        self.world.world().resource::<Clock>().time
-    }
-
-    /// States of the ships by name, in scene order.
-    pub fn ships(&self) -> Vec<(&str, ShipState)> {
-        let world = self.world.world();
-        let fleet = &world.resource::<Fleet>().0;
-        fleet.iter().zip(&self.names).filter_map(|(&entity, name)| Some((name.as_str(), world.get::<ShipMotion>(entity)?.0))).collect()
-    }
-
-    /// Worldlines of the ships, in scene order.
-    pub fn histories(&self) -> Vec<&History> {
-        let world = self.world.world();
-        world.resource::<Fleet>().0.iter().filter_map(|&entity| world.get::<History>(entity)).collect()
-    }
 }
 
 /// Draws the picture.
@@ -148,8 +87,30 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
     let camera = stage.camera(moment.time(), &moment.ships());
-    let frame = stage.frame(camera, request.size[0], moment.time(), &moment.histories(), None, &settings(config));
+    let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
     Ok(renderer.picture(&frame, request.layers)?)
+}
+
+/// Draws a scene with models made elsewhere, once with its sky and once without, both with layers: for comparing with the judge's picture.
+pub fn with_and_without_sky(
+    scene: &Scene,
+    assembly: Assembly,
+    config: &GameConfig,
+    at: f64,
+    size: [u32; 2],
+) -> Result<[Picture; 2], ShotError> {
+    let gpu = Gpu::headless()?;
+    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::of(&mut renderer, scene, assembly, config);
+    let moment = Moment::new(scene, config, at, 0);
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let with = settings(config);
+    let without = Settings { stars: false, milky_way: false, ..with };
+    let mut draw = |settings| {
+        let frame = stage.frame(camera, size[0], moment.time(), &moment.histories(), None, &settings);
+        renderer.picture(&frame, true)
+    };
+    Ok([draw(with)?, draw(without)?])
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

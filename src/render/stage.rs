@@ -1,22 +1,24 @@
 //! A scene on the renderer: its models uploaded, and a frame made of its objects at any T.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Body, GameConfig, Mount, Scene};
+use crate::scene::{self, Assembly, Body, GameConfig, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
-use crate::spacetime::matter::{ShipState, gamma, step};
+use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
+use super::aurora::{Show, planet_history};
 use super::coarse::coarse;
+use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
 use super::method::Method;
 use super::models::ModelRange;
-use super::placements::{Motion, Object, Surroundings, View, place};
+use super::placements::{Motion, Object, View, place};
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
@@ -25,22 +27,35 @@ pub struct Stage {
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
-    mount: Mount,
-    field_of_view: f64,
+    camera: scene::Camera,
     sky: (bool, bool, f32),
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
     has_ships: bool,
+    planet: Option<Planet>,
+    has_disk: bool,
+    /// The planet's model, and the coarse one.
+    globe: [ModelRange; 2],
+    /// Shared, because a stage is only read when it makes a frame.
+    show: Arc<Mutex<Option<Show>>>,
 }
 
-/// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
-const CAMERA_FLOOR: f64 = 1.003;
+/// Light on a planet's night side, where only stars shine; and on its day side, if a disk shines on it.
+const NIGHT: f32 = 0.004;
+const DAY: f32 = 0.35;
+/// A scene without a disk is lit by the stars beyond the hole, gathered by its lensing: just enough to see the planet by.
+const STARLIGHT: f32 = 0.015;
 
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
+        Stage::of(renderer, scene, scene.assemble(config), config)
+    }
+
+    /// The same with models made elsewhere.
+    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
         renderer.clear_models();
-        let assembly = scene.assemble(config);
+        renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
@@ -56,53 +71,47 @@ impl Stage {
             let range = ranges[object.model];
             (object, range)
         });
+        let globe = scene.planet.as_ref().map_or_else(Default::default, |planet| {
+            let model = planet.model();
+            let fine = renderer.add_model(&model);
+            [fine, coarse(&model).map_or(fine, |model| renderer.add_model(&model))]
+        });
         Stage {
             objects: objects.collect(),
             reaches,
             table: renderer.table().clone(),
-            mount: scene.camera.mount.clone(),
-            field_of_view: scene.camera.fov,
+            camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
+            planet: scene.planet,
+            has_disk: scene.disk(config).is_some(),
+            globe,
+            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
         }
     }
 
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
     pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Camera {
-        let state = match &self.mount {
-            Mount::Static(state) => *state,
-            Mount::Falling(state) => step_to(state, time),
-            Mount::Follow { ship, offset, look, up } => {
-                let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
-                    return Camera {
-                        position: DVec3::Z * 20.0,
-                        momentum: DVec3::ZERO,
-                        attitude: DQuat::IDENTITY,
-                        field_of_view: self.field_of_view,
-                    };
-                };
-                let view = frames::look(*look, *up).unwrap_or(DQuat::IDENTITY);
-                return third_person(state, *offset, view, self.field_of_view);
-            }
-        };
-        Camera { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.field_of_view }
+        let view = self.camera.viewpoint(time, ships);
+        Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view }
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
         camera: Camera,
-        width: u32,
+        size: [u32; 2],
         time: f64,
         histories: &[&History],
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
-        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel, settings };
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
+        let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
+        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -120,43 +129,46 @@ impl Stage {
                 scale: DVec3::splat(object.scale),
                 id: number as u32 + 1,
                 two_sided: matches!(object.body, Body::Held { .. }),
-                light: self.light_at(position),
+                light: lighting::at(position, self.has_ships, self.ambient),
             };
             placed.extend(place(&view, time, &object, settings.orders));
+        }
+        let mut aurora = None;
+        if let Some(planet) = &self.planet {
+            // Light of the higher orders goes once round the hole.
+            let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
+            if let Some(history) = planet_history(planet, time, back, DQuat::IDENTITY) {
+                let position = history.at(time).position;
+                let to_hole = -position.normalize_or_zero();
+                let day = if self.has_disk { DAY } else { STARLIGHT };
+                let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
+                let object = Object {
+                    model: self.globe[0],
+                    coarse: self.globe[1],
+                    motion: Motion::Flying(&history),
+                    reach: planet.radius,
+                    scale: DVec3::splat(2.0 * planet.radius),
+                    id: self.objects.len() as u32 + 1,
+                    two_sided: false,
+                    light: lighting::Surroundings { ambient: [NIGHT, NIGHT, 1.2 * NIGHT], directed },
+                };
+                placed.extend(place(&view, time, &object, settings.orders));
+            }
+            let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
+            aurora = show.as_mut().and_then(|show| show.frame(&view, time, back, settings.orders));
         }
         let mut settings = *settings;
         settings.stars &= self.sky.0;
         settings.milky_way &= self.sky.1;
         settings.star_brightness *= self.sky.2;
         settings.sky_brightness *= self.sky.2;
-        FrameInput { camera, time, placed, settings }
-    }
-
-    /// What shines on an object at `position`. Without ships it is a picture of shapes: light from everywhere, and a little from above, so
-    /// that they look round. Flying ships are lit by the disk's inner ring (an annulus at r = 3 to 6 in the plane z = 0, light bent little at
-    /// this distance) and by the stars.
-    fn light_at(&self, position: DVec3) -> Surroundings {
-        if !self.has_ships {
-            return Surroundings { ambient: [0.75; 3], directed: [[0.0, 0.25, 0.0]; 3] };
-        }
-        // Twelve points of the ring, each a patch that sends light as its cosine says.
-        let mut directed = DVec3::ZERO;
-        let mut total = 0.0;
-        for k in 0..12 {
-            let azimuth = std::f64::consts::TAU * f64::from(k) / 12.0;
-            let to_source = DVec3::new(4.0 * azimuth.cos(), 4.0 * azimuth.sin(), 0.0) - position;
-            let distance = to_source.length().max(0.5);
-            let cosine = (to_source.z.abs() / distance).max(0.05);
-            let light = cosine / (distance * distance);
-            directed += to_source / distance * light;
-            total += light;
-        }
-        // Hot gas, a little warmer than white; strength so that a ship at r = 8 is well lit.
-        let colour = [1.0, 0.82, 0.62].map(|c: f32| c * 14.0);
-        let tint = |c: f32| (directed.as_vec3() * (0.5 * c)).to_array();
-        Surroundings { ambient: colour.map(|c| self.ambient * 1.5 + 0.25 * total as f32 * c), directed: colour.map(tint) }
+        FrameInput { camera, time, placed, aurora, settings }
     }
 }
+
+/// Standard deviation of a star's spot over its radius. 0.7 pixels at the default radius is the narrowest Gaussian whose light, sampled at
+/// pixel centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
+const SPOT_SIGMA: f64 = 0.7 / 1.1;
 
 /// The settings that `game.toml` asks for.
 pub fn settings(config: &GameConfig) -> Settings {
@@ -177,6 +189,9 @@ pub fn settings(config: &GameConfig) -> Settings {
         star_brightness: config.sky.star_brightness as f32,
         sky_brightness: config.sky.milky_way_brightness as f32,
         bloom: render.bloom as f32,
+        exposure_key: render.exposure_key as f32,
+        star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
+        faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         ..Settings::default()
     }
@@ -184,16 +199,8 @@ pub fn settings(config: &GameConfig) -> Settings {
 
 /// A camera beside a ship: at `offset` in the ship's rest frame, moving as the ship does, outside r = 1 as long as the ship is.
 pub fn third_person(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Camera {
-    let away = state.attitude * offset;
-    // On the slice T = const a rest length is contracted along the momentum.
-    let p = state.momentum;
-    let g = gamma(p);
-    let contraction = DMat3::IDENTITY - DMat3::from_cols(p * p.x, p * p.y, p * p.z) * (1.0 / (g * (1.0 + g)));
-    let mut position = state.position + contraction * away;
-    if state.position.length() > CAMERA_FLOOR && position.length() < CAMERA_FLOOR {
-        position = position.normalize() * CAMERA_FLOOR;
-    }
-    Camera { position, momentum: p, attitude: state.attitude * view, field_of_view }
+    let beside = viewpoint::beside(state, offset, view, field_of_view);
+    Camera { position: beside.position, momentum: beside.momentum, attitude: beside.attitude, field_of_view }
 }
 
 /// A hovering camera, looking along `look` (its own axes); falling with the rain inside r = 1.
@@ -204,12 +211,4 @@ pub fn static_camera(position: DVec3, look: DVec3, up: DVec3, field_of_view: f64
         attitude: frames::look(look, up).unwrap_or(DQuat::IDENTITY),
         field_of_view,
     }
-}
-
-/// Free fall from T = 0.
-fn step_to(state: &ShipState, time: f64) -> ShipState {
-    /// As the simulation's step.
-    const STEP: f64 = 0.01;
-    let steps = (time / STEP).ceil().max(1.0);
-    (0..steps as u64).fold(*state, |state, _| step(&state, time / steps, DVec3::ZERO, DVec3::ZERO))
 }

@@ -173,3 +173,18 @@ pub const ARGUMENTS_MESH_VERTICES: u64 = 80;
 pub const ARGUMENTS_OPAQUE: u64 = 32;
 /// Offset of the draw of thin triangles.
 pub const ARGUMENTS_THIN: u64 = 64;
+/// Bytes of `SkyCorner` in WGSL.
+pub const SKY_CORNER_BYTES: u64 = 64;
+
+/// Arguments of the two draws of the sky's cells, interpolated and exact, and the grid; `CellDraws` of WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/sky/cells.wgsl")]
+pub struct CellDraws {
+    pub smooth: [u32; 5],
+    pub exact: [u32; 5],
+    pub columns: u32,
+    pub rows: u32,
+    pub side: u32,
+    pub unused: u32,
+}

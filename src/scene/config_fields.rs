@@ -129,7 +129,7 @@ config! {
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
         exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
-        exposure_key: f64 = 0.16, number(0.01, 1.0), "", "grey that the mean of the picture is brought to";
+        exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
@@ -145,18 +145,35 @@ config! {
         representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
         inner: f64 = 3.0, number(1.05, 50.0), "r_s", "inner edge; 3 is the last stable orbit";
         outer: f64 = 12.0, number(2.0, 200.0), "r_s", "outer edge";
-        accretion_rate: f64 = 0.1, number(1e-6, 10.0), "Eddington rates", "matter falling in; sets the temperature";
+        accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
         efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
         sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";
         polygons: u32 = 960u32, integer(24, 200_000), "triangles", "triangles in the polygon disk";
-        error_budget: f64 = 0.002, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
-        width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit";
+        error_budget: f64 = 0.0005, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
+        width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius";
         opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
+    }
+    /// The aurora of a planet.
+    aurora: AuroraConfig {
+        enabled: bool = true, Switch, "", "the aurora is simulated and drawn";
+        walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in paper 3";
+        streaks: u32 = 24_000u32, integer(64, 200_000), "streaks", "most electrons drawn; fewer when the aurora is small on the screen";
+        splats: u32 = 14u32, integer(4, 48), "splats", "luminous points along one electron's fall";
+        radius: f64 = 0.8, number(0.05, 50.0), "km", "spread of a luminous point (the planet's radius is 6371 km)";
+        energy: f64 = 4.0, number(0.1, 100.0), "keV", "energy that electrons gain in the potential above the aurora";
+        thermal: f64 = 1.5, number(0.05, 50.0), "keV", "thermal energy on top of it";
+        flux: f64 = 20.0, number(0.0, 1000.0), "erg cm^-2 s^-1", "energy flux in a curtain";
+        brightness: f64 = 0.02, number(0.0, 10.0), "per kilorayleigh", "what a kilorayleigh of green light is in the picture";
+        field: f64 = 30.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";
+        renewal: f64 = 45.0, number(1.0, 1000.0), "s", "time in which new electrons bring a curtain back to its place";
+        contrast: f64 = 0.7, number(0.0, 1.0), "", "contrast of the rays and of the brightness that travels along the curtains";
+        pace: f64 = 4.0, number(0.0, 1000.0), "s per r_s/c", "how fast the aurora moves against the game's clock";
+        seed: u32 = 1u32, integer(0, u32::MAX), "", "which aurora";
     }
     /// The player's ship.
     ship: ShipConfig {
@@ -180,7 +197,6 @@ config! {
         hold_time: f64 = 2.0, number(0.0, 1000.0), "r_s/c", "for this long without a break";
         time_limit: f64 = 400.0, number(1.0, 1e9), "r_s/c", "the hunter loses after this time";
         arena_radius: f64 = 20.0, number(5.0, 1e6), "r_s", "the quarry turns back before this radius";
-        start_distance: f64 = 8.0, number(0.5, 1000.0), "r_s", "distance between the ships when a chase is drawn by seed";
     }
     /// Flight assistance.
     assist: Assist {

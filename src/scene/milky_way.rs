@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 use glam::{Vec2, Vec3};
 
+use super::blackbody;
+
 /// The surface brightness of the brightest cloud, in stars of magnitude 0 per steradian: 20.2 magnitudes per square arc second.
 pub const PEAK: f32 = 355.0;
 
@@ -100,6 +102,23 @@ impl MilkyWay {
 }
 
 impl Level {
+    /// Every pixel as the colour of the black body that its brightness goes with: linear RGB, luminance 1 being [`PEAK`].
+    pub fn light(&self) -> Vec<[f32; 3]> {
+        let colour = |brightness: f32| {
+            let rgb = blackbody::blackbody_rgb(f64::from(temperature(brightness)));
+            let scale = brightness / blackbody::luminance(rgb).max(f64::MIN_POSITIVE) as f32;
+            rgb.map(|channel| channel as f32 * scale)
+        };
+        // Eight bits make few different brightnesses on the finest level; the colour is worked out once for each of 1,024.
+        let ramp: Vec<[f32; 3]> = (0..=1024).map(|k| colour(k as f32 / 1024.0)).collect();
+        let pixels = self.brightness.iter().map(|&brightness| {
+            let x = brightness.clamp(0.0, 1.0) * 1024.0;
+            let i = (x as usize).min(1023);
+            std::array::from_fn(|c| ramp[i][c] + (x - i as f32) * (ramp[i + 1][c] - ramp[i][c]))
+        });
+        pixels.collect()
+    }
+
     /// Half as wide and high, each pixel the mean over the solid angle of the four it replaces; the last step to 1 × 1 joins two.
     fn half(&self) -> Option<Level> {
         if self.width == 1 {

@@ -3,13 +3,16 @@
 //! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
 pub mod assembly;
+pub mod aurora;
 pub mod blackbody;
 pub mod camera;
 pub mod config;
 mod config_fields;
+pub mod disk;
 mod document;
 pub mod error;
 pub mod import;
+pub mod lighting;
 mod load;
 pub mod milky_way;
 pub mod model;
@@ -21,9 +24,10 @@ pub mod shapes;
 pub mod ship;
 pub mod stars;
 pub mod texture;
+pub mod viewpoint;
 
 pub use assembly::{Assembly, Body, Object};
-pub use camera::{Camera, Mount};
+pub use camera::{Camera, Mount, picture_size};
 pub use config::GameConfig;
 pub use error::{Complaint, ConfigError, SceneError};
 pub use load::{Scene, assets_folder, load, names};
@@ -32,3 +36,4 @@ pub use planet::{Planet, SkySwitches};
 pub use prop::Prop;
 pub use rules::Rules;
 pub use ship::ShipSpec;
+pub use viewpoint::Viewpoint;

@@ -122,15 +122,17 @@ impl Geometry {
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let draw = |label, vertex, fragment, format, blend, write| {
-            let stage = Raster { vertex, fragment, targets: &[(format, blend)], depth: Some(write) };
+        let draw_to = |label, vertex, fragment, targets: &[_], write| {
+            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
             raster(device, label, &shader, stage, &draw_groups)
         };
+        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
+        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
         let draws = Draws {
             opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
             thin: draw("thin", "thin_vertex", "thin_fragment", HDR_FORMAT, Some(sum), false),
-            layers: draw("layers", "opaque_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
-            layers_thin: draw("layers thin", "thin_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
+            layers: layers("layers", "opaque_vertex"),
+            layers_thin: layers("layers thin", "thin_vertex"),
         };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);

@@ -1,14 +1,32 @@
-//! The pass that fills every pixel that nothing solid covers.
+//! The pass that fills every pixel that nothing solid covers, in cells: interpolated where that is right, pixel by pixel elsewhere.
+
+use std::mem::offset_of;
 
 use crate::render::Gpu;
-use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use crate::render::shaders::Pass;
+use crate::render::types::{CellDraws, SKY_CORNER_BYTES};
 
-/// The Milky Way's texture and the pass that draws it.
+/// Side of a cell in pixels: at 16, few cells near the hole are drawn exactly, and corners are a thousandth of the pixels.
+const CELL: u32 = 16;
+
+/// The Milky Way's texture, the grid of cells, and the passes that draw it.
 #[derive(Debug)]
 pub struct Background {
-    pipeline: wgpu::RenderPipeline,
-    group: wgpu::BindGroup,
+    corner: wgpu::ComputePipeline,
+    cell: wgpu::ComputePipeline,
+    smooth: wgpu::RenderPipeline,
+    exact: wgpu::RenderPipeline,
+    cells_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
+    milky_way: wgpu::TextureView,
+    sampler: wgpu::Sampler,
+    corners: Growing,
+    indices: Growing,
+    draws: wgpu::Buffer,
+    /// Bind groups of the computation and of the draws, for this many cells.
+    groups: Option<(wgpu::BindGroup, wgpu::BindGroup)>,
+    grid: [u32; 2],
 }
 
 /// An equirectangular picture of linear light with its mip chain: each level's width, height and RGB rows from the north pole.
@@ -18,7 +36,6 @@ impl Background {
     /// Uploads the Milky Way.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, milky_way: &Panorama) -> Self {
         let device = &gpu.device;
-        let group_layout = layout(device, "background", wgpu::ShaderStages::FRAGMENT, &[Slot::Texture, Slot::Sampler]);
         let (width, height) = milky_way.first().map_or((1, 1), |level| (level.0, level.1));
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("milky way"),
@@ -54,23 +71,71 @@ impl Background {
             ..Default::default()
         });
         let view = texture.create_view(&Default::default());
-        let group = bind(
-            device,
-            "background",
-            &group_layout,
-            &[wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)],
-        );
+        let cells_layout = layout(device, "sky cells", wgpu::ShaderStages::COMPUTE, &[Slot::Write, Slot::Write, Slot::Write]);
+        let draw_layout = layout(device, "background", wgpu::ShaderStages::VERTEX_FRAGMENT, &[Slot::Read, Slot::Texture, Slot::Sampler]);
         let shader = module(device, "background", Pass::Background);
-        let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, None)], depth: Some(false) };
-        let pipeline = raster(device, "background", &shader, stage, &[Some(frame_layout), Some(&group_layout)]);
-        Background { pipeline, group }
+        let draw = |label, vertex, fragment| {
+            let stage = Raster { vertex, fragment, targets: &[(HDR_FORMAT, None)], depth: Some(false) };
+            raster(device, label, &shader, stage, &[Some(frame_layout), Some(&draw_layout)])
+        };
+        let cells = [Some(frame_layout), Some(&cells_layout)];
+        Background {
+            corner: compute(device, "sky corners", Pass::SkyCells, "corner", &cells),
+            cell: compute(device, "sky cells", Pass::SkyCells, "cell", &cells),
+            smooth: draw("smooth sky", "smooth_vertex", "smooth_fragment"),
+            exact: draw("exact sky", "exact_vertex", "exact_fragment"),
+            cells_layout,
+            draw_layout,
+            milky_way: view,
+            sampler,
+            corners: Growing::new(device, "sky corners", wgpu::BufferUsages::STORAGE),
+            indices: Growing::new(device, "sky indices", wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDEX),
+            draws: buffer(device, "sky draws", size_of::<CellDraws>() as u64, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT),
+            groups: None,
+            grid: [0; 2],
+        }
+    }
+
+    /// Lays the grid over a picture of `size` pixels, before [`Background::cells`].
+    pub fn prepare(&mut self, gpu: &Gpu, size: [u32; 2]) {
+        use wgpu::BindingResource::{Sampler, TextureView};
+        let device = &gpu.device;
+        let [columns, rows] = size.map(|side| side.div_ceil(CELL));
+        self.grid = [columns, rows];
+        let indices = 6 * columns * rows;
+        let mut replaced = self.corners.reserve(device, u64::from((columns + 1) * (rows + 1)) * SKY_CORNER_BYTES);
+        replaced |= self.indices.reserve(device, 2 * 4 * u64::from(indices));
+        if replaced || self.groups.is_none() {
+            let corners = || self.corners.buffer.as_entire_binding();
+            let cells = [corners(), self.indices.buffer.as_entire_binding(), self.draws.as_entire_binding()];
+            let draw = [corners(), TextureView(&self.milky_way), Sampler(&self.sampler)];
+            self.groups =
+                Some((bind(device, "sky cells", &self.cells_layout, &cells), bind(device, "background", &self.draw_layout, &draw)));
+        }
+        let draws = CellDraws { smooth: [0, 1, 0, 0, 0], exact: [0, 1, indices, 0, 0], columns, rows, side: CELL, unused: 0 };
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::bytes_of(&draws));
+    }
+
+    /// Works out what the corners see, and which cells may be interpolated.
+    pub fn cells(&self, pass: &mut wgpu::ComputePass) {
+        let Some((group, _)) = &self.groups else { return };
+        let [columns, rows] = self.grid;
+        pass.set_bind_group(1, group, &[]);
+        pass.set_pipeline(&self.corner);
+        pass.dispatch_workgroups(((columns + 1) * (rows + 1)).div_ceil(64), 1, 1);
+        pass.set_pipeline(&self.cell);
+        pass.dispatch_workgroups((columns * rows).div_ceil(64), 1, 1);
     }
 
     /// Draws into the picture, where depth is still that of infinity.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(1, &self.group, &[]);
-        pass.draw(0..3, 0..1);
+        let Some((_, group)) = &self.groups else { return };
+        pass.set_bind_group(1, group, &[]);
+        pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_pipeline(&self.smooth);
+        pass.draw_indexed_indirect(&self.draws, offset_of!(CellDraws, smooth) as u64);
+        pass.set_pipeline(&self.exact);
+        pass.draw_indexed_indirect(&self.draws, offset_of!(CellDraws, exact) as u64);
     }
 }
 

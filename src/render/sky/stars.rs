@@ -1,17 +1,37 @@
 //! Stars: projected in compute, both orders, drawn as spots.
 
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::DVec3;
+
 use crate::render::Gpu;
-use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
+use crate::render::frame::Camera;
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
 use crate::render::types::Star;
+use crate::render::visibility::may_be_seen;
+
+use super::table::sky_seen;
 
 /// Bytes of `SeenStar` in WGSL.
 const SEEN_STAR_BYTES: u64 = 32;
 /// Orders in which stars are projected: the third is within a ten-thousandth of the shadow's edge and carries as little of the light.
 const ORDERS: u32 = 2;
+/// Threads of a workgroup; `@workgroup_size` of the projection.
+const LANES: usize = 64;
 
-/// The stars so that neighbours in the list are neighbours on the sky: threads of one group are then off the screen together, and end early.
-fn arranged(stars: &[Star]) -> Vec<Star> {
+/// Stars that are near each other on the sky, at most as many as a workgroup has threads.
+#[derive(Clone, Copy, Debug)]
+struct Cluster {
+    first: u32,
+    count: u32,
+    /// Middle, and the angle of the farthest star from it in radians.
+    middle: DVec3,
+    spread: f64,
+}
+
+/// The stars in clusters: only those that may be on the screen are projected.
+fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
     // Cells of a cube's faces, 16 × 16 each: about 75 stars a cell.
     let cell = |star: &Star| {
         let d = star.direction;
@@ -21,13 +41,56 @@ fn arranged(stars: &[Star]) -> Vec<Star> {
     };
     let mut sorted = stars.to_vec();
     sorted.sort_by_cached_key(cell);
-    sorted
+    let mut clusters = Vec::new();
+    let mut first = 0;
+    for same_cell in sorted.chunk_by(|a, b| cell(a) == cell(b)) {
+        for part in same_cell.chunks(LANES) {
+            let direction = |star: &Star| DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize_or(DVec3::Z);
+            let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
+            let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
+            clusters.push(Cluster { first, count: part.len() as u32, middle, spread });
+            first += part.len() as u32;
+        }
+    }
+    (sorted, clusters)
+}
+
+/// Whether the image of this order of a cluster may touch the screen. Errs towards yes: the image is held in a cone around it.
+fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
+    let n = camera.axis_frame()[0];
+    let phi = cluster.middle.angle_between(n);
+    let (low, high) = ((phi - cluster.spread).max(0.0), (phi + cluster.spread).min(PI));
+    let swept = |phi: f64| match order {
+        1 => phi,
+        2 => TAU - phi,
+        _ => TAU + phi,
+    };
+    let seen = |phi: f64| edge * -(-f64::from(sky_seen(table, swept(phi) as f32)[0])).exp_m1();
+    let (a, b) = (seen(low), seen(high));
+    let (psi, half) = (0.5 * (a + b), 0.5 * (a - b).abs());
+    // The cluster's extent round the axis.
+    if phi - cluster.spread <= 0.0 || phi + cluster.spread >= PI {
+        return true;
+    }
+    let round = (cluster.spread.sin() / phi.sin()).min(1.0).asin();
+    let radius = half + round * (psi + half).min(FRAC_PI_2).sin().max((psi - half).sin());
+    let side = (cluster.middle - n * cluster.middle.dot(n)).normalize_or_zero() * if order == 2 { -1.0 } else { 1.0 };
+    let look = n * psi.cos() + side * psi.sin();
+    // The size of a spot is a few pixels more.
+    may_be_seen(camera, look, radius, 0.02, aspect)
 }
 
 /// The catalogue on the GPU and the two passes over it.
 #[derive(Debug)]
 pub struct Stars {
     count: u32,
+    clusters: Vec<Cluster>,
+    /// Clusters that may be on the screen: first star, how many, order.
+    listed: Growing,
+    groups: u32,
+    project_layout: wgpu::BindGroupLayout,
+    catalogue: wgpu::Buffer,
+    seen: wgpu::Buffer,
     project: wgpu::ComputePipeline,
     project_group: wgpu::BindGroup,
     draw: wgpu::RenderPipeline,
@@ -39,17 +102,15 @@ impl Stars {
     /// Uploads the catalogue.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star]) -> Self {
         let device = &gpu.device;
-        let catalogue = storage(gpu, "stars", &arranged(stars));
+        let (sorted, clusters) = arranged(stars);
+        let catalogue = storage(gpu, "stars", &sorted);
+        let listed = Growing::new(device, "star clusters", wgpu::BufferUsages::STORAGE);
         let seen =
             buffer(device, "seen stars", SEEN_STAR_BYTES * (stars.len().max(1) as u64) * u64::from(ORDERS), wgpu::BufferUsages::STORAGE);
         let arguments = buffer(device, "star draw", 16, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT);
-        let project_layout = layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write]);
-        let project_group = bind(
-            device,
-            "stars project",
-            &project_layout,
-            &[catalogue.as_entire_binding(), seen.as_entire_binding(), arguments.as_entire_binding()],
-        );
+        let project_layout =
+            layout(device, "stars project", wgpu::ShaderStages::COMPUTE, &[Slot::Read, Slot::Write, Slot::Write, Slot::Read]);
+        let project_group = project_bindings(device, &project_layout, [&catalogue, &seen, &arguments, &listed.buffer]);
         let project = compute(device, "stars project", Pass::StarsProject, "main", &[Some(frame_layout), Some(&project_layout)]);
         let draw_layout = layout(device, "stars draw", wgpu::ShaderStages::VERTEX, &[Slot::Read]);
         let draw_group = bind(device, "stars draw", &draw_layout, &[seen.as_entire_binding()]);
@@ -68,7 +129,20 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars { count: stars.len() as u32, project, project_group, draw, draw_group, arguments }
+        Stars {
+            count: stars.len() as u32,
+            clusters,
+            listed,
+            groups: 0,
+            project_layout,
+            catalogue,
+            seen,
+            project,
+            project_group,
+            draw,
+            draw_group,
+            arguments,
+        }
     }
 
     /// Number of stars in the catalogue.
@@ -76,16 +150,32 @@ impl Stars {
         self.count
     }
 
-    /// Empties the list of seen stars; before [`Stars::project`].
-    pub fn reset(&self, gpu: &Gpu) {
+    /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's for
+    /// the camera's radius, empty where no stars are wanted; `edge` the angle of the shadow's edge in radians.
+    pub fn prepare(&mut self, gpu: &Gpu, camera: &Camera, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
+        let aspect = f64::from(size[1]) / f64::from(size[0]);
+        let orders = if table.is_empty() { 0 } else { ORDERS };
+        let listed: Vec<[u32; 4]> = (1..=orders)
+            .flat_map(|order| self.clusters.iter().map(move |cluster| (order, cluster)))
+            .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
+            .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
+            .collect();
+        self.groups = listed.len() as u32;
+        if self.listed.write(gpu, &listed) {
+            let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
+            self.project_group = project_bindings(&gpu.device, &self.project_layout, buffers);
+        }
         gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
     }
 
-    /// Projects the catalogue.
+    /// Projects the stars that may be seen.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
+        if self.groups == 0 {
+            return;
+        }
         pass.set_pipeline(&self.project);
         pass.set_bind_group(1, &self.project_group, &[]);
-        pass.dispatch_workgroups(self.count.div_ceil(64), ORDERS, 1);
+        pass.dispatch_workgroups(self.groups, 1, 1);
     }
 
     /// Draws those that are seen.
@@ -93,5 +183,71 @@ impl Stars {
         pass.set_pipeline(&self.draw);
         pass.set_bind_group(1, &self.draw_group, &[]);
         pass.draw_indirect(&self.arguments, 0);
+    }
+}
+
+fn project_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 4]) -> wgpu::BindGroup {
+    bind(device, "stars project", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+    use crate::render::sky::table::sky_table;
+    use crate::spacetime::light;
+
+    /// Every star that lands on the screen, by the exact solution, is in a cluster that was kept.
+    #[test]
+    fn no_star_on_the_screen_is_left_out() {
+        let mut stars = Vec::new();
+        for k in 0..20_000 {
+            // A spiral over the sphere.
+            let z = 1.0 - 2.0 * (f64::from(k) + 0.5) / 20_000.0;
+            let azimuth = f64::from(k) * 2.399_963;
+            let d = DVec3::new((1.0 - z * z).sqrt() * azimuth.cos(), (1.0 - z * z).sqrt() * azimuth.sin(), z);
+            stars.push(Star { direction: [d.x as f32, d.y as f32, d.z as f32, 1.0], colour: [5000.0, 0.0, 0.0, 0.0] });
+        }
+        let (sorted, clusters) = arranged(&stars);
+        let mut on_screen = 0;
+        let mut kept = 0;
+        for (position, momentum, angle) in [
+            (DVec3::new(9.0, 2.0, 1.0), DVec3::ZERO, 0.3),
+            (DVec3::new(9.0, 2.0, 1.0), DVec3::new(-0.8, 0.9, 0.2), 2.6),
+            (DVec3::new(0.2, 1.05, 0.3), DVec3::new(1.5, 2.0, -1.0), 1.2),
+            (DVec3::new(0.5, 0.1, 0.3), DVec3::new(-0.4, 0.0, 0.7), 4.4),
+        ] {
+            let attitude = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.4);
+            let camera = Camera { position, momentum, attitude, field_of_view: 1.05 };
+            let (l, size) = (camera.radius(), [640, 360]);
+            let (table, edge) = (sky_table(l), light::shadow_angle(1.0 / l));
+            let n = camera.axis_frame()[0];
+            for order in 1..=ORDERS {
+                for cluster in &clusters {
+                    let keep = cluster_may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
+                    kept += u32::from(keep);
+                    for star in &sorted[cluster.first as usize..(cluster.first + cluster.count) as usize] {
+                        let d = DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize();
+                        let phi = d.angle_between(n);
+                        let side = (d - n * d.dot(n)).normalize_or_zero();
+                        let (swept, turn) = if order == 1 { (phi, 1.0) } else { (TAU - phi, -1.0) };
+                        let Some(slope) = light::sky_slope(swept, 1.0 / l) else { continue };
+                        let u = 1.0 / l;
+                        let energy = (slope * slope + u * u - u * u * u).max(0.0).sqrt();
+                        let psi = light::rain_angle(slope, energy, u);
+                        let seen = camera.seen_direction(n * psi.cos() + side * (turn * psi.sin()));
+                        let Some([x, y]) = camera.pixel(seen, size) else { continue };
+                        if (0.0..640.0).contains(&x) && (0.0..360.0).contains(&y) {
+                            on_screen += 1;
+                            assert!(keep, "a star at pixel {x}, {y} in order {order} was left out, camera at {position}");
+                        }
+                    }
+                }
+            }
+        }
+        // The test saw something, and the clusters are not all kept.
+        assert!(on_screen > 3000, "{on_screen}");
+        assert!(f64::from(kept) < 0.5 * (8 * clusters.len()) as f64, "{kept} of {}", 8 * clusters.len());
     }
 }

@@ -1,0 +1,23 @@
+// Between the stages: counts become indirect arguments.
+
+struct DiskArguments {
+    mesh: vec4<u32>,
+    /// For each order: indices, instances, first index, base vertex; then first instance and three words unused.
+    draws: array<vec4<u32>, 6>,
+}
+
+@group(2) @binding(0) var<storage, read_write> arguments: DiskArguments;
+
+@compute @workgroup_size(1)
+fn before_mesh() {
+    let count = min(atomicLoad(&disk_counters.vertices), disk.room.x - disk.sizes.x * disk.sizes.z);
+    arguments.mesh = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
+}
+
+@compute @workgroup_size(1)
+fn before_draw() {
+    for (var order = 0u; order < 3u; order++) {
+        arguments.draws[2u * order] = vec4<u32>(atomicLoad(&disk_counters.indices[order]), 1u, disk.regions[order], 0u);
+        arguments.draws[2u * order + 1u] = vec4<u32>(0u);
+    }
+}

@@ -1,0 +1,16 @@
+// Group 1: what the stages of the disk hand to each other.
+
+@group(1) @binding(0) var<uniform> disk: DiskFrame;
+@group(1) @binding(1) var<storage, read> circles: array<Circle>;
+/// θ of each cut.
+@group(1) @binding(2) var<storage, read> cuts: array<f32>;
+/// Rows on either side of each ring; z: order.
+@group(1) @binding(3) var<storage, read> rings: array<vec4<u32>>;
+@group(1) @binding(4) var<storage, read_write> disk_vertices: array<DiskVertex>;
+/// For each arc of a circle: x: segments, y: its first vertex past the grid, z: error in rad (bits of an f32), w: sides of the screen that all of
+/// it is beyond, as bits.
+@group(1) @binding(5) var<storage, read_write> segments: array<vec4<u32>>;
+/// For each vertex past the grid: x: segment, y: number, z: of how many.
+@group(1) @binding(6) var<storage, read_write> jobs: array<vec4<u32>>;
+@group(1) @binding(7) var<storage, read_write> disk_indices: array<u32>;
+@group(1) @binding(8) var<storage, read_write> disk_counters: Counters;

@@ -1,0 +1,52 @@
+// The rasteriser's part of the disk of arcs. One draw per image order, the farthest first; each is laid over what is behind it.
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Gas {
+    let seen = disk_vertices[index];
+    return Gas(clip_position(seen.apparent.xyz), seen.gas, seen.look, seen.apparent.w);
+}
+
+/// The part of a pixel that a thin image covers: a box of the least width, `d` pixels from its middle.
+fn coverage(d: f32, half_width: f32) -> f32 {
+    let reach = 0.5 * max(disk.gas.w, 0.05);
+    return clamp((min(half_width, d + reach) - max(-half_width, d - reach)) / (2.0 * reach), 0.0, 1.0);
+}
+
+/// From far: the slant is in the vertices, the finest octaves are smaller than a pixel.
+@fragment
+fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
+    let at = streaks_of(in.gas, in.path);
+    let turbulence = at.shares.x * textureSampleLevel(pattern, pattern_sampler, at.young, at.level).x
+        + at.shares.y * textureSampleLevel(pattern, pattern_sampler, at.old, at.level).x;
+    return gas_light(in.gas, in.look.x, in.gas.w, turbulence) * coverage(in.look.y, in.look.z);
+}
+
+/// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
+fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
+    let size = vec2<f32>(textureDimensions(pattern));
+    let place = uv * size - 0.5;
+    let whole = floor(place);
+    let t = place - whole;
+    return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
+}
+
+fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
+    // A texel that is smaller than a pixel is filtered as it is.
+    let coarse = textureSampleLevel(pattern, pattern_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
+    let fine = 8.0 * uv;
+    return coarse + 0.35 * textureSampleLevel(pattern, pattern_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+}
+
+/// From near: slant and the finest octaves in each pixel.
+@fragment
+fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
+    let at = streaks_of(in.gas, in.path);
+    let turbulence = at.shares.x * close_pattern(at.young, at.level) + at.shares.y * close_pattern(at.old, at.level);
+    let depth = in.gas.w * disk_slant(in.look.w, in.path, near_half_height(in.gas.y));
+    return gas_light(in.gas, in.look.x, depth, turbulence) * coverage(in.look.y, in.look.z);
+}
+
+/// Half height of the disk at a height in the pattern: thickness times radius.
+fn near_half_height(y: f32) -> f32 {
+    return max(bitcast<f32>(disk.room.z) * exp2(4.0 * y), 1e-3);
+}

@@ -1,0 +1,146 @@
+// Where a point of the disk is seen, and what its light becomes.
+
+/// σ = θ + δ(θ)/2, the mean of θ and of the angle round the axis at which the point is seen. Where the disk passes behind the hole
+/// the one hardly moves while the other takes half a turn; in σ the image is smooth everywhere.
+fn sigma(theta: f32) -> f32 {
+    let h = disk.upwards.w;
+    let s = sin(theta);
+    let c = cos(theta);
+    return theta + 0.5 * atan2((1.0 - h) * s * c, h * c * c + s * s);
+}
+
+/// θ between a and b at the fraction t of σ between them: Newton, held in the bracket.
+fn theta_between(a: f32, b: f32, t: f32) -> f32 {
+    let h = disk.upwards.w;
+    let wanted = mix(sigma(a), sigma(b), t);
+    var low = a;
+    var high = b;
+    var theta = mix(a, b, t);
+    for (var i = 0u; i < 16u; i++) {
+        let miss = sigma(theta) - wanted;
+        if miss > 0.0 { high = theta; } else { low = theta; }
+        let s = sin(theta);
+        let c = cos(theta);
+        let slope = 0.5 + 0.5 * h / max(h * h * c * c + s * s, 1e-12);
+        let next = theta - miss / slope;
+        theta = select(0.5 * (low + high), next, next > low && next < high);
+    }
+    return theta;
+}
+
+/// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
+const SOFT: f32 = 0.25;
+
+/// The vertex of `row` at θ.
+fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
+    let circle = circles[row];
+    let order = circle.rows.x;
+    let n = frame.radial.xyz;
+    let s = sin(theta);
+    let c = cos(theta);
+    let half_sine = sin(0.5 * theta);
+    let turn = select(1.0, -1.0, order == 2u);
+
+    // The same for all radii: the half plane, bounded by the axis, that holds the ray.
+    let up = -disk.towards.w * c;
+    let reach = sqrt(up * up + s * s);
+    let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
+
+    var ray: LensRay;
+    var psi = vec3<f32>(0.0);
+    var valid = true;
+    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. The lookup is called from this one place.
+    for (var k = 0u; k < select(3u, 1u, order == 1u); k++) {
+        let which = select(select(circle.rows.z, circle.rows.y, k == 1u), row, k == 0u);
+        let there = circles[which];
+        let r = there.gas.x;
+        let along = there.place.x - 2.0 * r * disk.sideways.w * half_sine * half_sine;
+        let found = lens_lookup_at(along, r * reach, r * c * disk.sideways.w, order);
+        valid = valid && found.valid && found.delay > 0.0;
+        let angle_seen = atan2(found.sin_psi, found.cos_psi);
+        if k == 0u {
+            ray = found;
+            psi.x = angle_seen;
+        } else if k == 1u {
+            psi.y = angle_seen;
+        } else {
+            psi.z = angle_seen;
+        }
+    }
+
+    var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
+    var thin = vec2<f32>(0.0, 1e6);
+    if order > 1u {
+        // Pixels by the size of one at this place of the picture.
+        let pixel = frame.size.z * camera_doppler_of(seen_at);
+        let half = 0.5 * abs(psi.z - psi.y) / pixel;
+        let middle = 0.5 * (psi.y + psi.z);
+        let drawn = half + 0.5 * disk.gas.w + SOFT;
+        let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
+        thin = vec2<f32>(d, half);
+        let moved = middle + d * pixel;
+        seen_at = n * cos(moved) + side * (turn * sin(moved));
+    }
+
+    var vertex: DiskVertex;
+    let apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
+    if !valid || !finite_vector(apparent) {
+        vertex.apparent = vec4<f32>(0.0);
+        return vertex;
+    }
+    vertex.apparent = vec4<f32>(apparent, ray.delay);
+
+    // The photon and the gas at the point, rain axes.
+    let outward = disk.towards.xyz * c + disk.sideways.xyz * s;
+    let along_orbit = disk.sideways.xyz * c - disk.towards.xyz * s;
+    let tangent = (side * (c * disk.sideways.w) - n * reach) * turn;
+    let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
+    let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
+    let gamma = sqrt(1.0 + dot(momentum, momentum));
+    let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
+    let m = frame.camera_from_rain;
+    let arriving = -seen_at * ray.frequency;
+    let observed = m[0].w * arriving.x + m[1].w * arriving.y + m[2].w * arriving.z + m[3].w * ray.frequency;
+    let g = clamp(observed / emitted, 1e-3, 1e3);
+    let cosine = abs(dot(leaving, disk_normal())) / emitted;
+
+    let light = disk_light(circle.gas.z, g);
+    let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
+    vertex.gas = vec4<f32>(turns, circle.motion.w, light.x, circle.gas.w);
+    vertex.look = vec4<f32>(light.y, thin, cosine);
+    if disk.room.y == 0u {
+        vertex.gas.w *= disk_slant(cosine, ray.delay, circle.motion.z);
+    }
+    return vertex;
+}
+
+/// The disk's axis.
+fn disk_normal() -> vec3<f32> {
+    return vec3<f32>(0.0, 0.0, 1.0);
+}
+
+/// The camera's azimuth, which turns θ into the disk's own.
+fn cuts_origin() -> f32 {
+    return atan2(disk.towards.y, disk.towards.x);
+}
+
+/// Frequency in the camera's frame over that in the rain frame, of light from `look`: angles there are smaller by it.
+fn camera_doppler_of(look: vec3<f32>) -> f32 {
+    let m = frame.camera_from_rain;
+    return 1.0 / max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
+}
+
+/// Heat (the place in the black-body texture) and factor on its light, for gas of this ln T seen at g.
+fn disk_light(ln_temperature: f32, g: f32) -> vec2<f32> {
+    let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
+    let shifted = ln_temperature + log(g);
+    let shown = select(ln_temperature, shifted, doppler);
+    var gain = 1.0;
+    if doppler != beaming {
+        let rest_light = luminance(blackbody_rgb(exp(ln_temperature)));
+        let shifted_light = luminance(blackbody_rgb(exp(shifted)));
+        gain = select(rest_light / max(shifted_light, 1e-30), shifted_light / max(rest_light, 1e-30), beaming);
+    }
+    return vec2<f32>((shown - log(BLACKBODY_COLDEST)) * disk.gas.y, gain);
+}

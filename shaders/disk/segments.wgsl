@@ -1,0 +1,68 @@
+// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (paper 2, section 3) says how
+// often it is halved; both arcs that share the circle take the same points, so no gap opens.
+
+/// Most segments of an arc. Every halving divides δ by four.
+const MOST_SEGMENTS: u32 = 128u;
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let arcs = disk.sizes.y;
+    if id.x >= arcs * disk.sizes.z {
+        return;
+    }
+    let row = id.x / arcs;
+    let arc = id.x % arcs;
+    let first = row * disk.sizes.x + 2u * arc;
+    let a = disk_vertices[first].apparent;
+    let m = disk_vertices[first + 1u].apparent;
+    let b = disk_vertices[first + 2u].apparent;
+    if a.w <= 0.0 || m.w <= 0.0 || b.w <= 0.0 {
+        segments[id.x] = vec4<u32>(1u, 0u, 0u, 15u);
+        return;
+    }
+    let chord = 0.5 * (a.xyz + b.xyz);
+    let error = atan2(length(cross(m.xyz, chord)), dot(m.xyz, chord));
+    let beyond = sides_beyond(a.xyz, m.xyz, b.xyz, error);
+    if beyond != 0u {
+        segments[id.x] = vec4<u32>(1u, 0u, bitcast<u32>(error), beyond);
+        return;
+    }
+    // Thin images are grown to lines: their chords are held closer, as their sag shows against their own width.
+    let budget = disk.gas.z * select(0.5, 1.0, circles[row].rows.x == 1u);
+    var count = 1u;
+    var left = error;
+    while left > budget && count < MOST_SEGMENTS {
+        count *= 2u;
+        left *= 0.25;
+    }
+    var extra = 0u;
+    if count > 2u {
+        extra = atomicAdd(&disk_counters.vertices, count - 1u);
+        let grid = disk.sizes.x * disk.sizes.z;
+        if grid + extra + count - 1u > disk.room.x {
+            // Given back: the arc is drawn by its middle.
+            atomicSub(&disk_counters.vertices, count - 1u);
+            atomicAdd(&disk_counters.coarse, 1u);
+            count = 2u;
+        } else {
+            for (var i = 1u; i < count; i++) {
+                jobs[extra + i - 1u] = vec4<u32>(id.x, i, count, 0u);
+            }
+        }
+    }
+    segments[id.x] = vec4<u32>(count, extra, bitcast<u32>(error), 0u);
+}
+
+/// The sides of the screen that an arc is beyond for sure, its ends and middle all by more than it bends; as bits.
+fn sides_beyond(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> u32 {
+    let fx = frame.projection.x;
+    let fy = frame.projection.y;
+    let sx = inverseSqrt(1.0 + fx * fx);
+    let sy = inverseSqrt(1.0 + fy * fy);
+    let margin = vec3<f32>(length(a), length(b), length(c)) * (min(error, 3.0) + 4.0 * frame.size.z);
+    let x = vec3<f32>(a.x, b.x, c.x);
+    let y = vec3<f32>(a.y, b.y, c.y);
+    let z = -vec3<f32>(a.z, b.z, c.z);
+    return select(0u, 1u, all((z - x * fx) * sx < -margin)) | select(0u, 2u, all((z + x * fx) * sx < -margin))
+        | select(0u, 4u, all((z - y * fy) * sy < -margin)) | select(0u, 8u, all((z + y * fy) * sy < -margin));
+}

@@ -1,0 +1,58 @@
+// The types of the disk of arcs. Glossary: a row is a circle of the disk in one image order; a column is a place on it, even ones the cuts between
+// arcs, odd ones the middles of arcs. θ is the azimuth from the camera's.
+
+struct DiskFrame {
+    /// In the disk's plane towards the camera; w: sine h of the camera's height over the plane, held away from 0.
+    towards: vec4<f32>,
+    /// In the plane, a quarter turn on; w: √(1 − h²).
+    sideways: vec4<f32>,
+    /// Across the axis and upwards: completes (radial, sideways); w: |h|.
+    upwards: vec4<f32>,
+    /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of a new-born.
+    renewal: vec4<f32>,
+    /// x: deviation of ln density; y: heat (0 to 1 over the black-body texture) for one of ln T; z: error budget of an arc in rad;
+    /// w: least width of thin images in pixels.
+    gas: vec4<f32>,
+    /// x: columns of a row; y: arcs round the hole; z: rows; w: rings over all orders.
+    sizes: vec4<u32>,
+    /// x, y, z: first index of order 1, 2, 3; w: the end of order 3.
+    regions: vec4<u32>,
+    /// x: vertices that there is room for; y: 1 for a close look (finest octaves, slant in each pixel); z: half height over radius
+    /// (bits of an f32); w unused.
+    room: vec4<u32>,
+    /// xy: where in the pattern each generation begins.
+    offsets: array<vec4<f32>, 16>,
+}
+
+struct Circle {
+    /// Radius in r_s, lead of falling gas in rad, ln of the temperature in K, optical depth straight through.
+    gas: vec4<f32>,
+    /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
+    motion: vec4<f32>,
+    /// x: radius·√(1 − h²) − L, differenced in f64; yzw unused.
+    place: vec4<f32>,
+    /// x: image order; y, z: innermost and outermost row of that order; w unused.
+    rows: vec4<u32>,
+}
+
+struct DiskVertex {
+    /// Direction from the camera times light path, camera axes; w: the light path.
+    apparent: vec4<f32>,
+    /// x: azimuth less lead, in turns; y: height in the pattern; z: heat; w: optical depth along the ray (close look: straight through).
+    gas: vec4<f32>,
+    /// x: factor on the light; y: distance from the middle of a thin image, z: its half width, both in pixels; w: |cos| to the normal,
+    /// in the frame of the gas.
+    look: vec4<f32>,
+}
+
+struct Counters {
+    /// Vertices past the grid.
+    vertices: atomic<u32>,
+    /// Indices of each order.
+    indices: array<atomic<u32>, 3>,
+    /// Arcs drawn; arcs drawn coarser than asked; results that were not finite; unused.
+    arcs: atomic<u32>,
+    coarse: atomic<u32>,
+    caught: atomic<u32>,
+    unused: u32,
+}

@@ -1,0 +1,147 @@
+//! The chart `aurora`: time against the number of electrons (the paper's figure 5), and error against time, for each view.
+
+use std::path::PathBuf;
+
+use super::experiment::{self, Request, Row, Runner, View};
+use crate::measure::chart::{Output, Provenance, Sheet, SheetError};
+use crate::measure::plot::{Axis, Figure, Line, Lines, Panel, PlotError, Point, Scatter};
+
+/// Why there is no chart.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartError {
+    /// The CSV.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+const COLUMNS: [&str; 9] = ["view", "method", "electrons", "radius_km", "points", "walk_ms", "splat_ms", "total_ms", "error"];
+
+/// A radius in km from the command line.
+pub fn radius(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(radius) if (0.1..=50.0).contains(&radius) => Ok(radius),
+        _ => Err("not a number from 0.1 to 50".into()),
+    }
+}
+
+/// A size in pixels from the command line.
+pub fn size(text: &str) -> Result<[usize; 2], String> {
+    let sides: Option<Vec<usize>> = text.split('x').map(|side| side.parse().ok().filter(|side| (8..=4096).contains(side))).collect();
+    match sides.as_deref() {
+        Some(&[width, height]) => Ok([width, height]),
+        _ => Err("not WIDTHxHEIGHT with sides from 8 to 4096".into()),
+    }
+}
+
+/// Measures (or reads) and draws; returns the files written. `adapter` and `runners` come from whoever has a GPU.
+pub fn run(output: &Output, request: &Request, adapter: &str, runners: &mut [Box<dyn Runner>]) -> Result<Vec<PathBuf>, ChartError> {
+    let sheet = output.sheet("aurora", || -> Result<Sheet, ChartError> {
+        let table = crate::lensing::default_table();
+        let bar = indicatif::ProgressBar::new_spinner();
+        let rows = experiment::run(request, &table, runners, |what| {
+            bar.set_message(what.to_owned());
+            bar.tick();
+        });
+        bar.finish_and_clear();
+        Ok(to_sheet(&rows, adapter))
+    })?;
+    let figure = draw(&sheet);
+    Ok(figure.save(&output.folder, "aurora")?.into_iter().chain([output.csv("aurora")]).collect())
+}
+
+/// The table of the rows.
+pub fn to_sheet(rows: &[Row], adapter: &str) -> Sheet {
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(adapter).notes();
+    for row in rows {
+        let number = |x: f64| format!("{x:.4}");
+        sheet.push([
+            row.view.to_owned(),
+            row.method.clone(),
+            row.count.to_string(),
+            row.radius.to_string(),
+            format!("{:.0}", row.points),
+            number(row.walk),
+            number(row.splat),
+            number(row.total),
+            number(row.error),
+        ]);
+    }
+    sheet
+}
+
+/// Distinct values of a column in the order they come.
+fn distinct(sheet: &Sheet, column: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for row in &sheet.rows {
+        let text = sheet.text(row, column);
+        if !found.iter().any(|known| known == text) {
+            found.push(text.to_owned());
+        }
+    }
+    found
+}
+
+/// Two rows of panels, a column for each view: time against electrons at the middle radius, error against time for all.
+pub fn draw(sheet: &Sheet) -> Figure {
+    let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
+    let middle = radii.get(radii.len() / 2).cloned().unwrap_or_default();
+    let most = counts.last().cloned().unwrap_or_default();
+    let views: Vec<&str> =
+        View::ALL.iter().map(|(_, name)| *name).filter(|name| distinct(sheet, "view").iter().any(|v| v == name)).collect();
+    let rows_of = |view: &str| sheet.rows.iter().filter(move |row| sheet.text(row, "view") == view).collect::<Vec<_>>();
+    let times = |view: &&str| {
+        let lines = methods.iter().map(|method| Line {
+            name: method.clone(),
+            points: rows_of(view)
+                .iter()
+                .filter(|row| sheet.text(row, "method") == method && sheet.text(row, "radius_km") == middle)
+                .map(|row| [sheet.number(row, "electrons"), sheet.number(row, "total_ms")])
+                .collect(),
+            dashed: method.starts_with("particles"),
+            dots: true,
+            color: None,
+        });
+        Panel::Lines(Lines {
+            title: format!("{view}: splats of {middle} km"),
+            x: Axis::log("electrons"),
+            y: Axis::log("time of a frame, ms"),
+            lines: lines.collect(),
+            ..Lines::default()
+        })
+    };
+    let errors = |view: &&str| {
+        let points = rows_of(view)
+            .into_iter()
+            .filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle)
+            .map(|row| Point {
+                x: sheet.number(row, "total_ms"),
+                y: sheet.number(row, "error"),
+                label: sheet.text(row, "method").to_owned(),
+                family: methods.iter().position(|method| method == sheet.text(row, "method")).unwrap_or(0),
+                failed: false,
+            })
+            .collect();
+        Panel::Scatter(Scatter {
+            title: format!("{view}: {most} electrons"),
+            x: Axis::log("time of a frame, ms"),
+            y: Axis::linear("error against the line integral"),
+            points,
+            pareto: true,
+            ..Scatter::default()
+        })
+    };
+    Figure {
+        title: "Aurora: walks on the screen against particles in space".into(),
+        subtitle:
+            "Means over the auroras; the same electrons and random numbers in every method. “bent” is seen through the lensing of a hole."
+                .into(),
+        panels: views.iter().map(times).chain(views.iter().map(errors)).collect(),
+        columns: views.len().max(1),
+        size: [1900, 1100],
+        footer: Provenance::footer(&sheet.notes),
+    }
+}

@@ -1,0 +1,293 @@
+//! The experiment of paper 3 (its figure 5): ten auroras, numbers of electrons and radii of splats swept, seen from the side, from below and
+//! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::eye::Eye;
+use super::lattice::Lattice;
+use super::sheet::{Falls, Sheet, Streak, field_direction};
+use super::splat::{Gaussian, Picture, Splat};
+use super::truth::Emission;
+use super::walk::{Method, Point, Walker};
+use crate::lensing::{Slice, Table};
+
+/// From where the auroras are seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// From the ground 700 km to the south.
+    Side,
+    /// From the ground under the arcs, along the field.
+    Below,
+    /// From 900 km up, looking down on them.
+    Orbit,
+    /// On a planet near a black hole, through its lensing.
+    Bent,
+}
+
+impl View {
+    /// All of them, and their names.
+    pub const ALL: [(View, &'static str); 4] = [(View::Side, "side"), (View::Below, "below"), (View::Orbit, "orbit"), (View::Bent, "bent")];
+
+    /// The camera of the view; `table` is used by the bent one alone.
+    pub fn eye(self, size: [usize; 2], table: &Table) -> Eye {
+        let degrees = |d: f64| d.to_radians();
+        match self {
+            View::Side => Eye::flat(DVec3::new(0.0, -700.0, 1.0), DVec3::new(0.0, 0.0, 190.0), DVec3::Z, degrees(45.0), size),
+            View::Below => {
+                let up = field_direction();
+                let foot = DVec3::new(10.0, 32.0, 1.0);
+                Eye::flat(foot, foot + up * 100.0, DVec3::Y, degrees(90.0), size)
+            }
+            View::Orbit => Eye::flat(DVec3::new(250.0, -500.0, 900.0), DVec3::new(0.0, 20.0, 130.0), DVec3::Z, degrees(40.0), size),
+            View::Bent => {
+                // A planet of 0.8 r_s on the other side of the hole, 25 r_s out, seen past it from 12 r_s.
+                let at = DVec3::new(6.0, 0.0, -24.0);
+                let slice = Slice::new(table, 12.0);
+                Eye::bent(slice, 12.0, at, 0.8, DVec3::new(-0.5, -0.3, 0.8), degrees(0.32), size, 1)
+            }
+        }
+    }
+}
+
+/// One way to draw an aurora.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// Its name in the table.
+    pub name: &'static str,
+    /// How points are found.
+    pub method: Method,
+    /// On all threads, or on one.
+    pub threads: bool,
+    /// Whether the Gaussian is tabulated.
+    pub table: bool,
+}
+
+const fn variant(name: &'static str, method: Method, threads: bool, table: bool) -> Variant {
+    Variant { name, method, threads, table }
+}
+
+/// The ways on the CPU. The first is the paper's own baseline: one thread, no table.
+pub const VARIANTS: [Variant; 7] = [
+    variant("particles-no-table", Method::Particles, false, false),
+    variant("particles", Method::Particles, false, true),
+    variant("linear", Method::Linear, false, true),
+    variant("exact", Method::Exact, false, true),
+    variant("particles-threads", Method::Particles, true, true),
+    variant("linear-threads", Method::Linear, true, true),
+    variant("exact-threads", Method::Exact, true, true),
+];
+
+/// A way to draw that lives above this floor: the passes on a GPU.
+pub trait Runner {
+    /// Its name in the table.
+    fn name(&self) -> &str;
+    /// Draws the electrons; None if it cannot draw this view.
+    fn draw(&mut self, job: &Job) -> Option<Timed>;
+}
+
+/// What is to be drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// The camera.
+    pub eye: &'a Eye,
+    /// The fall.
+    pub falls: &'a Falls,
+    /// The electrons.
+    pub streaks: &'a [Streak],
+    /// Which random numbers.
+    pub seed: u32,
+    /// How points are spread.
+    pub splat: Splat,
+}
+
+/// A picture, and how long its two stages took, in milliseconds.
+#[derive(Clone, Debug)]
+pub struct Timed {
+    /// The picture.
+    pub picture: Picture,
+    /// From electrons to points.
+    pub walk: f64,
+    /// From points to the picture.
+    pub splat: f64,
+}
+
+/// Error allowed to chords through bent light, pixels.
+const TOLERANCE: f32 = 0.25;
+/// Electrons that one task of the pool walks.
+const TASK: usize = 256;
+
+/// Draws `job` in the given way.
+pub fn draw(variant: Variant, job: &Job, gaussian: &Gaussian) -> Timed {
+    let splat = Splat { table: variant.table, ..job.splat };
+    let start = Instant::now();
+    let lattice = (variant.method == Method::Exact).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
+    let walker = Walker { eye: job.eye, falls: job.falls, lattice: lattice.as_ref(), seed: job.seed };
+    let walk_all = |streaks: &[Streak]| {
+        let mut points: Vec<Point> = Vec::with_capacity(streaks.len() * 48);
+        for streak in streaks {
+            walker.walk(variant.method, streak, &mut points);
+        }
+        points
+    };
+    let points: Vec<Vec<Point>> = if variant.threads {
+        job.streaks.par_chunks(TASK).map(walk_all).collect()
+    } else {
+        job.streaks.chunks(TASK).map(walk_all).collect()
+    };
+    let walk = start.elapsed().as_secs_f64() * 1e3;
+    let start = Instant::now();
+    let mut picture = Picture::new(job.eye.size);
+    if variant.threads {
+        let share = points.len().div_ceil(rayon::current_num_threads()).max(1);
+        let parts: Vec<Picture> = points
+            .par_chunks(share)
+            .map(|lists| {
+                let mut part = Picture::new(job.eye.size);
+                lists.iter().for_each(|points| part.add(points, job.falls, splat, gaussian));
+                part
+            })
+            .collect();
+        parts.iter().for_each(|part| picture.merge(part));
+    } else {
+        points.iter().for_each(|points| picture.add(points, job.falls, splat, gaussian));
+    }
+    Timed { picture: black_box(picture), walk, splat: start.elapsed().as_secs_f64() * 1e3 }
+}
+
+/// What is swept.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Numbers of the auroras, 1 to 10 of them.
+    pub auroras: usize,
+    /// Electrons.
+    pub counts: Vec<u32>,
+    /// Standard deviations of a point's light, km.
+    pub radii: Vec<f32>,
+    /// Size of the picture.
+    pub size: [usize; 2],
+    /// Runs of which the median is taken.
+    pub repeats: usize,
+}
+
+/// One row of the table: the mean over the auroras.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// From where.
+    pub view: &'static str,
+    /// How.
+    pub method: String,
+    /// Electrons.
+    pub count: u32,
+    /// Standard deviation of a point's light, km.
+    pub radius: f32,
+    /// Luminous points of the particle method in the frame and around it.
+    pub points: f64,
+    /// Milliseconds from electrons to points, from points to the picture, and both.
+    pub walk: f64,
+    /// See `walk`.
+    pub splat: f64,
+    /// See `walk`.
+    pub total: f64,
+    /// Root mean square error of the picture over that of the truth.
+    pub error: f64,
+}
+
+/// Runs the experiment; `report` is told what is being drawn.
+pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mut report: impl FnMut(&str)) -> Vec<Row> {
+    let falls = Falls::new();
+    let gaussian = Gaussian::default();
+    let sheets = Sheet::ten();
+    let sheets = &sheets[..request.auroras.clamp(1, 10)];
+    let mut rows = Vec::new();
+    for (view, name) in View::ALL {
+        let eye = view.eye(request.size, table);
+        for &radius in &request.radii {
+            let splat = Splat { radius, table: true };
+            let truths: Vec<Picture> = sheets.iter().map(|sheet| truth(view, &eye, sheet, &falls, splat, &gaussian)).collect();
+            for &count in &request.counts {
+                report(&format!("{name}, {count} electrons, splats of {radius} km"));
+                rows.extend(case((view, name), &eye, (sheets, &truths), &falls, count, splat, &gaussian, request.repeats, runners));
+            }
+        }
+    }
+    rows
+}
+
+/// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: 150,000 electrons of
+/// another seed.
+fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, gaussian: &Gaussian) -> Picture {
+    if view != View::Bent {
+        return Emission::new(sheet, falls, splat).picture(eye, 0.5 * f64::from(splat.radius).min(1.5));
+    }
+    let streaks = Sheet { seed: sheet.seed + 7000, ..sheet.clone() }.streaks(150_000);
+    let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed + 7000, splat };
+    draw(VARIANTS[4], &job, gaussian).picture
+}
+
+#[allow(clippy::too_many_arguments, reason = "one case of a sweep: each is one axis of it")]
+fn case(
+    (_, name): (View, &'static str),
+    eye: &Eye,
+    (sheets, truths): (&[Sheet], &[Picture]),
+    falls: &Falls,
+    count: u32,
+    splat: Splat,
+    gaussian: &Gaussian,
+    repeats: usize,
+    runners: &mut [Box<dyn Runner>],
+) -> Vec<Row> {
+    let ways = VARIANTS.len() + runners.len();
+    // Per way and aurora: medians of the repeats; then the mean over the auroras.
+    let mut sums = vec![[0.0f64; 4]; ways];
+    let mut drawn = vec![true; ways];
+    let mut points = 0.0;
+    for (sheet, truth) in sheets.iter().zip(truths) {
+        let streaks = sheet.streaks(count);
+        let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed, splat };
+        let mut found = Vec::new();
+        let walker = Walker { eye, falls, lattice: None, seed: sheet.seed };
+        streaks.iter().for_each(|streak| walker.walk(Method::Particles, streak, &mut found));
+        points += found.len() as f64 / sheets.len() as f64;
+        let mut times = vec![Vec::new(); ways];
+        let mut errors = vec![f64::NAN; ways];
+        // In turn, so that what else the machine does falls on all alike.
+        for _ in 0..repeats.max(1) {
+            for way in 0..ways {
+                let timed = match way.checked_sub(VARIANTS.len()) {
+                    None => Some(draw(VARIANTS[way], &job, gaussian)),
+                    Some(runner) => runners[runner].draw(&job),
+                };
+                match timed {
+                    Some(timed) => {
+                        errors[way] = timed.picture.error(truth);
+                        times[way].push([timed.walk, timed.splat, timed.walk + timed.splat]);
+                    }
+                    None => drawn[way] = false,
+                }
+            }
+        }
+        for way in 0..ways {
+            for k in 0..3 {
+                let mut column: Vec<f64> = times[way].iter().map(|time| time[k]).collect();
+                column.sort_by(f64::total_cmp);
+                sums[way][k] += column.get(column.len() / 2).copied().unwrap_or(f64::NAN) / sheets.len() as f64;
+            }
+            sums[way][3] += errors[way] / sheets.len() as f64;
+        }
+    }
+    (0..ways)
+        .filter(|&way| drawn[way])
+        .map(|way| {
+            let method = match way.checked_sub(VARIANTS.len()) {
+                None => VARIANTS[way].name.to_owned(),
+                Some(runner) => runners[runner].name().to_owned(),
+            };
+            let [walk, splat_ms, total, error] = sums[way];
+            Row { view: name, method, count, radius: splat.radius, points, walk, splat: splat_ms, total, error }
+        })
+        .collect()
+}

@@ -1,0 +1,16 @@
+//! The aurora's walks side by side (paper 3): the 3-D particle method, the paper's linear screen walk, the exact screen walk, and the exact
+//! line integral as their judge. All draw the same electrons with the same random numbers.
+//!
+//! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined. [`sheet`] says
+//! where electrons come down, [`eye`] how a point is projected (flat space, or bent by the lensing table), [`lattice`] how a few projections serve all electrons,
+//! [`walk`] how luminous points
+//! come about, [`splat`] how they become a picture, [`truth`] what it should have been, [`experiment`] what all that took, [`chart`] the picture of it.
+
+pub mod chart;
+pub mod experiment;
+pub mod eye;
+pub mod lattice;
+pub mod sheet;
+pub mod splat;
+pub mod truth;
+pub mod walk;

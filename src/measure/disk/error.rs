@@ -1,0 +1,26 @@
+//! How far a picture is from the truth, in linear light.
+
+/// The error of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureError {
+    /// Peak signal to noise in dB; the peak is the truth's 99.9th percentile of luminance, and brighter light counts as that.
+    pub psnr: f64,
+    /// Mean of |difference| over mean of the truth.
+    pub relative: f64,
+}
+
+/// Compares linear pictures of one size.
+pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]]) -> PictureError {
+    let mut brightness: Vec<f32> = truth.iter().map(|p| 0.2127 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).collect();
+    brightness.sort_by(f32::total_cmp);
+    let peak = brightness.get((brightness.len() as f64 * 0.999) as usize).copied().unwrap_or(1.0).max(1e-20);
+    let (mut square, mut off, mut whole) = (0.0f64, 0.0f64, 0.0f64);
+    for (a, b) in got.iter().flatten().zip(truth.iter().flatten()) {
+        let difference = f64::from(a.min(peak)) - f64::from(b.min(peak));
+        square += difference * difference;
+        off += difference.abs();
+        whole += f64::from(b.min(peak));
+    }
+    let mean = square / (3 * truth.len().max(1)) as f64;
+    PictureError { psnr: 10.0 * (f64::from(peak).powi(2) / mean.max(1e-30)).log10(), relative: off / whole.max(1e-30) }
+}

@@ -1,0 +1,7 @@
+//! The disk measured: an exact picture of the gas, and how far a drawn one is from it.
+
+pub mod error;
+pub mod exact;
+
+pub use error::{PictureError, compare};
+pub use exact::{Eye, picture};

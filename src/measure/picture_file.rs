@@ -1,0 +1,47 @@
+//! Pictures in files: PNG for the eye, EXR for linear light and layers.
+
+use std::path::{Path, PathBuf};
+
+/// Why a picture could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureFileError {
+    /// The name says nothing known.
+    #[error("cannot write {}: the name must end in .png or .exr", .0.display())]
+    Format(PathBuf),
+    /// The file could not be written.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        reason: String,
+    },
+}
+
+/// One channel of an EXR.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// Its name in the file.
+    pub name: &'static str,
+    /// Row by row from the top.
+    pub data: Vec<f32>,
+}
+
+/// Writes sRGB, 3 bytes a pixel, row by row from the top.
+pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(), PictureFileError> {
+    image::save_buffer(path, rgb, width, height, image::ColorType::Rgb8)
+        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+}
+
+/// Writes channels as 32-bit floats.
+pub fn write_exr(path: &Path, [width, height]: [u32; 2], channels: &[Channel]) -> Result<(), PictureFileError> {
+    use exr::prelude::*;
+    let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+        channels.iter().map(|channel| AnyChannel::new(channel.name, FlatSamples::F32(channel.data.clone()))).collect();
+    let size = (width as usize, height as usize);
+    let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
+    Image::from_layer(layer)
+        .write()
+        .to_file(path)
+        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+}

@@ -1,0 +1,255 @@
+//! `lensrunner trace`: a scene's picture by the judge, every pixel by a geodesic of its own.
+
+use std::path::Path;
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
+use crate::reference::picture::develop::{Development, develop};
+use crate::reference::picture::shade::Shift;
+use crate::reference::picture::sky::{Background, stars};
+use crate::reference::picture::{Disk, Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
+use crate::reference::trace::Camera;
+use crate::scene::disk::Gas;
+use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
+use crate::sim::{History, Moment};
+
+/// The local error of each step of a ray unless asked otherwise, relative to r.
+pub const DEFAULT_TOLERANCE: f64 = 1e-12;
+
+/// What to trace.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// A scene's name or file.
+    pub scene: String,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// T in r_s/c.
+    pub at: f64,
+    /// Rays a pixel; a square number.
+    pub samples: u32,
+    /// Threads; 0 as many as there are cores.
+    pub threads: usize,
+    /// Local error of each step of a ray.
+    pub tolerance: f64,
+}
+
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum TraceError {
+    /// The scene is wrong: exit code 2.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// `game.toml` is wrong: exit code 2.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// An argument is wrong: exit code 2.
+    #[error("{0}")]
+    Input(String),
+    /// The file's name says nothing known (exit code 2), or it could not be written (exit code 1).
+    #[error(transparent)]
+    File(#[from] PictureFileError),
+    /// The threads could not be started: exit code 1.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// The system's reason.
+        reason: String,
+    },
+}
+
+impl TraceError {
+    /// Whether the asker is at fault.
+    pub fn is_input(&self) -> bool {
+        matches!(self, TraceError::Scene(_) | TraceError::Config(_) | TraceError::Input(_) | TraceError::File(PictureFileError::Format(_)))
+    }
+}
+
+impl Request {
+    /// Checks the numbers; gives the samples along each side of a pixel.
+    pub fn check(&self) -> Result<u32, TraceError> {
+        let input = |text: String| Err(TraceError::Input(text));
+        if !(0.0..=1e5).contains(&self.at) {
+            return input(format!("--at {}: T must be a number from 0 to 100000 r_s/c", self.at));
+        }
+        let side = self.samples.isqrt();
+        if side == 0 || side * side != self.samples || side > 16 {
+            return input(format!("--samples {}: must be a square number from 1 to 256 (a grid in each pixel)", self.samples));
+        }
+        if !(1e-17..=1e-3).contains(&self.tolerance) {
+            return input(format!("--tolerance {}: must be from 1e-17 to 1e-3", self.tolerance));
+        }
+        if self.threads > 1024 {
+            return input(format!("--threads {}: must be from 0 (as many as there are cores) to 1024", self.threads));
+        }
+        Ok(side)
+    }
+}
+
+impl Worldline for History {
+    fn at(&self, time: f64) -> Pose {
+        let sample = History::at(self, time);
+        Pose { position: sample.position, momentum: sample.momentum, attitude: sample.attitude }
+    }
+}
+
+/// A scene at one T with all that the judge needs to look at it.
+pub struct Case {
+    /// The scene.
+    pub scene: Scene,
+    /// Its configuration.
+    pub config: GameConfig,
+    /// Its models and where each is used.
+    pub assembly: Assembly,
+    /// The clock T, in r_s/c.
+    pub time: f64,
+    /// The ships' worldlines, in scene order.
+    pub histories: Vec<History>,
+    /// The camera.
+    pub camera: Camera,
+}
+
+impl Case {
+    /// Plays `scene` to T = `at` and places its camera for a picture of `size` pixels.
+    pub fn new(scene: Scene, config: GameConfig, at: f64, size: [u32; 2]) -> Case {
+        let moment = Moment::new(&scene, &config, at, 0);
+        let time = moment.time();
+        let view = scene.camera.viewpoint(time, &moment.ships());
+        let camera =
+            Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view, size };
+        let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
+        for history in &mut histories {
+            // Light from as far beyond the hole as the ship is before it, and some turns around.
+            history.reach_back(time - 100.0 - 2.0 * (camera.position.length() + history.at(time).position.length()));
+        }
+        let assembly = scene.assemble(&config);
+        Case { scene, config, assembly, time, histories, camera }
+    }
+
+    /// The world as the judge sees it, the ships on these worldlines, in scene order.
+    pub fn world<'a>(&'a self, ships: &[&'a dyn Worldline]) -> World<'a> {
+        let has_ships = !self.scene.ships.is_empty();
+        let things = self.assembly.objects.iter().enumerate().filter_map(|(number, object)| {
+            let (motion, position) = match object.body {
+                Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
+                Body::Ship(index) => {
+                    let line = *ships.get(index)?;
+                    (Motion::Flying(line), line.at(self.time).position)
+                }
+            };
+            let light = lighting::at(position, has_ships, self.config.render.ambient as f32);
+            Some(Thing { model: object.model, scale: object.scale, motion, light, id: number as u32 + 1 })
+        });
+        World::new(&self.assembly.models, things.collect(), self.time, self.config.render.lensing)
+    }
+
+    /// How light changes on its way.
+    pub fn shift(&self) -> Shift {
+        Shift { doppler: self.config.render.doppler, beaming: self.config.render.beaming }
+    }
+
+    /// The judge's picture, with the sky or without; `done` is told how many pixels have been finished.
+    pub fn trace(&self, quality: &Quality, with_sky: bool, done: &(dyn Fn(u64) + Sync)) -> Picture {
+        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
+        self.trace_with(&ships, quality, with_sky, done)
+    }
+
+    /// The same with the ships on other worldlines than their own.
+    pub fn trace_with<'a>(
+        &'a self,
+        ships: &[&'a dyn Worldline],
+        quality: &Quality,
+        with_sky: bool,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Picture {
+        let sky = &self.scene.sky;
+        let disk = self.scene.disk(&self.config).map(|disk| Disk::new(Gas::new(&disk, self.config.hole.mass_solar)));
+        let (milky_way, _) = scene::milky_way::load_or_dark();
+        let brightness = if with_sky && sky.milky_way { self.config.sky.milky_way_brightness * sky.brightness } else { 0.0 };
+        let background = Background::new(&milky_way, brightness as f32);
+        let spots = if with_sky && sky.stars {
+            let (catalogue, _) = scene::stars::load_or_stand_in();
+            let brightness = self.config.sky.star_brightness * sky.brightness;
+            stars(&catalogue, &self.camera, self.config.render.lensing, quality.tolerance, brightness, self.shift())
+        } else {
+            Vec::new()
+        };
+        let setting = Setting { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
+        picture(&self.world(ships), &setting, &self.camera, quality, done)
+    }
+
+    /// How the game develops its pictures.
+    pub fn development(&self) -> Development {
+        let render = &self.config.render;
+        Development {
+            bloom: render.bloom as f32,
+            exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
+        }
+    }
+}
+
+/// Traces the picture into a file, with a progress bar; gives the rays per second and thread.
+pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, layers: bool) -> Result<f64, TraceError> {
+    let side = request.check()?;
+    let ending = output.extension().and_then(|extension| extension.to_str());
+    // A wrong name is said before the work.
+    if !matches!(ending, Some("png" | "exr")) {
+        return Err(PictureFileError::Format(output.to_path_buf()).into());
+    }
+    if layers && ending == Some("png") {
+        return Err(TraceError::Input("--layers needs an .exr: a PNG holds the developed picture alone".into()));
+    }
+    let config = config.map(scene::config::load).transpose()?.unwrap_or_default();
+    let scene = scene::load(&request.scene)?;
+    let case = Case::new(scene, config, request.at, request.size);
+    for warning in &case.assembly.warnings {
+        eprintln!("warning: {warning}");
+    }
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(request.threads)
+        .build()
+        .map_err(|error| TraceError::Threads { threads: request.threads, reason: error.to_string() })?;
+    let [width, height] = request.size;
+    let bar = ProgressBar::new(u64::from(width) * u64::from(height));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
+        bar.set_style(style);
+    }
+    let started = Instant::now();
+    let quality = Quality { samples: side, tolerance: request.tolerance };
+    let picture = threads.install(|| case.trace(&quality, true, &|pixels| bar.inc(pixels)));
+    bar.finish_and_clear();
+    let rate = f64::from(width) * f64::from(height) * f64::from(request.samples)
+        / (started.elapsed().as_secs_f64() * threads.current_num_threads() as f64);
+    if ending == Some("png") {
+        write_png(output, &develop(&picture.light, picture.size, &case.development()), picture.size)?;
+    } else {
+        write_exr(output, picture.size, &channels(&picture, layers))?;
+    }
+    Ok(rate)
+}
+
+/// The channels of a picture: light, and on request what the pixels show. Names are those of `shot --layers` where they mean the same.
+pub fn channels(picture: &Picture, layers: bool) -> Vec<Channel> {
+    let channel = |name: &'static str, data: Vec<f32>| Channel { name, data };
+    let light = |k: usize| picture.light.iter().map(|rgb| rgb[k]).collect();
+    let mut channels = vec![channel("R", light(0)), channel("G", light(1)), channel("B", light(2))];
+    if layers {
+        let layer = |value: &dyn Fn(&crate::reference::picture::Layer) -> f32| picture.layers.iter().map(value).collect();
+        channels.extend([
+            channel("object.id", layer(&|l| l.object as f32)),
+            channel("triangle.id", layer(&|l| l.triangle as f32)),
+            channel("barycentric.a", layer(&|l| l.barycentrics[0])),
+            channel("barycentric.b", layer(&|l| l.barycentrics[1])),
+            channel("barycentric.c", layer(&|l| l.barycentrics[2])),
+            channel("texture.u", layer(&|l| l.uv[0])),
+            channel("texture.v", layer(&|l| l.uv[1])),
+            channel("image.order", layer(&|l| l.order as f32)),
+            channel("swept.angle", layer(&|l| l.swept as f32)),
+            channel("travel.time", layer(&|l| l.delay as f32)),
+            channel("frequency.ratio", layer(&|l| l.g as f32)),
+        ]);
+    }
+    channels
+}

@@ -1,0 +1,337 @@
+//! Whole pictures by the judge: any scene, any camera, every pixel by a geodesic of its own.
+//!
+//! - [`world`]: the things of a scene, with worldlines handed in from above.
+//! - [`tree`]: boxes over triangles, asked along pieces of a curve.
+//! - `find`: what one look direction shows.
+//! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
+//! - [`develop`]: linear light to a picture for the eye.
+
+pub mod develop;
+pub mod disk;
+mod find;
+pub mod shade;
+pub mod sky;
+pub mod texture;
+pub mod tree;
+pub mod world;
+
+use std::collections::HashMap;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use glam::{DVec3, Vec2, Vec3};
+use rayon::prelude::*;
+
+pub use disk::{Crossing, Disk};
+pub use find::Seen;
+pub use world::{Motion, Pose, Thing, World, Worldline};
+
+use super::trace::{Camera, Hit};
+use shade::{Shift, Surface, detail, shaded, texel};
+use sky::{Background, SPOT_SIGMA, Spot};
+use texture::Pyramid;
+
+/// What of a scene is not a thing in it.
+pub struct Setting<'a> {
+    /// The Milky Way.
+    pub background: &'a Background,
+    /// The stars' spots on this picture.
+    pub stars: &'a [Spot],
+    /// The accretion disk.
+    pub disk: Option<&'a Disk>,
+    /// How light changes on its way.
+    pub shift: Shift,
+}
+
+/// How exactly a picture is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quality {
+    /// Samples along each side of a pixel: n² rays in all.
+    pub samples: u32,
+    /// Local error of each step of a ray.
+    pub tolerance: f64,
+}
+
+/// What the centre of a pixel shows, for comparing pictures. All are 0 where it shows no surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Layer {
+    /// The number of the thing, from 1.
+    pub object: u32,
+    /// The triangle of its model.
+    pub triangle: u32,
+    /// Weights of the triangle's corners.
+    pub barycentrics: [f32; 3],
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// The image order.
+    pub order: u32,
+    /// The angle Φ swept, radians.
+    pub swept: f64,
+    /// T_camera − T_emission, r_s/c.
+    pub delay: f64,
+    /// ν_observed/ν_emitted.
+    pub g: f64,
+}
+
+/// A picture in linear light, with what its pixels show.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Linear RGB.
+    pub light: Vec<[f32; 3]>,
+    /// What the centre of each pixel shows.
+    pub layers: Vec<Layer>,
+    /// For each pixel the part of its samples that show each thing in each order: (object, order, part), in that order.
+    pub shares: Vec<Vec<(u32, u32, f32)>>,
+    /// The part of each pixel that nothing solid covers.
+    pub open: Vec<f32>,
+    /// Whether every sample of a pixel shows the shadow.
+    pub dark: Vec<bool>,
+}
+
+/// Rows of pixels that one task traces together; texture detail is found from neighbours inside it.
+const BAND: u32 = 8;
+
+/// One ray: what it shows at its end, through the disk.
+#[derive(Clone, Copy)]
+struct Sample {
+    end: Ending,
+    /// The light of the disk in front.
+    veil: Vec3,
+    /// The part of what is behind that comes through the disk.
+    through: f32,
+}
+
+/// What a ray ends at, before it is coloured.
+#[derive(Clone, Copy)]
+enum Ending {
+    Dark,
+    Sky { direction: DVec3, g: f64 },
+    Surface { hit: Hit, surface: Surface },
+}
+
+/// Traces the picture that `camera` sees. `done` is told how many pixels have been finished, again and again.
+pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
+    let [width, height] = camera.size;
+    let painter = Painter { world, setting, camera, quality, pyramids: pyramids(world) };
+    let bands: Vec<Band> = (0..height.div_ceil(BAND))
+        .into_par_iter()
+        .map(|band| {
+            let result = painter.band(band * BAND, ((band + 1) * BAND).min(height));
+            done(result.light.len() as u64);
+            result
+        })
+        .collect();
+    let count = (width * height) as usize;
+    let mut picture = Picture {
+        size: camera.size,
+        light: Vec::with_capacity(count),
+        layers: Vec::with_capacity(count),
+        shares: Vec::with_capacity(count),
+        open: Vec::with_capacity(count),
+        dark: Vec::with_capacity(count),
+    };
+    for band in bands {
+        picture.light.extend(band.light);
+        picture.layers.extend(band.layers);
+        picture.shares.extend(band.shares);
+        picture.open.extend(band.open);
+        picture.dark.extend(band.dark);
+    }
+    for spot in setting.stars {
+        draw_spot(&mut picture, spot);
+    }
+    picture
+}
+
+/// Adds a star's light to the pixels around it, as far as nothing solid covers them.
+fn draw_spot(picture: &mut Picture, spot: &Spot) {
+    let [width, height] = picture.size.map(i64::from);
+    let [x, y] = spot.place;
+    for row in (y - 2.5).ceil() as i64..=(y + 2.5).floor() as i64 {
+        for column in (x - 2.5).ceil() as i64..=(x + 2.5).floor() as i64 {
+            let (dx, dy) = (column as f64 + 0.5 - x, row as f64 + 0.5 - y);
+            if row < 0 || column < 0 || row >= height || column >= width || dx.abs() > 2.5 || dy.abs() > 2.5 {
+                continue;
+            }
+            let at = (row * width + column) as usize;
+            let weight = (-(dx * dx + dy * dy) / (2.0 * SPOT_SIGMA * SPOT_SIGMA)).exp() / (2.0 * PI * SPOT_SIGMA * SPOT_SIGMA);
+            let light = spot.light * (weight as f32 * picture.open[at]);
+            for (channel, add) in picture.light[at].iter_mut().zip(light.to_array()) {
+                *channel += add;
+            }
+        }
+    }
+}
+
+/// One pyramid for each distinct image, by its address.
+fn pyramids(world: &World) -> HashMap<usize, Pyramid> {
+    let mut found: HashMap<usize, Pyramid> = HashMap::new();
+    for image in world.models.iter().flat_map(|model| &model.materials).filter_map(|material| material.texture.as_ref()) {
+        found.entry(Arc::as_ptr(image) as usize).or_insert_with(|| Pyramid::of(image));
+    }
+    found
+}
+
+struct Painter<'a> {
+    world: &'a World<'a>,
+    setting: &'a Setting<'a>,
+    camera: &'a Camera,
+    quality: &'a Quality,
+    pyramids: HashMap<usize, Pyramid>,
+}
+
+struct Band {
+    light: Vec<[f32; 3]>,
+    layers: Vec<Layer>,
+    shares: Vec<Vec<(u32, u32, f32)>>,
+    open: Vec<f32>,
+    dark: Vec<bool>,
+}
+
+impl Painter<'_> {
+    fn band(&self, first: u32, end: u32) -> Band {
+        let n = self.quality.samples;
+        let width = self.camera.size[0];
+        let (columns, rows) = ((width * n) as usize, ((end - first) * n) as usize);
+        let part = 1.0 / f64::from(n);
+        let samples: Vec<Sample> = (0..rows)
+            .flat_map(|row| (0..columns).map(move |column| (row, column)))
+            .map(|(row, column)| self.sample((column as f64 + 0.5) * part, f64::from(first) + (row as f64 + 0.5) * part))
+            .collect();
+        let grid = Grid { samples: &samples, columns, rows };
+        let pixels = (width * (end - first)) as usize;
+        let mut band = Band {
+            light: Vec::with_capacity(pixels),
+            layers: Vec::with_capacity(pixels),
+            shares: Vec::with_capacity(pixels),
+            open: Vec::with_capacity(pixels),
+            dark: Vec::with_capacity(pixels),
+        };
+        let weight = 1.0 / (n * n) as f32;
+        for y in 0..(end - first) as usize {
+            for x in 0..width as usize {
+                let mut light = Vec3::ZERO;
+                let mut open = 0.0;
+                let mut dark = true;
+                let mut shares: Vec<(u32, u32, f32)> = Vec::new();
+                for k in 0..(n * n) as usize {
+                    let (row, column) = (y * n as usize + k / n as usize, x * n as usize + k % n as usize);
+                    let sample = &samples[row * columns + column];
+                    light += (sample.veil + self.colour(&grid, row, column) * sample.through) * weight;
+                    dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
+                    match &sample.end {
+                        Ending::Surface { hit, .. } => {
+                            let key = (self.world.things[hit.object].id, hit.order);
+                            match shares.iter_mut().find(|share| (share.0, share.1) == key) {
+                                Some(share) => share.2 += weight,
+                                None => shares.push((key.0, key.1, weight)),
+                            }
+                        }
+                        _ => open += weight * sample.through,
+                    }
+                }
+                shares.sort_unstable_by_key(|share| (share.0, share.1));
+                // With an even number of samples none lies at the centre: one more ray is traced for the layers.
+                let centre = if n % 2 == 1 {
+                    samples[(y * n as usize + n as usize / 2) * columns + x * n as usize + n as usize / 2]
+                } else {
+                    self.sample(x as f64 + 0.5, f64::from(first) + y as f64 + 0.5)
+                };
+                band.light.push(light.to_array());
+                band.layers.push(self.layer(&centre));
+                band.shares.push(shares);
+                band.open.push(open);
+                band.dark.push(dark);
+            }
+        }
+        band
+    }
+
+    fn sample(&self, x: f64, y: f64) -> Sample {
+        let (look, blue) = self.camera.look(x, y);
+        let (mut veil, mut through) = (Vec3::ZERO, 1.0);
+        let end = self.world.look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| {
+            if let Some(disk) = self.setting.disk {
+                let (light, opacity) = disk.light(&crossing, blue, self.world.time, self.setting.shift);
+                veil += light * through;
+                through *= 1.0 - opacity;
+            }
+        });
+        let end = match end {
+            Seen::Captured => Ending::Dark,
+            Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
+            Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },
+        };
+        Sample { end, veil, through }
+    }
+
+    /// The light of what a ray ends at.
+    fn colour(&self, grid: &Grid, row: usize, column: usize) -> Vec3 {
+        match grid.at(row, column).end {
+            Ending::Dark => Vec3::ZERO,
+            Ending::Sky { direction, g } => {
+                let size = grid.change(row, column, |other| match other.end {
+                    Ending::Sky { direction: other, .. } => Some(direction.angle_between(other)),
+                    _ => None,
+                });
+                self.setting.background.light(direction, size[0].max(size[1]), g, self.setting.shift)
+            }
+            Ending::Surface { hit, surface } => {
+                let thing = &self.world.things[hit.object];
+                let material = &self.world.models[thing.model].materials[surface.material as usize];
+                let pyramid = material.texture.as_ref().and_then(|image| self.pyramids.get(&(Arc::as_ptr(image) as usize)));
+                let [across, down] = grid.change(row, column, |other| match other.end {
+                    Ending::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
+                        Some(f64::from(there.uv.distance(surface.uv)))
+                    }
+                    _ => None,
+                });
+                let detail = detail(Vec2::X * across as f32, Vec2::X * down as f32);
+                shaded(&surface, thing, material, texel(pyramid, surface.uv, detail), self.setting.shift)
+            }
+        }
+    }
+
+    fn layer(&self, sample: &Sample) -> Layer {
+        let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
+        Layer {
+            object: self.world.things[hit.object].id,
+            triangle: hit.triangle as u32,
+            barycentrics: hit.barycentrics.map(|w| w as f32),
+            uv: surface.uv.to_array(),
+            order: hit.order,
+            swept: hit.swept,
+            delay: hit.delay,
+            g: surface.g,
+        }
+    }
+}
+
+/// Samples of a band, row by row.
+struct Grid<'a> {
+    samples: &'a [Sample],
+    columns: usize,
+    rows: usize,
+}
+
+impl Grid<'_> {
+    fn at(&self, row: usize, column: usize) -> &Sample {
+        &self.samples[row * self.columns + column]
+    }
+
+    /// How much something changes from a sample to its neighbour, across and down: the lesser of the changes to the two sides, as one of
+    /// them may lie beyond an edge; 0 where `measure` finds no likeness on either.
+    fn change(&self, row: usize, column: usize, measure: impl Fn(&Sample) -> Option<f64>) -> [f64; 2] {
+        let least = |sides: [Option<&Sample>; 2]| {
+            let least = sides.into_iter().flatten().filter_map(&measure).fold(f64::INFINITY, f64::min);
+            if least.is_finite() { least } else { 0.0 }
+        };
+        let left = (column > 0).then(|| self.at(row, column - 1));
+        let right = (column + 1 < self.columns).then(|| self.at(row, column + 1));
+        let up = (row > 0).then(|| self.at(row - 1, column));
+        let down = (row + 1 < self.rows).then(|| self.at(row + 1, column));
+        [least([left, right]), least([up, down])]
+    }
+}

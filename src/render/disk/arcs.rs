@@ -1,0 +1,209 @@
+//! The disk of arcs: four stages of compute and a draw for each image order.
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::lensing::Slice;
+use crate::render::Gpu;
+use crate::render::frame::FrameInput;
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::shaders::Pass;
+
+use super::Disk;
+use super::textures::Textures;
+use super::types::{self, DiskCounters, DiskFrame, DiskVertex};
+use super::view::DiskView;
+
+/// Room for vertices that halving makes.
+const EXTRA: u32 = 250_000;
+/// Room for indices of orders 1, 2 and 3 past those of the arcs as they are.
+const INDICES: [u32; 3] = [1_500_000, 600_000, 600_000];
+
+/// The stages, their buffers and the draws.
+#[derive(Debug)]
+pub struct ArcPass {
+    group_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
+    vertices: wgpu::ComputePipeline,
+    segments: wgpu::ComputePipeline,
+    mesh: wgpu::ComputePipeline,
+    strips: wgpu::ComputePipeline,
+    before_mesh: wgpu::ComputePipeline,
+    before_draw: wgpu::ComputePipeline,
+    far: wgpu::RenderPipeline,
+    near: wgpu::RenderPipeline,
+    textures: Textures,
+    frame: wgpu::Buffer,
+    circles: Growing,
+    cuts: Growing,
+    rings: Growing,
+    seen: Growing,
+    segment_buffer: Growing,
+    jobs: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    counters: wgpu::Buffer,
+    arguments: wgpu::Buffer,
+    arguments_group: wgpu::BindGroup,
+    groups: Option<(wgpu::BindGroup, wgpu::BindGroup)>,
+    /// Threads of the stages over grid, segments, arcs.
+    threads: [u32; 3],
+    close: bool,
+}
+
+impl ArcPass {
+    /// Compiles the stages.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, textures: Textures) -> ArcPass {
+        use Slot::{Read, Write};
+        let device = &gpu.device;
+        let group_layout =
+            layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Write, Write, Write, Write, Write]);
+        let draw_layout = layout(
+            device,
+            "disk draw",
+            ShaderStages::VERTEX_FRAGMENT,
+            &[Slot::Uniform, Read, Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Sampler],
+        );
+        let arguments_layout = layout(device, "disk arguments", ShaderStages::COMPUTE, &[Write]);
+        let stage = |label, pass| compute(device, label, pass, "main", &[Some(frame_layout), Some(&group_layout)]);
+        let argument = |entry| {
+            let groups = [Some(frame_layout), Some(&group_layout), Some(&arguments_layout)];
+            compute(device, entry, Pass::DiskArguments, entry, &groups)
+        };
+        let shader = module(device, "disk draw", Pass::DiskDraw);
+        let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+        let draw = |label, fragment| {
+            let stage = Raster { vertex: "vertex", fragment, targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
+            raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&draw_layout)])
+        };
+        let storage = BufferUsages::STORAGE;
+        let arguments = buffer(device, "disk arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
+        let total: u32 = INDICES.iter().sum();
+        ArcPass {
+            vertices: stage("disk vertices", Pass::DiskVertices),
+            segments: stage("disk segments", Pass::DiskSegments),
+            mesh: stage("disk mesh", Pass::DiskMesh),
+            strips: stage("disk strips", Pass::DiskStrips),
+            before_mesh: argument("before_mesh"),
+            before_draw: argument("before_draw"),
+            far: draw("disk far", "far_fragment"),
+            near: draw("disk near", "near_fragment"),
+            textures,
+            frame: buffer(device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM),
+            circles: Growing::new(device, "disk circles", storage),
+            cuts: Growing::new(device, "disk cuts", storage),
+            rings: Growing::new(device, "disk rings", storage),
+            seen: Growing::new(device, "disk vertices", storage),
+            segment_buffer: Growing::new(device, "disk segments", storage),
+            jobs: buffer(device, "disk jobs", 16 * u64::from(EXTRA), storage),
+            indices: buffer(device, "disk indices", 4 * u64::from(total), storage | BufferUsages::INDEX),
+            counters: buffer(device, "disk counters", size_of::<DiskCounters>() as u64, storage),
+            arguments_group: bind(device, "disk arguments", &arguments_layout, &[arguments.as_entire_binding()]),
+            arguments,
+            groups: None,
+            threads: [0; 3],
+            close: false,
+            group_layout,
+            draw_layout,
+        }
+    }
+
+    /// Uploads what the frame needs.
+    pub fn prepare(&mut self, gpu: &Gpu, disk: &Disk, input: &FrameInput, slice: &Slice, width: u32) {
+        let view = DiskView::new(disk, input, slice, width);
+        let mut frame = view.frame;
+        let [columns, arcs, rows, rings] = frame.sizes;
+        let grid = columns * rows;
+        frame.room[0] = grid + EXTRA;
+        frame.regions = [0, INDICES[0], INDICES[0] + INDICES[1], INDICES.iter().sum()];
+        self.threads = [grid, arcs * rows, arcs * rings];
+        self.close = view.close;
+        let device = &gpu.device;
+        let mut replaced = self.circles.write(gpu, &view.circles);
+        replaced |= self.cuts.write(gpu, &view.cuts);
+        replaced |= self.rings.write(gpu, &view.rings);
+        replaced |= self.seen.reserve(device, u64::from(frame.room[0]) * size_of::<DiskVertex>() as u64);
+        replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
+        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
+        gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
+        if replaced || self.groups.is_none() {
+            self.groups = Some(self.bind(device));
+        }
+    }
+
+    fn bind(&self, device: &wgpu::Device) -> (wgpu::BindGroup, wgpu::BindGroup) {
+        use wgpu::BindingResource::{Sampler, TextureView};
+        let buffers = [
+            &self.frame,
+            &self.circles.buffer,
+            &self.cuts.buffer,
+            &self.rings.buffer,
+            &self.seen.buffer,
+            &self.segment_buffer.buffer,
+            &self.jobs,
+            &self.indices,
+            &self.counters,
+        ];
+        let resources = buffers.map(|buffer| buffer.as_entire_binding());
+        let draw = [
+            self.frame.as_entire_binding(),
+            self.seen.buffer.as_entire_binding(),
+            TextureView(&self.textures.pattern),
+            Sampler(&self.textures.pattern_sampler),
+            TextureView(&self.textures.colours),
+            Sampler(&self.textures.colours_sampler),
+        ];
+        (bind(device, "disk", &self.group_layout, &resources), bind(device, "disk draw", &self.draw_layout, &draw))
+    }
+
+    /// The stages.
+    pub fn compute(&self, pass: &mut wgpu::ComputePass) {
+        let Some((group, _)) = &self.groups else { return };
+        pass.set_bind_group(1, group, &[]);
+        pass.set_bind_group(2, &self.arguments_group, &[]);
+        let [grid, segments, _] = self.threads.map(|threads| threads.div_ceil(64));
+        pass.set_pipeline(&self.vertices);
+        pass.dispatch_workgroups(grid, 1, 1);
+        pass.set_pipeline(&self.segments);
+        pass.dispatch_workgroups(segments, 1, 1);
+        pass.set_pipeline(&self.before_mesh);
+        pass.dispatch_workgroups(1, 1, 1);
+    }
+
+    /// The stages whose size the first ones decide.
+    pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
+        let Some((group, _)) = &self.groups else { return };
+        pass.set_bind_group(1, group, &[]);
+        pass.set_pipeline(&self.mesh);
+        pass.dispatch_workgroups_indirect(&self.arguments, 0);
+        pass.set_pipeline(&self.strips);
+        pass.dispatch_workgroups(self.threads[2].div_ceil(64), 1, 1);
+        pass.set_bind_group(2, &self.arguments_group, &[]);
+        pass.set_pipeline(&self.before_draw);
+        pass.dispatch_workgroups(1, 1, 1);
+    }
+
+    /// The draws: the farthest order first.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass) {
+        let Some((_, group)) = &self.groups else { return };
+        pass.set_pipeline(if self.close { &self.near } else { &self.far });
+        pass.set_bind_group(2, group, &[]);
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for order in (0..3).rev() {
+            pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + order * types::ARGUMENTS_DRAW_STEP);
+        }
+    }
+
+    /// What was counted, for reading back.
+    pub fn counters(&self) -> &wgpu::Buffer {
+        &self.counters
+    }
+
+    /// Seen vertices: rows of the grid, then what halving made.
+    pub fn seen(&self) -> &wgpu::Buffer {
+        &self.seen.buffer
+    }
+
+    /// Indices of the triangles, order by order.
+    pub fn indices(&self) -> &wgpu::Buffer {
+        &self.indices
+    }
+}

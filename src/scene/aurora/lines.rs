@@ -1,0 +1,131 @@
+//! The lines an aurora shines in: photons per ion pair by height, how long the light waits, and its colour.
+//!
+//! Four channels: green O(¹S) 557.7 nm; the blue-violet bands of N₂⁺ (391.4 and 427.8 nm and their neighbours, given as 427.8); red
+//! O(¹D) 630.0 and 636.4 nm; and the crimson first positive bands of N₂ (600 to 700 nm, given as 650). Rates: Solomon, Hays and Abreu
+//! 1988 as in NCAR's GLOW (`gchem.f90`); shares of the species: Rees 1989.
+
+use super::air::{Air, air};
+use crate::scene::blackbody::matching;
+
+/// Lines, in the order of every array of four here and in the shaders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// O(¹S) 557.7 nm.
+    Green,
+    /// N₂⁺ first negative bands.
+    Blue,
+    /// O(¹D) 630.0 and 636.4 nm.
+    Red,
+    /// N₂ first positive bands.
+    Crimson,
+}
+
+impl Line {
+    /// All of them, in order.
+    pub const ALL: [Line; 4] = [Line::Green, Line::Blue, Line::Red, Line::Crimson];
+
+    /// Wavelength in nm by which it is coloured.
+    pub fn wavelength(self) -> f64 {
+        match self {
+            Line::Green => 557.7,
+            Line::Blue => 427.8,
+            Line::Red => 630.0,
+            Line::Crimson => 650.0,
+        }
+    }
+}
+
+/// Radiative rates of O(¹S), s⁻¹: 557.7 nm, and 297.2 nm beside it.
+pub const GREEN_RATE: f64 = 1.06;
+const GREEN_OTHER: f64 = 0.045;
+/// Radiative rates of O(¹D), s⁻¹: 630.0 and 636.4 nm.
+pub const RED_RATE: f64 = 0.00585;
+const RED_OTHER: f64 = 0.00185;
+/// N₂⁺(B) per ionisation of N₂, and the part of it that shines at 427.8 nm, the (0,1) band.
+const ION_BRANCH: f64 = 0.11;
+const BLUE_BRANCH: f64 = 0.20;
+/// O(¹D) made per ion pair: a middling value over direct excitation, recombination and transfer (crude: a factor 2 either way).
+const RED_PER_PAIR: f64 = 0.5;
+/// N₂(A) made per ion pair of N₂, with the cascade from above (crude).
+const TRIPLET_PER_PAIR: f64 = 0.55;
+/// O(¹S) per O₂⁺ that recombines (0.07 to 0.1), O₂⁺ taken as the share of ionised O₂.
+const RECOMBINATION: f64 = 0.08;
+/// O(¹S) per ionisation of O: direct excitation (crude).
+const DIRECT_GREEN: f64 = 0.05;
+/// Visible photons of the first positive bands per ion pair of N₂ (crude: Vallance Jones 1974 gives 1PG in 600–700 nm of half of 557.7 nm).
+const CRIMSON_PER_PAIR: f64 = 0.045;
+
+/// Losses of O(¹S) by collisions at this air, s⁻¹.
+pub fn green_quenching(air: &Air) -> f64 {
+    2.0e-14 * air.o + 4.0e-12 * (-865.0 / air.temperature).exp() * air.o2
+}
+
+/// Losses of O(¹D) by collisions at this air, s⁻¹. Electrons, below a hundredth of it, are left out.
+pub fn red_quenching(air: &Air) -> f64 {
+    2.0e-11 * (107.8 / air.temperature).exp() * air.n2 + 2.9e-11 * (67.5 / air.temperature).exp() * air.o2 + 3.0e-12 * air.o
+}
+
+/// Shares of ion pairs that N₂, O₂ and O have: weights 0.92, 1 and 0.56 by number (Rees 1989, table 3.4).
+pub fn shares(air: &Air) -> [f64; 3] {
+    let weights = [0.92 * air.n2, air.o2, 0.56 * air.o];
+    let total: f64 = weights.iter().sum();
+    weights.map(|weight| weight / total)
+}
+
+/// Excited states (for the molecules: photons) made per ion pair, before quenching, by line.
+pub fn production(air: &Air) -> [f64; 4] {
+    let [n2, o2, o] = shares(air);
+    // N₂(A) hands its energy to O with k = 3.1e-11 cm³ s⁻¹, a part 0.19 of it as O(¹S); it also radiates (0.77 s⁻¹) and meets O₂.
+    let transfer = 3.1e-11 * air.o;
+    let to_oxygen = 0.19 * transfer / (transfer + 0.77 + 4.1e-12 * air.o2);
+    [
+        TRIPLET_PER_PAIR * n2 * to_oxygen + RECOMBINATION * o2 + DIRECT_GREEN * o,
+        ION_BRANCH * BLUE_BRANCH * n2,
+        RED_PER_PAIR,
+        CRIMSON_PER_PAIR * n2,
+    ]
+}
+
+/// The part of each excited state that ends as a photon of its line: branching and quenching.
+pub fn survival(air: &Air) -> [f64; 4] {
+    [GREEN_RATE / (GREEN_RATE + GREEN_OTHER + green_quenching(air)), 1.0, RED_RATE / (RED_RATE + RED_OTHER + red_quenching(air)), 1.0]
+}
+
+/// Photons per ion pair at height `z` (km), by line.
+pub fn photons(z: f64) -> [f64; 4] {
+    let air = air(z);
+    let (made, seen) = (production(&air), survival(&air));
+    std::array::from_fn(|k| made[k] * seen[k])
+}
+
+/// Mean time from the collision to the photon at height `z` (km), s, by line: green at most 0.9 s, red from milliseconds at 100 km to two
+/// minutes, the molecules at once.
+pub fn delays(z: f64) -> [f64; 4] {
+    let air = air(z);
+    [1.0 / (GREEN_RATE + GREEN_OTHER + green_quenching(&air)), 0.0, 1.0 / (RED_RATE + RED_OTHER + red_quenching(&air)), 0.0]
+}
+
+/// Planck's constant times c, J nm: the energy of a photon of wavelength λ nm is this over λ.
+const HC: f64 = 1.986_445_857e-16;
+/// Luminous efficacy at the peak of ȳ, lm/W.
+const EFFICACY: f64 = 683.0;
+
+/// CIE XYZ (Y in cd m⁻²) of one kilorayleigh of each line, seen with the frequency ratio `g` = ν_observed/ν_emitted. One rayleigh is
+/// 10¹⁰/4π photons m⁻² s⁻¹ sr⁻¹; photons are counted in the source's frame, and radiance goes as g⁴ (of which one power is the photon's
+/// energy): I/ν³ is invariant and a line of width ∝ ν integrates to g⁴.
+pub fn kilorayleigh_xyz(g: f64) -> [[f64; 3]; 4] {
+    Line::ALL.map(|line| {
+        let seen = line.wavelength() / g;
+        let radiance = 1e13 / (4.0 * std::f64::consts::PI) * HC / line.wavelength() * g.powi(4);
+        matching(seen).map(|weight| EFFICACY * weight * radiance)
+    })
+}
+
+/// Linear sRGB (white D65, IEC 61966-2-1) of XYZ; negative where the colour is outside sRGB.
+pub fn rgb([x, y, z]: [f64; 3]) -> [f64; 3] {
+    [
+        3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
+        -0.969_266_0 * x + 1.876_010_8 * y + 0.041_556_0 * z,
+        0.055_643_4 * x - 0.204_025_9 * y + 1.057_225_2 * z,
+    ]
+}

@@ -1,0 +1,79 @@
+//! The pattern of the gas: streaks along the orbits, periodic both ways, as a lattice with smooth interpolation.
+//!
+//! The lattice is what the GPU has as a texture, so both evaluate the same function; nothing in it depends on a scene.
+
+use std::sync::LazyLock;
+
+/// Columns of the lattice, round the hole.
+pub const WIDTH: usize = 1024;
+/// Rows of the lattice, over ln r.
+pub const HEIGHT: usize = 512;
+
+/// Octaves: cells round the hole, cells over the height, amplitude. Cells are some ten times as long as wide, and rings longer still.
+const OCTAVES: [(usize, usize, f64); 8] =
+    [(3, 16, 0.75), (4, 48, 0.70), (7, 28, 0.70), (14, 56, 0.55), (10, 128, 0.50), (28, 112, 0.40), (56, 224, 0.28), (112, 256, 0.16)];
+
+/// The lattice, row by row; mean 0, deviation 1.
+pub static LATTICE: LazyLock<Vec<f32>> = LazyLock::new(lattice);
+
+/// The pattern at x turns and y heights: the lattice, between its points weighted by 3t² − 2t³, so that no crease shows close up.
+pub fn streaks(x: f64, y: f64) -> f64 {
+    let (i, u) = cell(x, WIDTH);
+    let (j, v) = cell(y, HEIGHT);
+    let at = |i: usize, j: usize| f64::from(LATTICE[(j % HEIGHT) * WIDTH + i % WIDTH]);
+    let row = |j| at(i, j) + u * (at(i + 1, j) - at(i, j));
+    row(j) + v * (row(j + 1) - row(j))
+}
+
+/// The lattice point before a coordinate in periods, and the smooth weight of the next.
+fn cell(x: f64, count: usize) -> (usize, f64) {
+    // Texels lie at the middle of their cells.
+    let place = (x - x.floor()) * count as f64 - 0.5 + count as f64;
+    let whole = place.floor();
+    (whole as usize % count, smooth(place - whole))
+}
+
+fn smooth(t: f64) -> f64 {
+    t * t * (3.0 - 2.0 * t)
+}
+
+/// A well-mixed number of two (Steele, Lea & Flood 2014, SplitMix64).
+pub fn hash(a: u64, b: u64) -> u64 {
+    let mut z =
+        a.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(b.wrapping_mul(0xd1b5_4a32_d192_ed03)).wrapping_add(0x632b_e59b_d9b4_e019);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+fn lattice() -> Vec<f32> {
+    let mut sum = vec![0.0f64; WIDTH * HEIGHT];
+    for (number, &(columns, rows, amplitude)) in OCTAVES.iter().enumerate() {
+        let knots: Vec<f64> =
+            (0..columns * rows).map(|k| (hash(k as u64, 1 + number as u64) >> 11) as f64 / (1u64 << 52) as f64 - 1.0).collect();
+        // Every second row of cells is shifted, so that cells do not line up along radii.
+        let shift = |j: usize| (hash(j as u64, 101 + number as u64) >> 40) as f64 / (1u64 << 24) as f64;
+        let row_at = |x: f64, j: usize| {
+            let place = x * columns as f64 + shift(j) * columns as f64;
+            let whole = place.floor();
+            let t = smooth(place - whole);
+            let i = whole as usize % columns;
+            let (a, b) = (knots[j * columns + i], knots[j * columns + (i + 1) % columns]);
+            a + t * (b - a)
+        };
+        for y in 0..HEIGHT {
+            let place = (y as f64 + 0.5) / HEIGHT as f64 * rows as f64;
+            let j = place as usize % rows;
+            let t = smooth(place.fract());
+            for x in 0..WIDTH {
+                let turn = (x as f64 + 0.5) / WIDTH as f64;
+                let (a, b) = (row_at(turn, j), row_at(turn, (j + 1) % rows));
+                sum[y * WIDTH + x] += amplitude * (a + t * (b - a));
+            }
+        }
+    }
+    let count = sum.len() as f64;
+    let mean = sum.iter().sum::<f64>() / count;
+    let deviation = (sum.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count).sqrt();
+    sum.iter().map(|v| ((v - mean) / deviation).clamp(-3.0, 3.0) as f32).collect()
+}

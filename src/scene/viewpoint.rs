@@ -1,0 +1,74 @@
+//! Where a scene's camera is at any T: the same for every renderer of it.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::camera::{Camera, Mount};
+use crate::spacetime::frames;
+use crate::spacetime::matter::{ShipState, gamma, step};
+
+/// A camera at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Position on the slice T = const, in r_s.
+    pub position: DVec3,
+    /// Rain-frame momentum per mass, in c.
+    pub momentum: DVec3,
+    /// Camera axes (+x right, +y up, −z forward) to rain axes through the pure boost of `momentum`.
+    pub attitude: DQuat,
+    /// Horizontal field of view in radians.
+    pub field_of_view: f64,
+}
+
+/// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
+const CAMERA_FLOOR: f64 = 1.003;
+
+impl Camera {
+    /// The camera at T = `time`; `ships` are the states of the ships then, by name. Without the ship that it follows it looks on from 20 r_s.
+    pub fn viewpoint(&self, time: f64, ships: &[(&str, ShipState)]) -> Viewpoint {
+        let state = match &self.mount {
+            Mount::Static(state) => *state,
+            Mount::Falling(state) => fall(state, time),
+            Mount::Planet { place, view, planet } => {
+                // A planet's orbit was checked when the scene was read.
+                let state = planet.state(time).unwrap_or(ShipState::new(DVec3::Z * 20.0, DVec3::ZERO));
+                let dipole = planet.dipole();
+                return beside(&state, dipole * *place * planet.radius, dipole * *view, self.fov);
+            }
+            Mount::Follow { ship, offset, look, up } => {
+                let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
+                    return Viewpoint {
+                        position: DVec3::Z * 20.0,
+                        momentum: DVec3::ZERO,
+                        attitude: DQuat::IDENTITY,
+                        field_of_view: self.fov,
+                    };
+                };
+                return beside(state, *offset, frames::look(*look, *up).unwrap_or(DQuat::IDENTITY), self.fov);
+            }
+        };
+        Viewpoint { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.fov }
+    }
+}
+
+/// A camera beside a ship: at `offset` (r_s) in the ship's rest frame and body axes, moving as the ship does, outside r = 1 as long as the
+/// ship is. `view` turns camera axes into body axes.
+pub fn beside(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Viewpoint {
+    let away = state.attitude * offset;
+    // On the slice T = const a rest length is contracted along the momentum.
+    let p = state.momentum;
+    let g = gamma(p);
+    let contraction = DMat3::IDENTITY - DMat3::from_cols(p * p.x, p * p.y, p * p.z) * (1.0 / (g * (1.0 + g)));
+    let mut position = state.position + contraction * away;
+    if state.position.length() > CAMERA_FLOOR && position.length() < CAMERA_FLOOR {
+        position = position.normalize() * CAMERA_FLOOR;
+    }
+    Viewpoint { position, momentum: p, attitude: state.attitude * view, field_of_view }
+}
+
+/// Free fall from T = 0.
+fn fall(state: &ShipState, time: f64) -> ShipState {
+    /// As the simulation's step.
+    const STEP: f64 = 0.01;
+    let steps = (time / STEP).ceil().max(1.0);
+    (0..steps as u64).fold(*state, |state, _| step(&state, time / steps, DVec3::ZERO, DVec3::ZERO))
+}

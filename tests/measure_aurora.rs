@@ -1,0 +1,237 @@
+//! The aurora's walks against the method in space and against the line integral.
+
+use glam::{DVec3, Vec3};
+use lensrunner::lensing;
+use lensrunner::measure::aurora::experiment::{Request, VARIANTS, View, run};
+use lensrunner::measure::aurora::eye::Eye;
+use lensrunner::measure::aurora::lattice::Lattice;
+use lensrunner::measure::aurora::sheet::{FALLS, Falls, SWAY, Sheet, Streak, TOP, field_direction};
+use lensrunner::measure::aurora::splat::{Gaussian, Picture, Splat};
+use lensrunner::measure::aurora::truth::Emission;
+use lensrunner::measure::aurora::walk::{Method, Point, Walker};
+use proptest::prelude::*;
+use std::sync::LazyLock;
+
+static FALLS_TABLE: LazyLock<Falls> = LazyLock::new(Falls::new);
+static TABLE: LazyLock<lensing::Table> = LazyLock::new(lensing::default_table);
+
+fn all_points(method: Method, eye: &Eye, streaks: &[Streak]) -> Vec<Vec<Point>> {
+    let lattice = Lattice::around(eye, streaks, 0.25);
+    let walker = Walker { eye, falls: &FALLS_TABLE, lattice: Some(&lattice), seed: 1 };
+    let walk = |streak: &Streak| {
+        let mut out = Vec::new();
+        walker.walk(method, streak, &mut out);
+        out
+    };
+    streaks.iter().map(walk).collect()
+}
+
+fn points(method: Method, eye: &Eye, streak: &Streak) -> Vec<Point> {
+    all_points(method, eye, std::slice::from_ref(streak)).remove(0)
+}
+
+/// Collisions by screen distance from the top's image, and from that the distances between which the middle 90 % of the light lies.
+fn luminous_ends(points: &[Point], axis: [f32; 2]) -> [f64; 2] {
+    let mut along: Vec<(f64, f64)> = points.iter().map(|p| (f64::from(p.x * axis[0] + p.y * axis[1]), f64::from(p.count))).collect();
+    along.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let total: f64 = along.iter().map(|p| p.1).sum();
+    [0.05, 0.95].map(|share| {
+        let mut sum = 0.0;
+        along
+            .iter()
+            .find(|p| {
+                sum += p.1;
+                sum >= share * total
+            })
+            .unwrap()
+            .0
+    })
+}
+
+/// A camera that sees the middle of a streak at `degrees` between line of sight and field, `distance` km away.
+fn tilted(streak: &Streak, degrees: f64, distance: f64) -> Eye {
+    let up = field_direction();
+    let middle = streak.end.as_dvec3();
+    let side = up.any_orthonormal_vector();
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let away = -up * cosine + side * sine;
+    Eye::flat(middle + away * distance, middle + up * 40.0, DVec3::Y, 1.6, [1920, 1080])
+}
+
+#[test]
+fn luminous_length_is_right_at_every_angle() {
+    let streak = Sheet::numbered(4).streaks(40)[7];
+    // The line integral of one streak, with a projection of its own: what the walk has to reproduce.
+    let mut linear_fails = 0;
+    for degrees in (1..=90).map(f64::from) {
+        let eye = tilted(&streak, degrees, 130.0);
+        let exact = points(Method::Exact, &eye, &streak);
+        let want: Vec<Point> = exact
+            .iter()
+            .map(|point| {
+                let z = f64::from(FALLS_TABLE.heights[point.level as usize]);
+                let s = (TOP - z) / (TOP - f64::from(streak.end_height));
+                let place = streak.top.as_dvec3().lerp(streak.end.as_dvec3(), s);
+                let axes = eye.axes.as_dmat3();
+                let seen = axes * (place - eye.position.as_dvec3());
+                let f = f64::from(eye.focal) / -seen.z;
+                Point { x: (960.0 + f * seen.x) as f32, y: (540.0 - f * seen.y) as f32, ..*point }
+            })
+            .collect();
+        assert!(want.len() > 10);
+        let (first, last) = (want[0], want[want.len() - 1]);
+        let d = [last.x - first.x, last.y - first.y];
+        let norm = d[0].hypot(d[1]).max(1e-6);
+        let axis = [d[0] / norm, d[1] / norm];
+        let length = |ends: [f64; 2]| ends[1] - ends[0];
+        let truth = luminous_ends(&want, axis);
+        // max(1 %, 0.5 px): the requirement. Beside it, what going astray across the field moves points along the screen.
+        let allowed = (0.01 * length(truth)).max(0.5) + astray_pixels(&eye, &streak);
+        for (method, fails) in [(Method::Exact, false), (Method::Linear, true)] {
+            let got = luminous_ends(&points(method, &eye, &streak), axis);
+            let wrong = (length(got) - length(truth)).abs() > allowed || (got[0] - truth[0]).abs() > allowed;
+            if fails {
+                linear_fails += u32::from(wrong);
+            } else {
+                assert!(!wrong, "{method:?} at {degrees}°: ends {got:?}, truth {truth:?}, allowed {allowed} px");
+            }
+        }
+    }
+    assert!(linear_fails > 45, "the linear walk was wrong at {linear_fails} of 90 angles only: the test sees nothing");
+}
+
+/// How far going astray moves a point of the luminous part, at most, in pixels.
+fn astray_pixels(eye: &Eye, streak: &Streak) -> f64 {
+    let depth = f64::from(-(eye.axes * (streak.end - eye.position)).z);
+    2f64.sqrt() * SWAY * f64::from(eye.focal) / depth
+}
+
+#[test]
+fn the_exact_walk_is_the_particle_method() {
+    for (view, name) in View::ALL {
+        let eye = view.eye([640, 360], &TABLE);
+        let (mut worst, mut worst_linear, mut compared) = (0.0f32, 0.0f32, 0);
+        let streaks = Sheet::numbered(2).streaks(300);
+        let all = [Method::Particles, Method::Exact, Method::Linear].map(|method| all_points(method, &eye, &streaks));
+        for ((want, got), linear) in all[0].iter().zip(&all[1]).zip(&all[2]) {
+            assert_eq!(want.len(), got.len(), "{name}");
+            for (a, b) in want.iter().zip(got) {
+                assert_eq!((a.level, a.count), (b.level, b.count), "{name}");
+                worst = worst.max((a.x - b.x).hypot(a.y - b.y));
+                compared += 1;
+            }
+            for a in linear {
+                if let Some(b) = want.iter().find(|b| b.level == a.level) {
+                    worst_linear = worst_linear.max((a.x - b.x).hypot(a.y - b.y));
+                }
+            }
+        }
+        assert!(compared > 5000, "{name}: {compared}");
+        // Flat: rounding of f32 at a thousand kilometres. Bent: the chords' tolerance of 0.25 pixels, twice where the bend is uneven.
+        let allowed = if view == View::Bent { 0.5 } else { 0.02 };
+        assert!(worst < allowed, "{name}: points are up to {worst} px apart");
+        if view == View::Below {
+            assert!(worst_linear > 10.0, "{name}: the linear walk is right to {worst_linear} px");
+        }
+    }
+}
+
+#[test]
+fn pictures_agree_with_the_line_integral() {
+    let sheet = Sheet::numbered(1);
+    let splat = Splat { radius: 4.0, table: true };
+    let emission = Emission::new(&sheet, &FALLS_TABLE, splat);
+    for (view, most, linear_least) in [(View::Side, 0.10, 0.0), (View::Below, 0.25, 0.15), (View::Orbit, 0.10, 0.0)] {
+        let eye = view.eye([192, 108], &TABLE);
+        let truth = emission.picture(&eye, 1.0);
+        let picture = |method: Method| {
+            let mut picture = Picture::new(eye.size);
+            let found = all_points(method, &eye, &sheet.streaks(8000)).concat();
+            picture.add(&found, &FALLS_TABLE, splat, &Gaussian::default());
+            picture.error(&truth)
+        };
+        let (exact, linear) = (picture(Method::Exact), picture(Method::Linear));
+        assert!(exact < most, "{view:?}: exact walk off by {exact}");
+        assert!(linear > linear_least, "{view:?}: linear walk off by {linear} only");
+    }
+}
+
+#[test]
+fn the_table_of_the_gaussian_is_the_gaussian() {
+    let eye = View::Side.eye([192, 108], &TABLE);
+    let found = all_points(Method::Exact, &eye, &Sheet::numbered(0).streaks(200)).concat();
+    let draw = |table: bool| {
+        let mut picture = Picture::new(eye.size);
+        picture.add(&found, &FALLS_TABLE, Splat { radius: 8.0, table }, &Gaussian::default());
+        picture
+    };
+    // 128 entries a standard deviation: half an entry is 0.4 % of slope at most.
+    assert!(draw(true).error(&draw(false)) < 0.01);
+}
+
+#[test]
+fn the_experiment_makes_its_table() {
+    let request = Request { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
+    let rows = run(&request, &TABLE, &mut [], |_| ());
+    assert_eq!(rows.len(), View::ALL.len() * VARIANTS.len());
+    assert!(rows.iter().all(|row| row.error.is_finite() && row.total > 0.0));
+}
+
+/// Eyes in awkward places: inside the aurora, before and behind it, along the field, at a streak's end, with the photon sphere between.
+fn any_eye() -> impl Strategy<Value = Eye> {
+    let coordinate = prop_oneof![Just(0.0), -900.0..900.0, -5.0..5.0];
+    (coordinate.clone(), coordinate.clone(), prop_oneof![Just(0.0), 0.0..1000.0], coordinate.clone(), coordinate, 0usize..6).prop_map(
+        |(x, y, z, tx, ty, kind)| {
+            let size = [320, 180];
+            let position = DVec3::new(x, y, z);
+            match kind {
+                0..3 => Eye::flat(position, DVec3::new(tx, ty, 150.0), DVec3::Z, 1.2, size),
+                3 => Eye::flat(position, position + field_direction(), DVec3::Z, 2.8, size),
+                4 => {
+                    // The planet at the photon sphere, and the camera wherever.
+                    let l = 1.6 + z / 50.0;
+                    Eye::bent(
+                        lensing::Slice::new(&TABLE, l),
+                        l,
+                        DVec3::new(x, y, z + 1.0).normalize() * 1.5,
+                        0.2,
+                        DVec3::new(tx, ty, 1.0),
+                        1.0,
+                        size,
+                        2,
+                    )
+                }
+                _ => {
+                    // Exactly behind the hole: the Einstein ring.
+                    Eye::bent(lensing::Slice::new(&TABLE, 10.0), 10.0, DVec3::new(0.0, 0.0, -10.0), 0.8, DVec3::Z, 1.0, size, 1)
+                }
+            }
+        },
+    )
+}
+
+fn any_streak() -> impl Strategy<Value = Streak> {
+    let number = prop_oneof![Just(0.0f32), -900.0f32..900.0, Just(1e30), Just(f32::NAN)];
+    let end = prop_oneof![Just(84.0f32), Just(-1e5), Just(419.0), 84.0f32..400.0];
+    let energy = prop_oneof![Just(0.0f32), Just(1e9), 1.0f32..15_000.0, Just(f32::NAN)];
+    (number.clone(), number, end, energy, 0u32..FALLS as u32, any::<u32>()).prop_map(|(x, y, end, collisions, row, id)| {
+        let up = field_direction().as_vec3();
+        let at = |z: f32| Vec3::new(x, y, 110.0) + up * ((z - 110.0) / up.z);
+        Streak { top: at(TOP as f32), end: at(end), end_height: end, collisions, row, id }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(6), ..ProptestConfig::default() })]
+
+    #[test]
+    fn nothing_breaks_a_walk(eye in any_eye(), streak in any_streak()) {
+        for (method, name) in Method::ALL {
+            let found = points(method, &eye, &streak);
+            prop_assert!(found.len() <= FALLS_TABLE.heights.len(), "{name}: {} points", found.len());
+            let mut picture = Picture::new(eye.size);
+            picture.add(&found, &FALLS_TABLE, Splat { radius: 2.0, table: true }, &Gaussian::default());
+            prop_assert!(picture.pixels.iter().flatten().all(|light| light.is_finite() && *light >= 0.0), "{name}");
+        }
+    }
+}
