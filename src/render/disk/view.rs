@@ -10,7 +10,6 @@ use crate::render::frame::{Camera, FrameInput};
 use crate::scene::disk::{DISK_UNIT, RENEWAL, SHEARED};
 
 use super::Disk;
-use super::textures::TEMPERATURES;
 use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
@@ -82,12 +81,7 @@ impl DiskView {
                 sideways: row(sideways, level),
                 upwards: row(upwards, height.abs()),
                 renewal: [(input.time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-                gas: [
-                    disk.gas.contrast as f32,
-                    (1.0 / (TEMPERATURES.1 / TEMPERATURES.0).ln()) as f32,
-                    disk.config.error_budget as f32,
-                    disk.min_width as f32,
-                ],
+                gas: [disk.gas.contrast as f32, 0.0, disk.config.error_budget as f32, disk.min_width as f32],
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
                 room: [0, u32::from(close), (disk.gas.thickness as f32).to_bits(), 0],
