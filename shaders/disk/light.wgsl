@@ -23,6 +23,7 @@ fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
     }
     // Over a tenth of T: where light falls off fast, the mean slope over what streaks do to the temperature.
     let above = blackbody_rgb(exp(shown + 0.1));
-    let slope = log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1));
+    // Cold gas is black, whatever its slope; 45 is that of blue light at 700 K.
+    let slope = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
     return GasLight(shown, min(rgb * gain, vec3<f32>(6e4)), slope);
 }
