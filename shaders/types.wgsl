@@ -10,7 +10,8 @@ struct Frame {
     rain_from_camera: mat4x4<f32>,
     /// Unit vector from the hole to the camera (rain axes); w: the camera's radius L.
     radial: vec4<f32>,
-    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: u = 1/L, of the second: β = √u.
+    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: least width of a thin image in pixels, of the second:
+    /// the river's speed β = √(1/L).
     side_a: vec4<f32>,
     side_b: vec4<f32>,
     /// x, y: cotangents of half the field of view across and down; z: near distance in r_s; w: time T since the start, for what twinkles.
@@ -21,20 +22,20 @@ struct Frame {
     light: vec4<f32>,
     /// x: least exposure, y: greatest exposure, z: adaptation factor of this frame in (0, 1], w: ψ of the edge of the shadow, rain frame.
     exposure: vec4<f32>,
-    /// x: bits of FLAG_*; y: greatest tessellation level; z: unused; w: number of image orders drawn.
+    /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
     switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns.
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to; standard deviation of a
+    /// star's spot in pixels; least flux of a star.
     sky_x: vec4<f32>,
     sky_y: vec4<f32>,
     sky_z: vec4<f32>,
-    /// Capacities: x vertices, y indices, z work items, w thin vertices.
+    /// Capacities: x vertices, y indices, z work items, w thin vertices. Of each but the last a fifth is kept for what is drawn coarsely when
+    /// the rest is full.
     capacity: vec4<u32>,
 }
 
 const FLAG_DOPPLER: u32 = 1u;
 const FLAG_BEAMING: u32 = 2u;
-const FLAG_STARS: u32 = 4u;
-const FLAG_MILKY_WAY: u32 = 8u;
 const FLAG_INSIDE: u32 = 16u;
 const FLAG_HOLD_EXPOSURE: u32 = 32u;
 
@@ -42,6 +43,8 @@ const FLAG_HOLD_EXPOSURE: u32 = 32u;
 struct Placement {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
+    /// The same centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
+    position: vec4<f32>,
     /// dx/dT of the centre; w: 1 where the object moves or turns, else 0.
     velocity: vec4<f32>,
     /// Rain-frame momentum per mass; w: γ.
@@ -75,8 +78,10 @@ const PLACEMENT_TWO_SIDED: u32 = 1u;
 /// The object does not move; each of its points emits as a static observer there.
 const PLACEMENT_HELD: u32 = 2u;
 
-/// Its whole image of this order is narrower than two pixels.
+/// Its whole image of this order is narrow (`render.thin_below`).
 const PLACEMENT_THIN: u32 = 4u;
+/// The image of something held inside the horizon by light of E < 0.
+const PLACEMENT_MINUS: u32 = 8u;
 
 fn two_sided(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;

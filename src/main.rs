@@ -8,17 +8,22 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::lensing::{self, Scheme};
 use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{aurora, chart, projection, trace};
+use lensrunner::measure::projection::ChartError;
+use lensrunner::measure::{aurora, bvh, chart, methods, projection, thin_disk, trace};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
-#[command(version, about)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
 struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Without a subcommand: play.
+    #[cfg(feature = "game")]
+    #[command(flatten)]
+    play: lensrunner::play::PlayArgs,
 }
 
 #[derive(Subcommand)]
@@ -31,6 +36,8 @@ enum Command {
     Project(ProjectArgs),
     Simulate(SimulateArgs),
     Trace(TraceArgs),
+    #[cfg(feature = "game")]
+    Compare(CompareArgs),
     #[command(subcommand)]
     Chart(ChartCommand),
 }
@@ -39,7 +46,9 @@ enum Command {
 #[derive(Subcommand)]
 enum ChartCommand {
     Projection(ChartProjectionArgs),
+    Trace(ChartTraceArgs),
     Aurora(ChartAuroraArgs),
+    Bvh(ChartBvhArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
     #[cfg(feature = "game")]
@@ -68,12 +77,15 @@ impl From<ChartArgs> for chart::Output {
 struct ChartProjectionArgs {
     #[command(flatten)]
     chart: ChartArgs,
-    /// Adversarial points for each method and image order.
-    #[arg(long, value_name = "N", default_value_t = 300_000)]
+    /// Adversarial points for each method and image order; about a tenth of them has no ray.
+    #[arg(long, value_name = "N", default_value_t = 340_000)]
     points: usize,
     /// Seed of the points.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Only these methods, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    methods: Vec<String>,
 }
 
 /// The experiment of paper 3: auroras by the particle method and by screen walks, time against error, from four views.
@@ -98,6 +110,35 @@ struct ChartAuroraArgs {
     repeats: u8,
 }
 
+/// A thin disk after Page and Thorne: error against rays per second, by the judge and by Gyoto where that is installed.
+#[derive(Args)]
+struct ChartTraceArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Pixels along each side of the picture.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=1024))]
+    pixels: u32,
+}
+
+/// Tracers of straight rays on one thread: ours, paper 4's, the crates obvhs and bvh, and Embree in a build with the feature embree.
+#[derive(Args)]
+struct ChartBvhArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
+    scenes: Vec<String>,
+    /// How often each method runs; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
+    #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
+    bunny: PathBuf,
+    /// Compares hits instead of timing: all methods with each other, 2,000 rays and every dispute with brute force in f64.
+    #[arg(long)]
+    check: bool,
+}
+
 /// Times whole frames of scenes, and each pass of them.
 #[cfg(feature = "game")]
 #[derive(Args)]
@@ -112,7 +153,7 @@ struct ChartFrameArgs {
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     frames: u32,
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// The game's configuration [default: built in, as the game.toml that comes with the game].
     #[arg(long, value_name = "game.toml")]
@@ -156,7 +197,7 @@ struct ShotArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Adds object id, image order, travel time and g to an .exr.
     #[arg(long)]
@@ -183,7 +224,7 @@ struct TraceArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Rays a pixel: a square number, 1 to 256.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -205,6 +246,38 @@ struct TraceArgs {
     output: PathBuf,
 }
 
+/// Judges the game's picture of a scene by the exact one: for each object and image order how far surface points are displaced, which pixels
+/// differ, the difference in colour (FLIP); ends with code 1 where a limit is passed.
+///
+/// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified beyond
+/// f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin images are
+/// narrower than a pixel: their area to the judge and as shown.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct CompareArgs {
+    /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE")]
+    scene: String,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
+    size: [u32; 2],
+    /// The time T, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    at: f64,
+    /// The judge's rays a pixel: a square number, 1 to 256.
+    #[arg(long, value_name = "N", default_value_t = 9)]
+    samples: u32,
+    /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    tolerance: f64,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+    /// The game's picture, the judge's and their difference, side by side.
+    #[arg(short, value_name = "FILE.png")]
+    output: PathBuf,
+}
+
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
 ///
 /// Columns: ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz, per unit mass in r_s = c = 1. p is the rain-frame momentum, q turns body axes
@@ -217,10 +290,10 @@ struct SimulateArgs {
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     until: Option<f64>,
     /// T between rows, in r_s/c.
-    #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY)]
+    #[arg(long, value_name = "DT", default_value_t = simulate::DEFAULT_EVERY, allow_negative_numbers = true)]
     every: f64,
     /// Seed for everything left to chance.
     #[arg(long, value_name = "N", default_value_t = 0)]
@@ -235,8 +308,9 @@ struct SimulateArgs {
 /// Lengths in r_s, angles in radians, phi in [0, π], delay in r_s/c. psi is measured at the camera from the outward radial direction;
 /// redshift is ν_observed/ν_emitted between static observers. Fields stay empty where nothing is seen.
 #[derive(Args)]
+#[command(after_long_help = methods::help(), after_help = methods::help())]
 struct ProjectArgs {
-    /// How the ray is found; exact is the closed form in f64.
+    /// How the ray is found; exact is the closed form in f64. The methods are listed below.
     #[arg(long, value_name = "NAME", default_value = "exact")]
     method: String,
     /// Which image: 1 the primary, 2 the secondary, 3 the one after a full turn.
@@ -251,9 +325,13 @@ struct ProjectArgs {
 }
 
 /// Bakes a lensing table with a progress bar; prints its size, the time, and its error on fresh random points.
+///
+/// Errors are those of the direction (rain frame, degrees), of the travel time (r_s/c, and as a share of what is allowed: 0.002 + 3e-7 of the
+/// travel time, 0.02 nearer than r = 1.05) and of the direction at emission. Adversarial points crowd where methods fail: at the camera, at the
+/// axis, at the horizon and the photon sphere; friendly ones are spread evenly. The game draws with tables/default.lut.
 #[derive(Args)]
 struct BakeArgs {
-    /// Nodes along each axis, 5 to 128; the scheme residual takes twice as many angles.
+    /// Size of the table, 5 to 128: nodes along each axis for paper 1's schemes, along Φ for the scheme residual (L and r take fewer).
     #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
     nodes: u8,
     /// What is stored.
@@ -262,7 +340,7 @@ struct BakeArgs {
     /// The file to write.
     #[arg(short, value_name = "FILE", default_value = "tables/baked.lut")]
     output: PathBuf,
-    /// Random points for each order to measure the error on.
+    /// Random points for each order to measure the error on, 0 to measure nothing.
     #[arg(long, value_name = "N", default_value_t = 30_000)]
     points: usize,
 }
@@ -292,9 +370,10 @@ enum BranchArg {
 }
 
 fn main() -> ExitCode {
-    match Cli::parse().command {
+    let cli = Cli::parse();
+    match cli.command {
         #[cfg(feature = "game")]
-        None => lensrunner::play::run(&lensrunner::play::PlayArgs::default()),
+        None => lensrunner::play::run(&cli.play),
         #[cfg(not(feature = "game"))]
         None => fail(&"this build has no renderer: choose a subcommand (--help lists them)", 2),
         #[cfg(feature = "game")]
@@ -305,9 +384,15 @@ fn main() -> ExitCode {
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Trace(args)) => run_trace(&args),
+        #[cfg(feature = "game")]
+        Some(Command::Compare(args)) => run_compare(&args),
         Some(Command::Chart(chart)) => match chart {
             ChartCommand::Projection(args) => run_chart_projection(args),
+            ChartCommand::Trace(args) => {
+                finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
+            }
             ChartCommand::Aurora(args) => run_chart_aurora(args),
+            ChartCommand::Bvh(args) => run_chart_bvh(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
             #[cfg(feature = "game")]
@@ -363,8 +448,11 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 }
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
-    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed };
-    finish_chart(projection::run(&request))
+    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
+    match projection::run(&request, None) {
+        Err(error @ ChartError::Method { .. }) => fail(&error, 2),
+        result => finish_chart(result),
+    }
 }
 
 fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
@@ -377,6 +465,21 @@ fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
     };
     let mut runners = Vec::new();
     finish_chart(aurora::chart::run(&args.chart.into(), &experiment, "", &mut runners))
+}
+
+fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {
+    let request = bvh::Request {
+        output: args.chart.into(),
+        scenes: args.scenes,
+        size: [1024, 768],
+        rounds: args.rounds.into(),
+        bunny: args.bunny,
+        check: args.check,
+    };
+    match bvh::run(&request) {
+        Err(error) if error.is_input() => fail(&error, 2),
+        done => finish_chart(done),
+    }
 }
 
 /// Says what was written, or what went wrong.
@@ -392,6 +495,10 @@ fn finish_chart<E: std::fmt::Display>(written: Result<Vec<PathBuf>, E>) -> ExitC
 
 #[cfg(feature = "game")]
 fn run_shot(args: &ShotArgs) -> ExitCode {
+    lensrunner::play::warn_on_stderr();
+    if args.layers && args.output.extension().is_some_and(|extension| extension != "exr") {
+        return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
+    }
     use lensrunner::render::shot::{Request, shot_to_file};
     let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
@@ -425,6 +532,23 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
             eprintln!("{rate:.0} rays per second and thread");
             ExitCode::SUCCESS
         }
+        Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
+    }
+}
+
+#[cfg(feature = "game")]
+fn run_compare(args: &CompareArgs) -> ExitCode {
+    use lensrunner::measure::compare::command;
+    let request = trace::Request {
+        scene: args.scene.clone(),
+        size: args.size,
+        at: args.at,
+        samples: args.samples,
+        threads: 0,
+        tolerance: args.tolerance,
+    };
+    match command::run(&request, args.config.as_deref(), &args.output, &lensrunner::play::contestant::draw) {
+        Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }

@@ -2,21 +2,30 @@
 
 mod house;
 mod lensing_integrator;
+mod lensing_stability;
 mod lensing_tables;
 mod light_against_judge;
 mod measure_aurora;
 mod measure_charts;
+mod measure_compare;
 mod measure_project;
+mod measure_projection;
 mod reference_bvh_build;
+mod reference_bvh_rays;
+mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
+mod render_lookup;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
+#[cfg(feature = "game")]
+mod render_trouble;
 mod scene_aurora;
 mod scene_config;
 mod scene_disk;

@@ -53,7 +53,7 @@ struct Drawn {
 
 fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera) -> Drawn {
     renderer.set_disk(Some(disk.clone()));
-    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), settings: settings() };
+    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     renderer.picture(&input, false).unwrap();
     let slice = lensrunner::lensing::Slice::new(renderer.table(), camera.radius());
     let view = lensrunner::render::disk::view::DiskView::new(disk, &input, &slice, renderer.size()[0]);
@@ -240,7 +240,7 @@ fn the_picture_is_the_exact_one() {
     for (l, degrees, least) in [(24.0, 80.0, 27.0), (24.0, 40.0, 27.0)] {
         let camera = camera(l, degrees, 60f64.to_radians());
         renderer.set_disk(Some(disk.clone()));
-        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), settings: settings() };
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
         let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
         let eye =
             Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };

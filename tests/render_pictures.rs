@@ -36,7 +36,7 @@ fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
     let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
     let camera = stage.camera(0.0, &[]);
     let settings = Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() };
-    let frame = stage.frame(camera, size[0], 0.0, &[], None, &settings);
+    let frame = stage.frame(camera, size, 0.0, &[], None, &settings);
     (renderer.picture(&frame, true).unwrap(), camera)
 }
 
@@ -62,7 +62,8 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
     let camera = static_camera(DVec3::new(9.0, 7.0, 30.0), DVec3::new(-9.0, -7.0, -30.0), DVec3::Y, 60f64.to_radians());
     let slice = Slice::new(renderer.table(), camera.radius());
     // Pixels so small that no image is left out as too thin.
-    let view = View { camera: &camera, slice: &slice, pixel: 1e-9 };
+    let settings = Settings::default();
+    let view = View { camera: &camera, slice: &slice, pixel: 1e-9, aspect: None, settings: &settings };
     let model = renderer.add_model(&assembly.models[0]);
     let prepared = lensrunner::render::models::Prepared::new(&assembly.models[0]);
     let mut placed = Vec::new();
@@ -87,7 +88,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             }));
         }
     }
-    let frame = FrameInput { camera, time: 0.0, placed, settings: Settings::default() };
+    let frame = FrameInput { camera, time: 0.0, placed, aurora: None, settings: Settings::default() };
     renderer.picture(&frame, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.geometry().seen()).unwrap();
     let seen: &[SeenVertex] = bytemuck::cast_slice(&bytes);

@@ -245,7 +245,7 @@ const ANGLE: f64 = 1e-10;
 const DELAY: f64 = 2e-10;
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::support::fixed(300))]
 
     #[test]
     fn outside_agrees_with_the_integrator(r in outside(), l in outside(), phi in angle(), n in order()) {

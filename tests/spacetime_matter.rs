@@ -243,7 +243,7 @@ fn any_state() -> impl Strategy<Value = ShipState> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::support::fixed(200))]
 
     #[test]
     fn coasting_keeps_energy_and_angular_momentum(start in any_state()) {

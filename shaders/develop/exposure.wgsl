@@ -4,9 +4,6 @@
 
 var<workgroup> sums: array<vec2<f32>, 64>;
 
-/// Middle grey that the metered light is brought to.
-const KEY: f32 = 0.35;
-
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) lane: u32) {
     let size = textureDimensions(source);
@@ -26,7 +23,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
             total += sums[k];
         }
         let metered = total.x / max(total.y, 1e-9);
-        let wanted = clamp(KEY / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
+        let wanted = clamp(frame.sky_x.w / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
         var exposure = adaptation.x;
         if (frame.switches.x & FLAG_HOLD_EXPOSURE) == 0u {
             if adaptation.z == 0.0 {

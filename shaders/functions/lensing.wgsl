@@ -8,7 +8,7 @@
 //   T                      Painlevé–Gullstrand time
 //   beta                   √a, the river's speed                     bent     Φ as the closed forms see it
 //
-// The twin of src/lensing/formulas.rs and src/lensing/lookup.rs, function for function. No bindings here: the shader that includes
+// The twin of src/lensing/formulas.rs, inside.rs and lookup.rs, function for function. No bindings here: the shader that includes
 // this file supplies
 //   fn lens_texel(index: u32) -> vec4<f32>
 // the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
@@ -57,7 +57,7 @@ struct LensRay {
     emission_frequency: f32,   // and its frequency
     slope: f32,                // w
     emission_slope: f32,       // w_e
-    energy: f32,               // e
+    energy: f32,               // e, negative where E < 0
     valid: bool,
 }
 
@@ -148,7 +148,7 @@ fn energy(w: f32, u: f32, room: f32) -> f32 {
 }
 
 fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
-    if w > 0.0 {
+    if w > 0.0 || e < 0.0 {
         return (w + beta * e) / room;
     }
     return (u * u - e * e) / (beta * e - w);
@@ -286,35 +286,153 @@ fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
     return vec3<f32>(w, e, w_e);
 }
 
-fn lookup(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
-    let nothing = LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
-    if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
-        return nothing;
+const INSIDE_STEPS: u32 = 6u;
+const INSIDE_ROOT: f32 = 0.12;
+/// Nodes and weights of Gauss's rule of twelve, one half.
+const INSIDE_NODES = array<vec2<f32>, 6>(
+    vec2<f32>(0.12523341, 0.24914705), vec2<f32>(0.3678315, 0.23349254), vec2<f32>(0.58731794, 0.20316743),
+    vec2<f32>(0.7699027, 0.16007833), vec2<f32>(0.90411726, 0.10693933), vec2<f32>(0.98156065, 0.047175337));
+
+/// Integrals over a path inside the horizon: Φ, dΦ/dq, ∫ (t⁴ + 3 t²) 2 dt/W.
+struct Path {
+    sweep: f32,
+    by_square: f32,
+    lag: f32,
+}
+
+fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
+    var d = 0.5;
+    if q < INSIDE_ROOT {
+        d = q;
+        for (var i = 0; i < 4; i++) {
+            let s = 1.0 + d;
+            d -= (q * s * s * s - d) / (3.0 * q * s * s - 1.0);
+        }
     }
-    let swept = max(sweep, SMALLEST_SWEEP);
-    let c = 1.0 / at.r;
-    let room = max(at.room, 1e-4);
-    let bent = bent_sweep(swept);
-    let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
-    let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
-    let w = ray.x;
-    let e = ray.y;
-    let w_e = ray.z;
-    let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
-    let delay = parts.x + parts.z * (parts.y + table.y);
+    let s = 1.0 + d;
+    let hl = zl + d;
+    let hr = zr + d;
+    let sine = dr / (sqrt(r * hl) + sqrt(l * hr));
+    let cosine = (sqrt(r * l) + sqrt(hr * hl)) / s;
+    let half = 0.5 * atan2(sine, cosine);
+    let middle = atan2(sqrt(l), sqrt(hl)) + half;
+    var nodes = INSIDE_NODES;
+    var path = Path(0.0, 0.0, 0.0);
+    for (var k = 0u; k < 12u; k++) {
+        let node = nodes[k % 6u];
+        let theta = middle + select(-half, half, k < 6u) * node.x;
+        let c = cos(theta);
+        let sn = sin(theta);
+        let rho = s * sn * sn;
+        let square = max(s * c * c - d + q * rho * rho * rho, 1e-12);
+        let part = node.y * half * 2.0 * c * sqrt(s / square);
+        path.sweep += part;
+        path.by_square -= 0.5 * part * rho * rho * rho / square;
+        path.lag += part * (rho + 3.0) * rho;
+    }
+    return path;
+}
+
+/// (w, e, w_e, delay) of the ray between two places inside; delay is 0 where there is none.
+fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
+    let l = cam.l;
+    let r = at.r;
+    let dr = at.dr;
+    let zl = -cam.room * l;
+    let zr = -at.room * r;
+    if !(dr > 0.0 && zr > 0.0) {
+        return vec4<f32>(0.0);
+    }
+    let tl = sqrt(l);
+    let tr = sqrt(r);
+    let dt = dr / (tl + tr);
+    if sweep >= 2.0 * atan2(dr / (tr * sqrt(zl) + tl * sqrt(zr)), tr * tl + sqrt(zr * zl)) {
+        return vec4<f32>(0.0);
+    }
+    let m = 0.5 * (tl + tr);
+    var q = max((4.0 * dt * dt / (sweep * sweep) - (1.0 - m * m)) / (m * m * m * m * m * m), 0.0);
+    var path = Path(0.0, 0.0, 0.0);
+    for (var i = 0u; i <= INSIDE_STEPS; i++) {
+        path = inside_path(q, l, r, zl, zr, dr);
+        if i < INSIDE_STEPS {
+            let turn = path.sweep / sweep;
+            q = max(q - 0.5 * (turn * turn - 1.0) * path.sweep / path.by_square, 0.0);
+        }
+    }
+    let e = sqrt(q);
+    let wl = sqrt(zl + q * l * l * l);
+    let wr = sqrt(zr + q * r * r * r);
+    let fall = e * dt * (l + tl * tr + r) + dr * (q * (r * r + r * l + l * l) - 1.0) / (wl + wr);
+    let plus = 2.0 * (log1p(dt / (1.0 + tl)) - log1p(fall / (e * l * tl + wl)) - dt) + e * path.lag;
+    let mean = log1p(2.0 * dt * (1.0 + tr) / (zr * (1.0 + tl))) - 2.0 * dt;
+    let w = -wl / (l * tl);
+    let w_e = -wr / (r * tr);
+    if elapsed > mean {
+        return vec4<f32>(w, -e, w_e, 2.0 * mean - plus);
+    }
+    return vec4<f32>(w, e, w_e, plus);
+}
+
+/// Light of no age, and of any: where there are two rays, E > 0 or E < 0.
+const YOUNG: f32 = 0.0;
+const OLD: f32 = 3e38;
+
+/// The answer where there is none.
+fn no_ray() -> LensRay {
+    return LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
+}
+
+fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
     let frequency = sqrt(radial * radial + cam.a * cam.a);
     let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
     let emission_frequency = sqrt(leaving * leaving + c * c);
     if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
-        return nothing;
+        return no_ray();
     }
-    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, at.room > 0.0);
+    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
 }
 
-/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along.
-fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {
+fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
+        return no_ray();
+    }
+    let swept = max(sweep, SMALLEST_SWEEP);
+    let c = 1.0 / at.r;
+    var w = 0.0;
+    var e = 0.0;
+    var w_e = 0.0;
+    var delay = 0.0;
+    var room = at.room;
+    if room > 0.0 {
+        room = max(room, 1e-4);
+        let bent = bent_sweep(swept);
+        let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
+        let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
+        let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
+        w = ray.x;
+        e = ray.y;
+        w_e = ray.z;
+        let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
+        delay = parts.x + parts.z * (parts.y + table.y);
+    } else if cam.room < 0.0 {
+        let ray = inside(cam, at, swept, elapsed);
+        w = ray.x;
+        e = ray.y;
+        w_e = ray.z;
+        delay = ray.w;
+        if !(delay > 0.0) {
+            return no_ray();
+        }
+    } else {
+        return no_ray();
+    }
+    return ray_of(cam, c, room, w, e, w_e, delay);
+}
+
+/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the
+/// time since the light left as far as it is known: where camera and point are both inside it decides between E > 0 and E < 0.
+fn lens_lookup_aged(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
     let at = place(cam, along, across, height);
     var sweep = at.phi;
@@ -323,7 +441,11 @@ fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {
     } else if order == 3u {
         sweep = 2.0 * HALF_TURN + at.phi;
     }
-    return lookup(cam, at, sweep);
+    return lookup(cam, at, sweep, elapsed);
+}
+
+fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {
+    return lens_lookup_aged(along, across, height, order, YOUNG);
 }
 
 /// The same where only the offset is at hand.

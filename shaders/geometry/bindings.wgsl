@@ -41,7 +41,8 @@ struct Counters {
     caught: atomic<u32>,
     /// Seen vertices before those of the mesh stage.
     model_vertices: u32,
-    unused: u32,
+    /// Patches that found no room at all.
+    lost: atomic<u32>,
 }
 
 const NO_PLACEMENT: u32 = 0xffffffffu;

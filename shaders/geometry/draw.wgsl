@@ -14,14 +14,21 @@ fn opaque_fragment(in: Surface) -> @location(0) vec4<f32> {
     return vec4<f32>(shaded(in), 1.0);
 }
 
-/// For comparing pictures: object id, image order, travel time and g.
+struct Layers {
+    /// Object id, image order, travel time and g.
+    @location(0) what: vec4<f32>,
+    /// Texture coordinates, coverage.
+    @location(1) surface: vec4<f32>,
+}
+
+/// For comparing pictures.
 @fragment
-fn layers_fragment(in: Surface) -> @location(0) vec4<f32> {
+fn layers_fragment(in: Surface) -> Layers {
     if hidden(in) {
         discard;
     }
     let ids = placements[in.which.x].ids;
-    return vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w);
+    return Layers(vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w), vec4<f32>(in.uv.xy, in.coverage, 0.0));
 }
 
 @vertex

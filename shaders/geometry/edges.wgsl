@@ -44,7 +44,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(across_plane(a.xyz)), length(across_plane(b.xyz)));
-    let least_radius = min(frame.radial.w, length(frame.radial.xyz * frame.radial.w + a.xyz));
+    let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
     let quarter = 0.25 * frame.size.w;
     let small = seen_under < 8.0 * frame.size.z || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
@@ -66,5 +66,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         }
         error = chord_error(points[0], points[1], points[2], points[3], points[4]);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement))), bitcast<f32>(0u), 0.0, error);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement), 1.0)), bitcast<f32>(0u), 0.0, error);
 }

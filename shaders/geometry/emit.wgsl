@@ -1,7 +1,7 @@
 // How a stage hands over: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is held inside its buffer.
 
-/// Height of a triangle on the screen over its longest side, in pixels. In a thin image it decides how the triangle is drawn: at least a
-/// pixel, as it is; less, grown to a pixel, with the covered part as alpha, so that narrow images are lines and not dots.
+/// Height of a triangle on the screen over its longest side, in pixels. In a thin image it decides how the triangle is drawn: at least
+/// `render.min_width`, as it is; less, grown to that, with the covered part as alpha, so that narrow images are lines and not dots.
 fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
     let a = p1 - p0;
     let b = p2 - p0;
@@ -14,12 +14,13 @@ fn pixels(clip: vec4<f32>) -> vec2<f32> {
     return clip.xy / clip.w * 0.5 * frame.size.xy;
 }
 
-/// Grows a thin triangle: every corner moves away from the centroid until no half-width is under half a pixel.
+/// Grows a thin triangle: every corner moves away from the centroid until no half-width is under half the least width.
 fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, length_along: f32) -> vec2<f32> {
+    let least = frame.side_a.w;
     let across = vec2<f32>(-direction.y, direction.x);
     let v = p - centre;
-    let along_part = dot(v, direction) * max(1.0, 1.0 / max(length_along, 0.05));
-    let across_part = dot(v, across) * min(1.0 / max(height, 1e-3), 1e3);
+    let along_part = dot(v, direction) * max(1.0, least / max(length_along, 0.05));
+    let across_part = dot(v, across) * min(least / max(height, 1e-3), 1e3);
     return centre + direction * along_part + across * across_part;
 }
 
@@ -40,7 +41,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
     let p1 = pixels(c1);
     let p2 = pixels(c2);
     let height = height_on_screen(p0, p1, p2);
-    if height >= 1.0 {
+    if height >= frame.side_a.w {
         return false;
     }
     // Coverage adds up to the truth only if each line of sight meets one layer: back faces are left out.
@@ -61,7 +62,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
         return true;
     }
     direction = direction / along;
-    let coverage = height * min(along, 1.0);
+    let coverage = height * min(along, frame.side_a.w) / (frame.side_a.w * frame.side_a.w);
     let slot = atomicAdd(&counters.thin, 3u);
     if slot + 3u > frame.capacity.w {
         atomicSub(&counters.thin, 3u);
@@ -82,8 +83,7 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement) {
     }
     let slot = atomicAdd(&counters.indices, 3u);
     if slot + 3u > frame.capacity.y {
-        atomicSub(&counters.indices, 3u);
-        atomicAdd(&counters.coarse, 1u);
+        atomicAdd(&counters.lost, 1u);
         return;
     }
     indices[slot] = i0;
@@ -91,8 +91,28 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement) {
     indices[slot + 2u] = i2;
 }
 
-/// Hands a tame piece to the mesh stage: its blocks are allocated here, so that a full buffer is noticed while a coarser way is left.
-fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) -> bool {
+/// Hands a tame piece to the mesh stage, or where the buffers are full (but for the fifth that is kept back) draws it as coarse as can be.
+fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) {
+    let most = frame.capacity - frame.capacity / 5u;
+    if !emit_blocks(piece, levels, rows, columns, most) {
+        emit_coarse(piece);
+    }
+}
+
+/// A piece without any subdivision, from what is kept back; if that is used up too, the triangle of the model that it is a part of.
+fn emit_coarse(piece: Piece) {
+    atomicAdd(&counters.coarse, 1u);
+    let placement = placements[piece.what.x];
+    let corners = model_triangles[piece.what.y].vertices.xyz + vec3<u32>(placement.ids.z);
+    let whole = piece.what.z == PIECE_TRIANGLE && piece.what.w == 0u;
+    if whole || !emit_blocks(piece, vec4<u32>(1u), 1u, 1u, frame.capacity) {
+        emit_triangle(corners.x, corners.y, corners.z, placement);
+    }
+}
+
+/// Room for the blocks of a piece is taken here, so that a full buffer is noticed while a coarser way is left. False if there is less than
+/// `most` allows.
+fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: vec4<u32>) -> bool {
     let fan = piece.what.z == PIECE_FAN;
     var row = 0u;
     loop {
@@ -103,19 +123,25 @@ fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) -> bool {
             let h = min(BLOCK, rows - row);
             let w = min(BLOCK, columns - column);
             let vertex_count = select((h + 1u) * (h + 2u) / 2u, (h + 1u) * (w + 1u), fan);
-            let triangle_count = select(h * h, 2u * h * w, fan);
-            let slot = atomicAdd(&counters.work, 1u);
-            let first_vertex = atomicAdd(&counters.vertices, vertex_count);
-            let first_index = atomicAdd(&counters.indices, 3u * triangle_count);
-            if slot >= frame.capacity.z || first_vertex + vertex_count > frame.capacity.x || first_index + 3u * triangle_count > frame.capacity.y {
-                // Given back, so that the counts stay inside the buffers.
-                atomicSub(&counters.work, 1u);
-                atomicSub(&counters.vertices, vertex_count);
-                atomicSub(&counters.indices, 3u * triangle_count);
-                atomicAdd(&counters.coarse, 1u);
+            let index_count = 3u * select(h * h, 2u * h * w, fan);
+            if atomicLoad(&counters.work) >= most.z || atomicLoad(&counters.vertices) + vertex_count > most.x
+                || atomicLoad(&counters.indices) + index_count > most.y {
                 return false;
             }
-            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, triangle_count));
+            let slot = atomicAdd(&counters.work, 1u);
+            let first_vertex = atomicAdd(&counters.vertices, vertex_count);
+            let first_index = atomicAdd(&counters.indices, index_count);
+            if slot >= frame.capacity.z || first_vertex + vertex_count > frame.capacity.x || first_index + index_count > frame.capacity.y {
+                // Others took the rest meanwhile. What was taken is left empty, so that nothing stale is drawn.
+                if slot < frame.capacity.z {
+                    work[slot].place = vec4<u32>(0u);
+                }
+                for (var i = first_index; i < min(first_index + index_count, frame.capacity.y); i++) {
+                    indices[i] = 0u;
+                }
+                return false;
+            }
+            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, index_count / 3u));
             // So that a thread of the mesh stage finds the item of its vertex.
             for (var i = 0u; i < vertex_count; i++) {
                 seen[first_vertex + i].surface.x = bitcast<f32>(slot);
@@ -129,13 +155,14 @@ fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) -> bool {
 
 /// Puts a piece into the queue that the next pass of splitting reads.
 fn emit_piece(queue: u32, placement: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
+    let piece = Piece(vec4<u32>(placement, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
     let slot = atomicAdd(&counters.pieces[queue], 1u);
     if slot >= frame.capacity.z {
         atomicSub(&counters.pieces[queue], 1u);
-        atomicAdd(&counters.coarse, 1u);
+        emit_coarse(piece);
         return;
     }
-    pieces[queue * frame.capacity.z + slot] = Piece(vec4<u32>(placement, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
+    pieces[queue * frame.capacity.z + slot] = piece;
 }
 
 /// Whether a patch with these corners is off the screen for sure: all beyond one side by more than its sag.

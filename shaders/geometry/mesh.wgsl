@@ -165,6 +165,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
     // Inside a fan: the axis point and the outer point at their emission times, then the place between them.
     let body = body_point(placement, triangle, point);
     var apex = vec3<f32>(0.0);
+    var apex_height = 0.0;
     var found: Answer;
     for (var k = select(0u, 1u, s == 1.0); k < select(3u, 2u, s == 1.0); k++) {
         var query = query_body(body);
@@ -172,6 +173,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
             query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.offset, s);
+            query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
             if s == 0.0 {
                 // A quarter of a pixel past the axis: the next order begins there with arcs cut at other points, and between two chords of
                 // one circle a pixel could be missed.
@@ -181,6 +183,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         let next = answer(placement, query, placement.ids.x);
         if k == 0u {
             apex = apex_offset(next.offset);
+            apex_height = dot(next.position, frame.radial.xyz);
         } else {
             found = next;
         }
@@ -192,7 +195,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
     let v2 = model_vertices[first + triangle.vertices.z];
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     let u = v0.position.w * corner.x + v1.position.w * corner.y + v2.position.w * corner.z;
-    var vertex = seen_vertex(placement, item.piece.what.x, found.ray, found.offset, normal_of(placement, normal.xyz),
+    var vertex = seen_vertex(placement, item.piece.what.x, found, normal_of(placement, normal.xyz),
         vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);

@@ -10,23 +10,21 @@ fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
     return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
 }
 
-/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of a static observer there: γβ outward.
+/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
 fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
     if (placement.triangles.w & PLACEMENT_HELD) == 0u {
         return placement.momentum;
     }
-    let r = max(length(position), 1.0005);
-    let gamma = inverseSqrt(1.0 - 1.0 / r);
-    return vec4<f32>(position * (gamma / (r * sqrt(r))), gamma);
+    return held_momentum(position);
 }
 
-fn seen_vertex(placement: Placement, index: u32, ray: Sight, offset: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
+fn seen_vertex(placement: Placement, index: u32, found: Answer, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
+    let ray = found.ray;
     var vertex: SeenVertex;
     vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
-    let position = frame.radial.xyz * frame.radial.w + offset;
-    let momentum = momentum_at(placement, position);
+    let momentum = momentum_at(placement, found.position);
     vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
-    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(position));
+    vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
     return vertex;
 }
@@ -50,14 +48,21 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// The level that brings the error of a chord under the budget: the error falls as the square of the number of segments.
-fn level_for(error: f32) -> u32 {
+/// The level that brings the error of a chord under the budget: the error falls as the square of the number of segments. A whole edge of
+/// the model may be halved `switches.y` times; `part` is how much of it the chord spans, so that both sides of it agree.
+fn level_for(error: f32, part: f32) -> u32 {
     let n = ceil(sqrt(error / frame.size.w));
     // Not-a-number compares false.
     if n > 1.0 {
-        return u32(min(n, 4096.0));
+        return u32(clamp(n, 1.0, max(part * f32(1u << frame.switches.y), 1.0)));
     }
     return 1u;
+}
+
+/// How much of an edge of the model the line between two barycentric corners spans.
+fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let d = abs(b - a);
+    return max(d.x, max(d.y, d.z));
 }
 
 /// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held four times closer, so that
@@ -106,7 +111,7 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
 fn query_fan(apex: vec3<f32>, outer: vec3<f32>, s: f32) -> Query {
     let parts = split_offset(outer);
     let along = dot(apex + (outer - apex) * s, frame.radial.xyz);
-    return Query(vec3<f32>(0.0), true, along, parts.across * s, parts.side);
+    return Query(vec3<f32>(0.0), true, along, parts.across * s, frame.radial.w + along, parts.side);
 }
 
 /// The offset of the axis point: on the axis exactly, at the height of the barycentric point.

@@ -8,13 +8,16 @@ struct Sight {
     /// Rain-frame momentum of the photon at the point and at the camera, over E b; w: its frequency there.
     leaving: vec4<f32>,
     arriving: vec4<f32>,
+    /// The conserved energy E, in the same unit: negative only inside the horizon.
+    energy: f32,
     valid: bool,
 }
 
 /// The ray of `order` from the point `offset` away from the camera (rain axes). `side` is the unit vector across the axis towards the
-/// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it.
-fn sight(along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
-    let ray = lens_lookup(along, across, order);
+/// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it,
+/// `height` the distance of the hole along it; `elapsed` the age of the light as far as it is known.
+fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elapsed: f32) -> Sight {
+    let ray = method_ray(along, across, height, order, elapsed);
     let turn = select(1.0, -1.0, order == 2u);
     let n = frame.radial.xyz;
     // The direction, at the camera, in which the ray sweeps backwards round the hole; even orders go the other way.
@@ -27,7 +30,7 @@ fn sight(along: f32, across: f32, side: vec3<f32>, order: u32) -> Sight {
     result.arriving = vec4<f32>(-seen_at * ray.frequency, ray.frequency);
 
     // At the point: radial m, and the sweep's tangent side·cosφ − n·sinφ, times its sense.
-    let height = frame.radial.w + along;
+    result.energy = ray.energy;
     let c = inverseSqrt(max(height * height + across * across, 1e-12));
     let m = n * (height * c) + side * (across * c);
     let tangent = (side * (height * c) - n * (across * c)) * turn;
@@ -43,10 +46,16 @@ struct Split {
 }
 
 fn split_offset(offset: vec3<f32>) -> Split {
+    return split_place(offset, offset);
+}
+
+/// The same of a place known both from the camera and, by `position`, from the hole: each number from where it has its digits.
+fn split_place(offset: vec3<f32>, position: vec3<f32>) -> Split {
     let n = frame.radial.xyz;
+    let nearer = select(position, offset, dot(offset, offset) <= dot(position, position));
     var result: Split;
     result.along = dot(offset, n);
-    let q = vec2<f32>(dot(offset, frame.side_a.xyz), dot(offset, frame.side_b.xyz));
+    let q = vec2<f32>(dot(nearer, frame.side_a.xyz), dot(nearer, frame.side_b.xyz));
     result.across = length(q);
     if result.across > 0.0 {
         result.side = (frame.side_a.xyz * q.x + frame.side_b.xyz * q.y) / result.across;
@@ -71,11 +80,11 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
     return k / max(length(k), 1e-20);
 }
 
-/// Where the body point is, away from the camera, `s` after the emission time T₀ of the object's centre.
-fn offset_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
+/// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre.
+fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let still = placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
     let turning = placement.shape_rate_x.xyz * body.x + placement.shape_rate_y.xyz * body.y + placement.shape_rate_z.xyz * body.z;
-    return placement.offset.xyz + still + (placement.velocity.xyz + turning) * s;
+    return still + (placement.velocity.xyz + turning) * s;
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
@@ -84,62 +93,77 @@ struct Query {
     fixed: bool,
     along: f32,
     across: f32,
+    /// L + along, with the digits it has near the hole.
+    height: f32,
     side: vec3<f32>,
 }
 
 struct Answer {
     ray: Sight,
-    /// Offset from the camera at emission.
+    /// Offset from the camera at emission, and the same place from the hole.
     offset: vec3<f32>,
+    position: vec3<f32>,
 }
 
 fn query_body(body: vec3<f32>) -> Query {
-    return Query(body, false, 0.0, 0.0, vec3<f32>(0.0));
+    return Query(body, false, 0.0, 0.0, 0.0, vec3<f32>(0.0));
 }
 
 /// Steps of Newton on the emission time: each squares the error, which starts as the part of c at which the object turns or accelerates
-/// while light crosses it.
+/// while light crosses it. Inside the horizon a vertex may have no ray at the time of its centre, and must be found further back.
 const EMISSION_STEPS: u32 = 3u;
+const EMISSION_STEPS_INSIDE: u32 = 10u;
 
-/// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀; the left side increases strictly with s, since no emitter
-/// outruns light, so Newton with its slope held above a floor converges from any start. There is one call of the lookup here, and a pass
-/// should call this from one place: shader compilers copy functions into every call.
+/// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s for light of E > 0
+/// and decreases for E < 0, since no emitter outruns light, so Newton with its slope held off zero converges from any start. There is one
+/// call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
 fn answer(placement: Placement, query: Query, order: u32) -> Answer {
     var result: Answer;
     var s = 0.0;
-    for (var i = 0u; i <= EMISSION_STEPS; i++) {
+    // The latest s at which the point was in the camera's past.
+    var known = 0.0;
+    var back = 0.0;
+    let moves = placement.velocity.w != 0.0;
+    let steps = select(EMISSION_STEPS, EMISSION_STEPS_INSIDE, (frame.switches.x & FLAG_INSIDE) != 0u);
+    for (var i = 0u; i <= steps; i++) {
         var along = query.along;
         var across = query.across;
+        var height = query.height;
         var side = query.side;
         if query.fixed {
             result.offset = frame.radial.xyz * along + side * across;
+            result.position = frame.radial.xyz * height + side * across;
         } else {
-            result.offset = offset_at(placement, query.body, s);
-            let parts = split_offset(result.offset);
+            let swing = swing_at(placement, query.body, s);
+            result.offset = placement.offset.xyz + swing;
+            result.position = placement.position.xyz + swing;
+            let parts = split_place(result.offset, result.position);
             along = parts.along;
             across = parts.across;
+            height = dot(result.position, frame.radial.xyz);
             side = parts.side;
         }
-        result.ray = sight(along, across, side, order);
-        if query.fixed || placement.velocity.w == 0.0 || i == EMISSION_STEPS {
+        // What moves is seen by light of one age; what is held, by light of any: its placement says which is meant.
+        let elapsed = select(select(YOUNG, OLD, (placement.triangles.w & PLACEMENT_MINUS) != 0u), placement.offset.w - s, moves);
+        result.ray = sight(along, across, height, side, order, elapsed);
+        if query.fixed || !moves || i == steps {
             break;
         }
-        let missing = placement.offset.w - (s + result.ray.delay);
+        if !result.ray.valid {
+            // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
+            back = select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0);
+            s = select(s - back, 0.5 * (s + known), known < s);
+            continue;
+        }
+        known = s;
+        let missing = elapsed - result.ray.delay;
         // A time in which the object moves less than a tenth of a pixel need not be found.
         if i > 0u && abs(missing) * length(placement.velocity.xyz) < 0.1 * frame.size.z * result.ray.delay {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
-        let energy = result.ray.leaving.w - river_at(result.offset, result.ray.leaving.xyz);
-        let slope = 1.0 - dot(placement.velocity.xyz, result.ray.leaving.xyz) / energy;
-        s += missing / max(slope, 0.05);
+        let energy = result.ray.energy;
+        s += missing * clamp(energy / (energy - dot(placement.velocity.xyz, result.ray.leaving.xyz)), -20.0, 20.0);
     }
     return result;
-}
-
-/// β n·k at an offset from the camera: what turns the rain frame's frequency into the conserved energy E = ω − β n·k.
-fn river_at(offset: vec3<f32>, k: vec3<f32>) -> f32 {
-    let position = frame.radial.xyz * frame.radial.w + offset;
-    let r = max(length(position), 1e-6);
-    return dot(position, k) / (r * sqrt(r));
 }

@@ -35,7 +35,7 @@ var<private> model_levels: vec3<u32>;
 fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
     if !whole {
-        return level_for(error * strict);
+        return level_for(error * strict, part_between(a, b));
     }
     let absent = a + b;
     if absent.x == 0.0 {
@@ -102,7 +102,7 @@ fn refine_triangle(piece: Piece, queue: u32) {
             atomicAdd(&counters.coarse, 1u);
         }
         let held = min(levels, vec3<u32>(BLOCK));
-        _ = emit_work(piece, vec4<u32>(held, 1u), max(held.x, max(held.y, held.z)), 1u);
+        emit_work(piece, vec4<u32>(held, 1u), max(held.x, max(held.y, held.z)), 1u);
         return;
     }
     let split_0 = levels.x > BLOCK;
@@ -149,10 +149,10 @@ fn refine_fan(piece: Piece, queue: u32) {
         emit_piece(queue, piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;
     }
-    let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]));
-    let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]));
+    let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
+    let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
     // The arc is where two orders meet, each with arcs of its own: held to an eighth of the budget, so that the overlap covers the difference.
-    let arc = level_for(8.0 * chord_error(points[6], points[14], points[15], points[16], points[10]));
+    let arc = level_for(8.0 * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
-    _ = emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
+    emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

@@ -27,6 +27,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if o0.w == VERTEX_UNSEEN || o1.w == VERTEX_UNSEEN || o2.w == VERTEX_UNSEEN {
         return;
     }
+    if METHOD_FILTERS {
+        if area_ratio(slots, o0.xyz, o1.xyz, o2.xyz) <= LARGEST_AREA_RATIO {
+            emit_triangle(slots.x, slots.y, slots.z, placement);
+        }
+        return;
+    }
     let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
     let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
     let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
@@ -87,12 +93,46 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     if most <= BLOCK {
         let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
-        if !emit_work(piece, vec4<u32>(levels, 1u), most, 1u) {
-            emit_triangle(slots.x, slots.y, slots.z, placement);
-        }
+        emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
     emit_piece(0u, chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+}
+
+/// Paper 1: a triangle larger than this times its size without the hole is not drawn.
+const LARGEST_AREA_RATIO: f32 = 9.0;
+
+/// S/S′: the area of a triangle on the screen over the area that it has there without the hole. Where a corner is behind the camera, 0.
+fn area_ratio(slots: vec3<u32>, o0: vec3<f32>, o1: vec3<f32>, o2: vec3<f32>) -> f32 {
+    let with_hole = area_on_screen(seen[slots.x].apparent.xyz, seen[slots.y].apparent.xyz, seen[slots.z].apparent.xyz);
+    let without = area_on_screen(seen_straight(o0), seen_straight(o1), seen_straight(o2));
+    if with_hole < 0.0 || without < 0.0 {
+        return 0.0;
+    }
+    return with_hole / max(without, 1e-12);
+}
+
+/// In square pixels; −1 if a corner is behind the camera.
+fn area_on_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> f32 {
+    let near = frame.projection.z;
+    if -a.z < near || -b.z < near || -c.z < near {
+        return -1.0;
+    }
+    let p = pixels(clip_position(a));
+    let u = pixels(clip_position(b)) - p;
+    let v = pixels(clip_position(c)) - p;
+    return 0.5 * abs(u.x * v.y - u.y * v.x);
+}
+
+/// Where straight light from an offset would be seen, by a static observer's directions boosted to the rain and to the camera.
+fn seen_straight(offset: vec3<f32>) -> vec3<f32> {
+    let n = frame.radial.xyz;
+    let beta = frame.side_b.w;
+    let gamma = inverseSqrt(max(1.0 - beta * beta, 1e-6));
+    let distance = length(offset);
+    let along = dot(offset, n);
+    let rain = offset + n * (gamma * (along - beta * distance) - along);
+    return (frame.camera_from_rain * vec4<f32>(rain, -gamma * (distance - beta * along))).xyz;
 }
 
 /// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge or inside, over the other edges too.

@@ -21,10 +21,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let on_axis = parts.across < axis_tolerance(offset) && axis_matters(parts.along, order);
     let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);
-    if ray.valid && !ok {
+    if !finite_vector(offset) || (ray.valid && !ok) {
         atomicAdd(&counters.caught, 1u);
     }
-    seen[slot] = seen_vertex(placement, chunk.placement, ray, offset, normal_of(placement, vertex.normal.xyz),
+    seen[slot] = seen_vertex(placement, chunk.placement, found, normal_of(placement, vertex.normal.xyz),
         vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
     emitted[slot] = vec4<f32>(offset, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

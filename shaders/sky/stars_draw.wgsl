@@ -8,10 +8,6 @@ struct Spot {
     @location(1) @interpolate(flat) colour: vec3<f32>,
 }
 
-/// Standard deviation of the spot, in pixels. 0.7 is the narrowest Gaussian whose light, sampled at pixel
-/// centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
-const SPOT_SIGMA: f32 = 0.7;
-
 @vertex
 fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32) -> Spot {
     let star = seen_stars[instance];
@@ -24,6 +20,7 @@ fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32)
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    let weight = exp(-dot(in.place, in.place) / (2.0 * SPOT_SIGMA * SPOT_SIGMA)) / (2.0 * 3.14159265 * SPOT_SIGMA * SPOT_SIGMA);
+    let square = 2.0 * frame.sky_y.w * frame.sky_y.w;
+    let weight = exp(-dot(in.place, in.place) / square) / (3.14159265 * square);
     return vec4<f32>(in.colour * weight, 0.0);
 }

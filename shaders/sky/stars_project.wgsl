@@ -27,6 +27,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let star = stars[cluster.x + lane];
+    if star.direction.w < frame.sky_z.w {
+        return;
+    }
     let n = frame.radial.xyz;
     let cos_phi = clamp(dot(star.direction.xyz, n), -1.0, 1.0);
     let across = star.direction.xyz - n * cos_phi;
@@ -77,5 +80,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         atomicSub(&star_draw.instances, 1u);
         return;
     }
-    seen_stars[slot] = SeenStar(vec4<f32>(ndc, select(2.5, 1.5, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
+    seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
 }

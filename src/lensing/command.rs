@@ -1,10 +1,18 @@
 //! The subcommand `bake`.
 
+use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
 use super::score::{Points, Spread, score};
 use super::{Scheme, bake};
+
+/// A line on standard output. A reader that has gone away is no reason to stop: the file is written all the same.
+macro_rules! say {
+    ($($words:tt)*) => {
+        _ = writeln!(std::io::stdout(), $($words)*)
+    };
+}
 
 /// What `bake` is asked for.
 #[derive(Clone, Debug)]
@@ -36,13 +44,16 @@ pub fn run(args: &Request) -> Result<(), super::TableError> {
     bar.finish_and_clear();
     table.save(&args.output)?;
     let size = table.to_bytes().len() as f64 / (1024.0 * 1024.0);
-    println!("{}: scheme {}, {:?} nodes, {size:.2} MiB, baked in {seconds:.1} s", args.output.display(), args.scheme.name(), table.size);
+    say!("{}: scheme {}, {:?} nodes, {size:.2} MiB, baked in {seconds:.1} s", args.output.display(), args.scheme.name(), table.size);
+    if args.points == 0 {
+        return Ok(());
+    }
     let seed = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |d| d.as_nanos() as u64);
     for (points, name) in [(Points::Adversarial, "adversarial"), (Points::Friendly, "friendly")] {
         if points == Points::Adversarial && args.scheme != Scheme::Residual {
             continue;
         }
-        println!("{name} points, {} for each order: max, 99.9 %, rms; at r, φ, L", args.points);
+        say!("{name} points, {} for each order: max, 99.9 %, rms; at r, φ, L", args.points);
         for (i, s) in score(&table, points, args.points, seed).iter().enumerate() {
             let order = i + 1;
             line(order, "angle, degrees", s.angle);
@@ -58,6 +69,10 @@ pub fn run(args: &Request) -> Result<(), super::TableError> {
 }
 
 fn line(order: usize, what: &str, s: Spread) {
+    // No point of that kind.
+    if s.worst == [0.0; 3] {
+        return;
+    }
     let [r, phi, l] = s.worst;
-    println!("  order {order}  {what:18} {:10.6} {:10.6} {:10.7}   at {r:.5}, {phi:.5}, {l:.5}", s.max, s.most, s.rms);
+    say!("  order {order}  {what:18} {:10.6} {:10.6} {:10.7}   at {r:.5}, {phi:.5}, {l:.5}", s.max, s.most, s.rms);
 }

@@ -170,10 +170,10 @@ pub fn energy(w: Real, u: Real, room: Real) -> Real {
     (w * w + u * u * room).max(0.0).sqrt()
 }
 
-/// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e ≥ 0, `room` = 1 − u; the one
-/// against the sweep is u. Regular through the horizon for w ≤ 0.
+/// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e, `room` = 1 − u; the one against the
+/// sweep is u. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
 pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Real {
-    if w > 0.0 {
+    if w > 0.0 || e < 0.0 {
         return (w + beta * e) / room;
     }
     (u * u - e * e) / (beta * e - w)

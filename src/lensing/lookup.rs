@@ -1,5 +1,6 @@
 //! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 
+use super::inside::inside;
 use super::single::*;
 use super::slice::{HEADER, Slice};
 
@@ -37,9 +38,9 @@ pub struct LensRay {
     pub slope: f32,
     /// w_e = du/dΦ at the point, in 1/r_s.
     pub emission_slope: f32,
-    /// e = 1/b, in 1/r_s.
+    /// e = 1/b, in 1/r_s; negative where E < 0.
     pub energy: f32,
-    /// Whether there is an answer: the point is outside the horizon and all inputs are finite.
+    /// Whether there is an answer: such a ray exists and all inputs are finite.
     pub valid: bool,
 }
 
@@ -129,22 +130,46 @@ pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
     [w, e, w_e]
 }
 
-/// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ).
-pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
-    let cam = &slice.camera;
+/// Light of no age: where there are two rays, the one with E > 0.
+pub const YOUNG: f32 = 0.0;
+/// Light of any age: where there are two rays, the one with E < 0.
+pub const OLD: f32 = 3e38;
+
+/// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ). Where camera and point are both
+/// inside the horizon there are two: `elapsed` (r_s/c), the time since the light left as far as it is known, decides ([`YOUNG`], [`OLD`]).
+pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
+    lookup_with(&slice.camera, at, sweep, elapsed, |x, y| residuals(slice, x, y))
+}
+
+/// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
+pub(crate) fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
     }
     let swept = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let room = at.room.max(1e-4);
-    let bent = bent_sweep(swept);
-    let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
-    let table = residuals(slice, point_axis(cam, c, room), sweep_axis(cam, c, swept));
-    let [w, e, w_e] =
-        joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
-    let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
-    let delay = parts[0] + parts[2] * (parts[1] + table[1]);
+    let (w, e, w_e, delay);
+    let mut room = at.room;
+    if room > 0.0 {
+        room = room.max(1e-4);
+        let bent = bent_sweep(swept);
+        let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
+        let table = residuals(point_axis(cam, c, room), sweep_axis(cam, c, swept));
+        [w, e, w_e] =
+            joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
+        let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
+        delay = parts[0] + parts[2] * (parts[1] + table[1]);
+    } else if cam.room < 0.0 {
+        let Some(ray) = inside(cam, at, swept, elapsed) else { return NOTHING };
+        [w, e, w_e, delay] = ray;
+    } else {
+        return NOTHING;
+    }
+    ray_of(cam, c, room, [w, e, w_e, delay])
+}
+
+/// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
+pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
     let frequency = (radial * radial + cam.a * cam.a).sqrt();
     let leaving = radial_momentum(w_e, e, c, c.sqrt(), room);
@@ -163,20 +188,29 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32) -> LensRay {
         slope: w,
         emission_slope: w_e,
         energy: e,
-        valid: at.room > 0.0,
+        valid: true,
     }
 }
 
 /// The ray of `order` (1 to 3) from the point `along` outward and `across` from the axis, away from the camera of `slice`;
-/// `height` = L + along, rounded from f64.
-pub fn lens_lookup_at(slice: &Slice, along: f32, across: f32, height: f32, order: u32) -> LensRay {
+/// `height` = L + along, rounded from f64; `elapsed` as in [`lookup`].
+pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let at = place(&slice.camera, along, across, height);
-    let sweep = match order {
+    lookup(slice, at, swept(at, order), elapsed)
+}
+
+/// Φ of `order` for the point at `at`.
+pub(crate) fn swept(at: Place, order: u32) -> f32 {
+    match order {
         2 => 2.0 * HALF_TURN - at.phi,
         3 => 2.0 * HALF_TURN + at.phi,
         _ => at.phi,
-    };
-    lookup(slice, at, sweep)
+    }
+}
+
+/// The same for E > 0.
+pub fn lens_lookup_at(slice: &Slice, along: f32, across: f32, height: f32, order: u32) -> LensRay {
+    lens_lookup_aged(slice, along, across, height, order, YOUNG)
 }
 
 /// The same where only the offset is at hand.

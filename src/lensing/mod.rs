@@ -2,12 +2,15 @@
 //!
 //! `formulas` holds closed forms that are right near the camera and where the field is weak; the table holds what is left, over
 //! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
-//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does. `paper` is the
+//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
+//! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
 //! method of paper 1, for comparison, and `score` measures the error of either.
 
 pub mod bake;
+pub mod batch;
 pub mod command;
 pub mod grid;
+pub mod inside;
 pub mod lookup;
 pub mod paper;
 pub mod score;
@@ -31,7 +34,7 @@ pub mod single {
     include!("formulas.rs");
 }
 
-pub use lookup::{LensRay, lens_lookup, lens_lookup_at};
+pub use lookup::{LensRay, lens_lookup, lens_lookup_aged, lens_lookup_at};
 pub use slice::Slice;
 pub use table::{Scheme, Table, TableError, load_or_bake};
 
@@ -48,11 +51,26 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
     }
 }
 
-/// Where the small committed table lies, from the folder that the program is started in.
+/// Where the small committed table lies, from the project's folder.
 pub const DEFAULT_PATH: &str = "tables/default.lut";
+
+/// The committed table's file: under the folder that the program is started in, else where the program was built, else beside the program.
+pub fn default_file() -> std::path::PathBuf {
+    let beside = std::env::current_exe().ok().and_then(|program| program.parent().map(std::path::Path::to_path_buf));
+    let folders = [Some(".".into()), Some(std::path::PathBuf::from(env!("CARGO_MANIFEST_DIR"))), beside];
+    let mut files = folders.into_iter().flatten().map(|folder| folder.join(DEFAULT_PATH));
+    let first = files.next().unwrap_or_else(|| DEFAULT_PATH.into());
+    if first.is_file() {
+        return first;
+    }
+    // Where there is none it is baked to the first folder that has a place for it.
+    let places: Vec<_> = std::iter::once(first.clone()).chain(files).collect();
+    let has_place = |file: &&std::path::PathBuf| file.parent().is_some_and(std::path::Path::is_dir);
+    places.iter().find(|file| file.is_file()).or_else(|| places.iter().find(has_place)).cloned().unwrap_or(first)
+}
 
 /// The committed table; where its file cannot be used, says why on stderr and bakes it again.
 pub fn default_table() -> Table {
     let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
-    load_or_bake(std::path::Path::new(DEFAULT_PATH), Scheme::Residual, SMALL_NODES, complain, |_| ())
+    load_or_bake(&default_file(), Scheme::Residual, SMALL_NODES, complain, |_| ())
 }

@@ -35,6 +35,16 @@ impl Mesh {
         self.first + (self.last - self.first) * share
     }
 
+    /// A, 0 where it is uniform.
+    pub fn bias(self) -> f64 {
+        self.bias
+    }
+
+    /// a and b.
+    pub fn ends(self) -> [f64; 2] {
+        [self.first, self.last]
+    }
+
     /// The z of a place.
     pub fn coordinate(self, x: f64) -> f64 {
         let share = (x - self.first) / (self.last - self.first).max(f64::MIN_POSITIVE);
@@ -124,4 +134,32 @@ pub fn lookup(table: &Table, [r, phi, l]: [f64; 3], order: u8) -> [f64; 2] {
         (0..2).for_each(|h| sum[h] += weight * table.values[index * CHANNELS + channel + h]);
     }
     sum.map(f64::from)
+}
+
+/// What shaders/methods/paper1.wgsl reads: the constants of the camera radius `l` as in [`super::Slice`], four meshes (bias, first, last) as r
+/// and φ inside, r and φ outside, then for each node, r fastest, two texels (ψ and delay of both orders) of the tables inside and outside.
+/// L is constant within a frame, so the linear step along it is taken here; the two others are left to the shader.
+pub fn slice(table: &Table, l: f64) -> Vec<[f32; 4]> {
+    let n = table.size[0] as usize;
+    let cam = super::single::camera(l);
+    let mut texels = vec![
+        [cam.l, cam.room, cam.a, cam.beta],
+        [cam.fade, cam.bend, cam.rate, cam.force],
+        [cam.soft, cam.start, cam.scale, 0.0],
+        [n as f32, n as f32, 0.0, 0.0],
+    ];
+    let layers = [true, false].map(|inside| {
+        let meshes = slice_meshes(table.scheme, inside, l);
+        texels.extend(meshes.map(|mesh| [mesh.bias as f32, mesh.first as f32, mesh.last as f32, 0.0]));
+        let z = camera_mesh(table.scheme, inside).coordinate(l);
+        super::spline::cell(if z.is_finite() { z } else { 0.0 }, n)
+    });
+    let node = |layer: usize, i: usize, h: usize| table.values[(layer * n * n + i) * CHANNELS + h];
+    for i in 0..n * n {
+        for (half, (layer, t)) in layers.iter().enumerate() {
+            let t = *t as f32;
+            texels.push(std::array::from_fn(|h| (1.0 - t) * node(*layer, i, 4 * half + h) + t * node(layer + 1, i, 4 * half + h)));
+        }
+    }
+    texels
 }

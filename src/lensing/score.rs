@@ -4,7 +4,7 @@ use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::lookup::{LensRay, lens_lookup_at};
+use super::lookup::{LensRay, OLD, YOUNG, lens_lookup_aged};
 use super::paper;
 use super::slice::Slice;
 use super::table::{Scheme, Table};
@@ -92,11 +92,17 @@ fn spread(mut values: Vec<(f64, [f64; 3])>) -> Spread {
 }
 
 /// The table's answer for one row through the f32 lookup, positions differenced in f64 first.
-pub fn look_up_row(slice: &Slice, [r, phi, l]: [f64; 3], order: Order) -> LensRay {
+pub fn look_up_row(slice: &Slice, row: [f64; 3], order: Order) -> LensRay {
+    look_up_row_on(slice, row, order, Branch::Plus)
+}
+
+/// The same for either sign of E, which matters only where both ends are inside the horizon.
+pub fn look_up_row_on(slice: &Slice, [r, phi, l]: [f64; 3], order: Order, branch: Branch) -> LensRay {
+    let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
     let half = (0.5 * phi).sin();
     // r cos φ − L in a form that keeps its digits near the camera.
     let along = (r - l) - 2.0 * r * half * half;
-    lens_lookup_at(slice, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, u32::from(order.number()))
+    lens_lookup_aged(slice, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, u32::from(order.number()), elapsed)
 }
 
 /// The errors of `table` for each order on `count` points of each, drawn from `seed`.

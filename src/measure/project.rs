@@ -2,7 +2,7 @@
 //!
 //! The input is CSV with the header `r,phi,L` (r_s = 1, radians), the output CSV `r,phi,L,psi,delay,redshift` in the same order.
 
-use crate::lensing;
+use super::methods::{self, Projector, Query};
 use crate::spacetime::light::{self, Branch, Order};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -29,89 +29,16 @@ pub enum Frame {
     Rain,
 }
 
-/// A point and a camera, r_s = 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Query {
-    /// The point's radius.
-    pub r: f64,
-    /// The angle at the hole between camera and point, radians, in (0, π).
-    pub phi: f64,
-    /// The camera's radius.
-    pub camera: f64,
-}
-
-/// How a point is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sight {
-    /// ψ in the rain frame at the camera, radians from the outward radial direction, in [0, π].
-    pub psi_rain: f64,
-    /// ψ in the static frame at the camera, radians; None at and under the horizon.
-    pub psi_static: Option<f64>,
-    /// T_arrival − T_emission in Painlevé–Gullstrand time, r_s/c.
-    pub delay: f64,
-}
-
-/// A method of projection: the exact solution, a table, an approximation.
-pub trait Projector: Sync {
-    /// How the image of order `order` is seen, or None where no such ray exists. The branch matters only where camera and point
-    /// are both inside the horizon.
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight>;
-}
-
-/// The closed form of `spacetime::light` in f64.
-pub struct Exact;
-
-impl Projector for Exact {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        let (u_point, u_camera) = (1.0 / query.r, 1.0 / query.camera);
-        let branch = if u_point > 1.0 && u_camera > 1.0 { branch } else { Branch::Plus };
-        let ray = light::connect(u_point, order.swept(query.phi), u_camera, branch)?;
-        Some(Sight {
-            psi_rain: light::rain_angle(ray.slope, ray.energy, u_camera),
-            psi_static: light::static_angle(ray.slope, ray.energy, u_camera),
-            delay: ray.delay,
-        })
-    }
-}
-
-/// The lensing table as the GPU evaluates it: a slice at the camera's radius, then the lookup in f32.
-pub struct Table(pub lensing::Table);
-
-impl Projector for Table {
-    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        let [low, high] = lensing::grid::CAMERA_RANGE;
-        let [far, near] = lensing::double::POINT_RANGE;
-        let u = 1.0 / query.r;
-        if !(low..=high).contains(&query.camera) || !(far..=near).contains(&u) {
-            return None;
-        }
-        let slice = lensing::Slice::new(&self.0, query.camera);
-        let ray = lensing::score::look_up_row(&slice, [query.r, query.phi, query.camera], order);
-        ray.valid.then(|| Sight {
-            psi_rain: f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)),
-            psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / query.camera),
-            delay: f64::from(ray.delay),
-        })
-    }
-}
-
-/// The names that [`method`] knows.
-pub const METHODS: &[&str] = &["exact", "table"];
-
 /// The method called `name`.
 pub fn method(name: &str) -> Result<Box<dyn Projector>, ProjectError> {
-    match name {
-        "exact" => Ok(Box::new(Exact)),
-        "table" => Ok(Box::new(Table(lensing::default_table()))),
-        _ => Err(ProjectError::UnknownMethod { name: name.to_owned() }),
-    }
+    methods::named(name).ok_or_else(|| ProjectError::UnknownMethod { name: name.to_owned() })
 }
 
 /// What is wrong with the input of [`project`].
 #[derive(Debug, thiserror::Error)]
 pub enum ProjectError {
     /// No method has that name.
-    #[error("unknown method {name:?}: choose one of {}", METHODS.join(", "))]
+    #[error("unknown method {name:?}: choose one of {}", methods::names())]
     UnknownMethod {
         /// The name asked for.
         name: String,

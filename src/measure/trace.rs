@@ -9,8 +9,9 @@ use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
-use crate::reference::picture::{Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
+use crate::reference::picture::{Disk, Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
+use crate::scene::disk::Gas;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::{History, Moment};
 
@@ -127,15 +128,15 @@ impl Case {
         Case { scene, config, assembly, time, histories, camera }
     }
 
-    /// The world as the judge sees it.
-    pub fn world(&self) -> World<'_> {
+    /// The world as the judge sees it, the ships on these worldlines, in scene order.
+    pub fn world<'a>(&'a self, ships: &[&'a dyn Worldline]) -> World<'a> {
         let has_ships = !self.scene.ships.is_empty();
         let things = self.assembly.objects.iter().enumerate().filter_map(|(number, object)| {
             let (motion, position) = match object.body {
                 Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
                 Body::Ship(index) => {
-                    let history = self.histories.get(index)?;
-                    (Motion::Flying(history), history.at(self.time).position)
+                    let line = *ships.get(index)?;
+                    (Motion::Flying(line), line.at(self.time).position)
                 }
             };
             let light = lighting::at(position, has_ships, self.config.render.ambient as f32);
@@ -151,7 +152,20 @@ impl Case {
 
     /// The judge's picture, with the sky or without; `done` is told how many pixels have been finished.
     pub fn trace(&self, quality: &Quality, with_sky: bool, done: &(dyn Fn(u64) + Sync)) -> Picture {
+        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
+        self.trace_with(&ships, quality, with_sky, done)
+    }
+
+    /// The same with the ships on other worldlines than their own.
+    pub fn trace_with<'a>(
+        &'a self,
+        ships: &[&'a dyn Worldline],
+        quality: &Quality,
+        with_sky: bool,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Picture {
         let sky = &self.scene.sky;
+        let disk = self.scene.disk(&self.config).map(|disk| Disk::new(Gas::new(&disk, self.config.hole.mass_solar)));
         let (milky_way, _) = scene::milky_way::load_or_dark();
         let brightness = if with_sky && sky.milky_way { self.config.sky.milky_way_brightness * sky.brightness } else { 0.0 };
         let background = Background::new(&milky_way, brightness as f32);
@@ -162,8 +176,8 @@ impl Case {
         } else {
             Vec::new()
         };
-        let setting = Setting { background: &background, stars: &spots, shift: self.shift() };
-        picture(&self.world(), &setting, &self.camera, quality, done)
+        let setting = Setting { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
+        picture(&self.world(ships), &setting, &self.camera, quality, done)
     }
 
     /// How the game develops its pictures.

@@ -132,7 +132,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
         let share = f64::from(index) / f64::from((flight.frames - 1).max(1));
         let time = span[0] + (span[1] - span[0]) * share;
         let (camera, hidden) = director.camera(&cast, time, share, session.config.video.fov.to_radians());
-        let frame = stage.frame(camera, flight.size[0], time, &histories, hidden, &settings);
+        let frame = stage.frame(camera, flight.size, time, &histories, hidden, &settings);
         renderer.prepare(&frame);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &view);

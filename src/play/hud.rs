@@ -57,7 +57,7 @@ pub fn draw(
     if real.elapsed_secs_f64() < notice.until {
         plate(&painter, pos2(rect.center().x, rect.top() + 70.0), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
     }
-    if player.bare || *screen.get() == Screen::Title {
+    if player.bare || matches!(screen.get(), Screen::Title | Screen::Result) {
         return Ok(());
     }
     markers(&painter, rect, &panel);
@@ -149,7 +149,12 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel:
         painter,
         pos2(left, bottom),
         Align2::LEFT_BOTTOM,
-        &[("SPEED", 11.0, FAINT), (&speed, 30.0, TEXT), ("LOAD", 11.0, FAINT), (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT })],
+        &[
+            ("SPEED against what hovers here", 11.0, FAINT),
+            (&speed, 30.0, TEXT),
+            ("LOAD", 11.0, FAINT),
+            (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),
+        ],
     );
 
     if let Some(target) = read.target {
@@ -230,8 +235,13 @@ fn markers(painter: &Painter, rect: Rect, panel: &Panel) {
     for (from, to) in [(vec2(-16.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(16.0, 0.0)), (vec2(0.0, 6.0), vec2(0.0, 16.0))] {
         painter.line_segment([c + from, c + to], Stroke::new(1.5, TEXT.gamma_multiply(0.7)));
     }
+    // Where the hole is: its shadow shows it where it is on the screen.
+    if let Some(Place::Edge(at, towards)) = panel.hole.map(find) {
+        arrow(painter, rect, at, towards, "hole", ALARM);
+    }
     if let Some(Place::On(at)) = panel.heading.map(find) {
         let at = point(at);
+        text(painter, at + vec2(14.0, 12.0), Align2::LEFT_TOP, "course", 11.5, OWN.gamma_multiply(0.85));
         painter.circle_stroke(at, 6.0, Stroke::new(1.5, OWN));
         for (from, to) in [(vec2(-12.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(12.0, 0.0)), (vec2(0.0, -12.0), vec2(0.0, -6.0))] {
             painter.line_segment([at + from, at + to], Stroke::new(1.5, OWN));
@@ -257,7 +267,7 @@ fn markers(painter: &Painter, rect: Rect, panel: &Panel) {
                 diamond(painter, point(at), 7.0, Stroke::new(1.2, SEEN.gamma_multiply(0.7)));
                 text(painter, point(at) + vec2(11.0, 0.0), Align2::LEFT_CENTER, "2nd image", 11.5, SEEN.gamma_multiply(0.85));
             }
-            (Place::Edge(at, towards), 0) => arrow(painter, point(at), vec2(towards[0] as f32, towards[1] as f32)),
+            (Place::Edge(at, towards), 0) => arrow(painter, rect, at, towards, "target", SEEN),
             _ => (),
         }
     }
@@ -268,11 +278,16 @@ fn diamond(painter: &Painter, at: Pos2, radius: f32, stroke: Stroke) {
     painter.add(Shape::closed_line(corners.to_vec(), stroke));
 }
 
-fn arrow(painter: &Painter, at: Pos2, towards: Size) {
+/// An arrow at the edge of the screen, named. It keeps to an ellipse, so that it never lies on the dials in the corners.
+fn arrow(painter: &Painter, rect: Rect, at: [f64; 2], towards: [f64; 2], name: &str, colour: Color32) {
+    let towards = vec2(towards[0] as f32, towards[1] as f32);
+    let out = rect.min + vec2(at[0] as f32, at[1] as f32) - rect.center();
+    let half = vec2(0.44 * rect.width(), 0.33 * rect.height());
+    let at = rect.center() + out / vec2(out.x / half.x, out.y / half.y).length().max(1.0);
     let side = vec2(-towards.y, towards.x);
     let corners = vec![at + towards * 16.0, at - towards * 8.0 + side * 11.0, at - towards * 2.0, at - towards * 8.0 - side * 11.0];
-    painter.add(Shape::closed_line(corners, Stroke::new(2.0, SEEN)));
-    text(painter, at - towards * 26.0, Align2::CENTER_CENTER, "target", 11.0, SEEN);
+    painter.add(Shape::closed_line(corners, Stroke::new(2.0, colour)));
+    text(painter, at - towards * 26.0, Align2::CENTER_CENTER, name, 11.5, colour);
 }
 
 fn dash(painter: &Painter, at: Pos2, radius: f32, from: f64, to: f64, stroke: Stroke) {

@@ -70,7 +70,8 @@ fn reload(
 
 /// Whether the models and the disk of the scene are to be made again.
 fn restage(before: &GameConfig, now: &GameConfig) -> bool {
-    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
+    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width || before.aurora != now.aurora
+    {
         return true;
     }
     before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient

@@ -76,16 +76,20 @@ fn title(ui: &mut Ui, session: &Session, ask: &mut impl FnMut(Wish)) {
             .color(WARM),
     );
     ui.add_space(12.0);
+    ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
+    ui.add_space(12.0);
     buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
     ui.add_space(8.0);
     controls(ui, session);
+}
+
+/// What the chase is about, in a sentence.
+pub fn goal(session: &Session) -> String {
     let rules = session.scene.rules(&session.config);
-    ui.add_space(8.0);
-    let goal = format!(
-        "Stay within {} r_s of the quarry for {} r_s/c, before T = {} r_s/c, and do not fall in.",
+    format!(
+        "Catch the quarry: stay within {} r_s of it for {} r_s/c, before T = {} r_s/c, and do not fall into the hole.",
         rules.capture_radius, rules.hold_time, rules.time_limit
-    );
-    ui.label(RichText::new(goal).size(12.5).color(FAINT));
+    )
 }
 
 /// The keys, as they are bound.
@@ -123,8 +127,8 @@ fn key(name: &str) -> &str {
         "ControlLeft" => "Ctrl",
         "ShiftLeft" => "Shift",
         "Escape" => "Esc",
-        "Comma" => ",",
-        "Period" => ".",
+        "Comma" => ", (comma)",
+        "Period" => ". (period)",
         other => other,
     }
 }
@@ -137,9 +141,11 @@ fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel) 
     ui.add_space(10.0);
     let scale = Scale::of(session.config.hole.mass_solar);
     let mut lines = vec![format!("Far clock  {}   (T = {time:.1} r_s/c)", scale.clock(time))];
+    if let Some(own) = panel.decided {
+        lines.push(format!("Own clock  {}", scale.clock(own)));
+        lines.push(format!("Younger than those far away by  {}", scale.clock((time - own).max(0.0))));
+    }
     if let Some(read) = panel.instruments {
-        lines.push(format!("Own clock  {}", scale.clock(read.own_time)));
-        lines.push(format!("Younger than those far away by  {}", scale.clock((time - read.own_time).max(0.0))));
         lines.extend(read.fuel.map(|fuel| format!("Fuel left  {:.0} %", 100.0 * fuel)));
     }
     for line in lines {

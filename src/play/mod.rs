@@ -4,6 +4,7 @@
 //! and [`seen`] (where the image of a ship appears).
 
 pub mod camera;
+pub mod contestant;
 pub mod demonstration;
 pub mod director;
 pub mod game;
@@ -56,10 +57,55 @@ pub struct PlayArgs {
     pub record: Option<PathBuf>,
 }
 
-/// Whether there is a screen to open a window on.
+/// Where no window is opened, warnings (a model that cannot be read, a table that is baked anew) go to standard error as they are.
+pub fn warn_on_stderr() {
+    use bevy::log::tracing_subscriber::fmt;
+    let plain = fmt().with_writer(std::io::stderr).with_max_level(bevy::log::Level::WARN).without_time().with_target(false);
+    // An error means that somebody listens already.
+    _ = bevy::log::tracing::subscriber::set_global_default(plain.finish());
+}
+
+/// A line on standard output, if anybody still reads there.
+fn say(words: &str) {
+    use std::io::Write;
+    _ = writeln!(std::io::stdout(), "{words}");
+}
+
+/// Whether there is a screen to open a window on. On Linux windows speak X11: `DISPLAY` must name a server that answers.
 fn has_display() -> bool {
-    let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-    !cfg!(target_os = "linux") || set("DISPLAY") || set("WAYLAND_DISPLAY")
+    if !cfg!(target_os = "linux") {
+        return true;
+    }
+    std::env::var("DISPLAY").is_ok_and(|display| answers(&display))
+}
+
+/// Whether an X server listens at `[host]:number[.screen]`.
+#[cfg(unix)]
+fn answers(display: &str) -> bool {
+    use std::net::{TcpStream, ToSocketAddrs};
+    use std::os::unix::net::UnixStream;
+    let Some((host, rest)) = display.rsplit_once(':') else { return false };
+    let Ok(number) = rest.split('.').next().unwrap_or_default().parse::<u16>() else { return false };
+    if host.is_empty() || host == "unix" {
+        let path = format!("/tmp/.X11-unix/X{number}");
+        #[cfg(target_os = "linux")]
+        {
+            use std::os::linux::net::SocketAddrExt;
+            let hidden = std::os::unix::net::SocketAddr::from_abstract_name(&path);
+            if hidden.is_ok_and(|address| UnixStream::connect_addr(&address).is_ok()) {
+                return true;
+            }
+        }
+        return UnixStream::connect(path).is_ok();
+    }
+    let patience = std::time::Duration::from_secs(3);
+    let Some(port) = number.checked_add(6000) else { return false };
+    (host, port).to_socket_addrs().is_ok_and(|mut all| all.any(|address| TcpStream::connect_timeout(&address, patience).is_ok()))
+}
+
+#[cfg(not(unix))]
+fn answers(_: &str) -> bool {
+    true
 }
 
 /// Plays. Exit code 2 for wrong input, 1 for a failure.
@@ -74,7 +120,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     };
     let without_window = args.headless || !has_display();
     if without_window && !args.headless {
-        println!("There is no display: the demonstration flight is drawn to files instead.");
+        say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
     let gpu = match Gpu::headless() {
         Ok(gpu) => gpu,
@@ -94,11 +140,24 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),
     };
+    warn_on_stderr();
     match demonstration::fly(&gpu, &session, &flight) {
         Ok(report) => {
-            println!("{report}");
+            say(&report.to_string());
             ExitCode::SUCCESS
         }
         Err(error) => fail(&error, 1),
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::answers;
+
+    #[test]
+    fn a_display_that_does_not_answer_is_none() {
+        for display in ["", ":", ":x", "77", ":64999", "localhost:59999", "nowhere.invalid:0"] {
+            assert!(!answers(display), "{display}");
+        }
     }
 }

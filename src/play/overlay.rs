@@ -104,7 +104,12 @@ fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)], counte
         }
     });
     match counters {
-        Some(counters) => _ = ui.label(format!("{counters:?}")),
+        Some(counters) => {
+            if let Some(complaint) = counters.complaint() {
+                ui.colored_label(egui::Color32::ORANGE, complaint);
+            }
+            ui.label(format!("{counters:?}"));
+        }
         None => _ = ui.label("no counters"),
     }
 }

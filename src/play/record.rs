@@ -39,13 +39,16 @@ fn record(mut recording: ResMut<Recording>, mut commands: Commands, mut exit: Me
         return;
     }
     if let Some(folder) = &recording.folder {
-        let path = folder.join(format!("frame-{index:05}.png"));
+        let path = folder.join("frames").join(format!("frame-{index:05}.png"));
         take(&mut commands, path);
     }
 }
 
-/// Writes the window's picture to `out/`.
+/// Writes the window's picture to `out/`. Where every frame is written this one is among them, and a window gives one picture a frame.
 pub fn screenshot(world: &mut World) {
+    if world.get_resource::<Recording>().is_some_and(|recording| recording.folder.is_some()) {
+        return;
+    }
     let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default().as_millis();
     take(&mut world.commands(), PathBuf::from("out").join(format!("screenshot-{now}.png")));
 }

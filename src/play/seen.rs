@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use crate::render::frame::Camera;
-use crate::render::placements::emission_time;
+use crate::render::placements::{branch_of, emission_time};
 use crate::sim::History;
-use crate::spacetime::light::{self, Branch, Order};
+use crate::spacetime::light::{self, Order};
 
 /// A ship as a camera sees it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,16 +20,16 @@ pub struct Apparition {
 pub fn apparition(camera: &Camera, time: f64, history: &History, order: Order) -> Option<Apparition> {
     let emitted = emission_time(camera, time, history, order)?;
     let position = history.at(emitted).position;
-    Some(Apparition { direction: direction(camera, position, order)?, age: time - emitted })
+    Some(Apparition { direction: direction(camera, position, order, time - emitted)?, age: time - emitted })
 }
 
-/// Where light from `position` (on the slice of its emission) is seen, in camera axes.
-pub fn direction(camera: &Camera, position: DVec3, order: Order) -> Option<DVec3> {
+/// Where light from `position` (on the slice of its emission), `age` r_s/c old, is seen, in camera axes.
+pub fn direction(camera: &Camera, position: DVec3, order: Order, age: f64) -> Option<DVec3> {
     let (l, r) = (camera.radius(), position.length());
     let outward = camera.position / l;
     let across = position - outward * position.dot(outward);
     let phi = across.length().atan2(position.dot(outward)).max(1e-12);
-    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, Branch::Plus)?;
+    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch_of(camera, position, age))?;
     let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / l);
     let side = across.try_normalize().unwrap_or_else(|| outward.any_orthonormal_vector());
     let side = if order.flips() { -side } else { side };
@@ -54,7 +54,7 @@ mod tests {
     fn far_from_the_hole_light_is_straight() {
         let camera = hovering(DVec3::new(0.0, 3.0e6, 2.0e6));
         let there = camera.position + DVec3::new(100.0, 50.0, -300.0);
-        let seen = direction(&camera, there, Order::ALL[0]).expect("seen");
+        let seen = direction(&camera, there, Order::ALL[0], 0.0).expect("seen");
         let straight = true_direction(&camera, there).expect("apart");
         // Bending by 1/r and aberration by the rain's 1/√r, 5e-4, which hovering undoes but for its square.
         assert!(seen.angle_between(straight) < 2e-3, "{seen} {straight}");
@@ -64,8 +64,8 @@ mod tests {
     fn the_second_image_is_on_the_other_side() {
         let camera = hovering(DVec3::Z * 10.0);
         let there = DVec3::new(4.0, 0.0, -6.0);
-        let first = direction(&camera, there, Order::ALL[0]).expect("first");
-        let second = direction(&camera, there, Order::ALL[1]).expect("second");
+        let first = direction(&camera, there, Order::ALL[0], 0.0).expect("first");
+        let second = direction(&camera, there, Order::ALL[1], 0.0).expect("second");
         assert!(first.x > 0.0 && second.x < 0.0, "{first} {second}");
         assert!(first.y.abs() < 1e-9 && second.y.abs() < 1e-9);
     }

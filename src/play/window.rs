@@ -4,13 +4,13 @@ use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
-use bevy_egui::{EguiPlugin, EguiPrimaryContextPass};
+use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass};
 
 use crate::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRenderer};
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::scene::ship::Ai;
-use crate::sim::{Clock, Controls, Engine, Fleet, Fuel, History, SimulationPlugins};
+use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Fuel, History, SimulationPlugins};
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
@@ -20,7 +20,7 @@ use super::director::wide;
 use super::game::{GamePlugin, GameSet, Seat};
 use super::input::MouseTurn;
 use super::instruments::Instruments;
-use super::live::LivePlugin;
+use super::live::{LivePlugin, Notice};
 use super::screens::Screen;
 use super::seen::{Apparition, apparition, true_direction};
 use super::session::Session;
@@ -39,6 +39,10 @@ pub struct Panel {
     pub images: [Option<Apparition>; 2],
     /// Where the target is at the same T, in camera axes.
     pub truth: Option<glam::DVec3>,
+    /// Where the hole is, in camera axes.
+    pub hole: Option<glam::DVec3>,
+    /// The player's own clock when the chase was decided, in r_s/c.
+    pub decided: Option<f64>,
     /// Where one flies to, against the hovering observers, in camera axes.
     pub heading: Option<glam::DVec3>,
     /// The camera's horizontal field of view, in radians.
@@ -88,7 +92,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     .insert_resource(session)
     .init_resource::<Panel>()
     .add_systems(Startup, (stage_scene, spawn_camera))
-    .add_systems(Update, (grab_cursor, make_frame).chain().after(GameSet::Answer))
+    .add_systems(Update, (fit_interface, welcome, grab_cursor, make_frame).chain().after(GameSet::Answer))
     .add_systems(EguiPrimaryContextPass, (hud::draw, menu::draw, overlay::draw).chain());
     app.run()
 }
@@ -103,6 +107,26 @@ fn stage_scene(world: &mut World) {
 fn spawn_camera(mut commands: Commands) {
     // The renderer fills the picture itself, tone curve included.
     commands.spawn((Camera2d, Msaa::Off, Tonemapping::None, DebandDither::Disabled));
+}
+
+/// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the title card is as high.
+const INTERFACE: [f32; 2] = [900.0, 620.0];
+
+fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: EguiContexts) {
+    let Some(window) = windows.iter().next() else { return };
+    let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
+    if let Ok(context) = contexts.ctx_mut() {
+        context.set_zoom_factor(fit);
+    }
+}
+
+/// Says the goal when a chase begins.
+fn welcome(session: Res<Session>, screen: Res<State<Screen>>, clock: Res<Clock>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
+    /// How long it is shown after the beginning, in r_s/c of T.
+    const SHOWN: f64 = 12.0;
+    if *screen.get() == Screen::Playing && clock.time < SHOWN && notice.until < real.elapsed_secs_f64() {
+        *notice = Notice { text: menu::goal(&session), until: real.elapsed_secs_f64() + 0.5 };
+    }
 }
 
 /// In play the mouse belongs to the ship.
@@ -146,13 +170,14 @@ fn make_frame(
     ships: Query<(&History, &Engine, &Controls, &Fuel)>,
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
+    chase: Option<Res<Chase>>,
     mut seat: ResMut<Seat>,
     mut frame: ResMut<FrameToDraw>,
     mut panel: ResMut<Panel>,
 ) {
-    // Nothing is drawn into a window without a size.
-    let width = windows.iter().map(Window::physical_width).max().unwrap_or(0);
-    let Some(staged) = staged.filter(|_| width > 0) else { return };
+    // A window without area (minimised, say) shows nothing and waits.
+    let Some(size) = windows.iter().map(|window| window.physical_size().to_array()).find(|size| size[0] > 0 && size[1] > 0) else { return };
+    let Some(staged) = staged else { return };
     let all: Vec<_> = fleet.0.iter().filter_map(|&ship| ships.get(ship).ok()).collect();
     let histories: Vec<&History> = all.iter().map(|ship| ship.0).collect();
     let me = session.player();
@@ -178,7 +203,7 @@ fn make_frame(
     let mut settings = settings(config);
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
-    frame.0 = Some(staged.0.frame(camera, width, time, &histories, cockpit.then_some(me), &settings));
+    frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
 
     let target = session.target().and_then(|target| histories.get(target));
     let there = target.map(|history| state_of(&history.at(time)));
@@ -189,6 +214,8 @@ fn make_frame(
         instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), there.as_ref())),
         images: [0, 1].map(|order| target.and_then(|history| apparition(&camera, time, history, Order::ALL[order]))),
         truth: there.and_then(|there| true_direction(&camera, there.position)),
+        hole: camera.position.try_normalize().map(|out| camera.seen_direction(-out)),
+        decided: chase.and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view,
     };

@@ -6,7 +6,9 @@
 //! - [`shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
 //! - [`picture`]: whole pictures of a scene, with a tree.
+//! - [`thin_disk`]: the image of a thin disk, by the shape of its rays alone, four at a time.
 //! - [`bvh`]: trees of boxes over what a scene holds, and straight rays through them.
+//! - [`scenes`]: what straight rays are measured on.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
 
@@ -14,7 +16,9 @@ pub mod bvh;
 pub mod geodesic;
 pub mod picture;
 pub mod ray;
+pub mod scenes;
 pub mod shoot;
+pub mod thin_disk;
 pub mod trace;
 
 pub use ray::{End, Fate, Ray, RaySample, Stop, fate};

@@ -97,7 +97,7 @@ pub fn frame_times(
     let mut spent = None;
     for number in 0..request.frames + 2 {
         let begin = Instant::now();
-        let frame = stage.frame(camera, request.size[0], moment.time(), &moment.histories(), None, &settings(config));
+        let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
         renderer.prepare(&frame);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &view);

@@ -1,5 +1,7 @@
 //! A graphics device without a window, for pictures, tests and charts. In the game Bevy makes the device.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use thiserror::Error;
 
 /// Why there is no device to draw with.
@@ -43,6 +45,35 @@ pub fn missing_limits(limits: &wgpu::Limits) -> Option<String> {
     None
 }
 
+/// What a device said went wrong. Without somebody who listens, wgpu ends the program at the first word.
+#[derive(Clone, Debug, Default)]
+pub struct Watch(Arc<Mutex<Option<String>>>);
+
+impl Watch {
+    /// Listens to a device of ours; Bevy listens to its own, and quits with a message.
+    fn over(device: &wgpu::Device) -> Watch {
+        let watch = Watch::default();
+        let (lost, wrong) = (watch.clone(), watch.clone());
+        device.set_device_lost_callback(move |reason, message| lost.say(format!("the graphics device was lost ({reason:?}): {message}")));
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong.say(error.to_string())));
+        watch
+    }
+
+    /// Keeps the first complaint, and logs it.
+    fn say(&self, what: String) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if first.is_none() {
+            bevy::log::error!("{what}");
+            *first = Some(what);
+        }
+    }
+
+    /// The first thing that went wrong; None while all is well.
+    pub fn complaint(&self) -> Option<String> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+}
+
 /// A device and its queue.
 #[derive(Clone, Debug)]
 pub struct Gpu {
@@ -52,6 +83,8 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// Name and kind of the adapter.
     pub adapter: wgpu::AdapterInfo,
+    /// What went wrong with it.
+    pub watch: Watch,
 }
 
 impl Gpu {
@@ -76,7 +109,8 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|source| DeviceError::NoDevice { adapter: info.name.clone(), source })?;
-        Ok(Gpu { device, queue, adapter: info })
+        let watch = Watch::over(&device);
+        Ok(Gpu { device, queue, adapter: info, watch })
     }
 }
 

@@ -181,7 +181,19 @@ pub fn compute(
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
-    let module = module(device, label, pass);
+    compute_of(device, label, &pass.source(), entry, layouts)
+}
+
+/// A compute pipeline of one entry point of the shader `source`.
+pub fn compute_of(
+    device: &wgpu::Device,
+    label: &str,
+    source: &str,
+    entry: &str,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+) -> wgpu::ComputePipeline {
+    let module =
+        device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(source.into()) });
     let layout = pipeline_layout(device, label, layouts);
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),

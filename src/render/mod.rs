@@ -2,8 +2,9 @@
 //!
 //! [`renderer::Renderer`] is the whole of it on plain wgpu, used alike by the window, by `shot` and by the tests. The way of a frame, file by
 //! file: [`placements`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
-//! (Milky Way, stars) → [`develop`] (bloom, exposure, tone curve).
+//! (Milky Way, stars) → [`aurora`] → [`develop`] (bloom, exposure, tone curve).
 
+pub mod aurora;
 pub mod bench;
 pub mod coarse;
 pub mod develop;
@@ -12,6 +13,7 @@ pub mod disk;
 pub mod frame;
 pub mod geometry;
 pub mod layout;
+pub mod method;
 pub mod models;
 pub mod placements;
 pub mod plugin;

@@ -1,17 +1,23 @@
 //! Where each object is seen: for each image order the emission time of its centre and the motion around it, in f64, as the GPU's start.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::lensing::Slice;
-use crate::lensing::lookup::lens_lookup_at;
+use crate::lensing::lookup::{OLD, lens_lookup_aged};
 pub use crate::scene::lighting::Surroundings;
 use crate::sim::History;
+use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
+use crate::spacetime::orbit::static_momentum;
 
-use super::frame::Camera;
+use super::frame::{Camera, Settings};
+use super::method::Method;
 use super::models::ModelRange;
 use super::types::Placement;
+use super::visibility::may_be_seen;
 
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
@@ -59,30 +65,48 @@ pub struct Placed {
 
 /// The placements of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
 /// (it has not been reached by light yet, or never will) is left out.
+///
+/// A camera inside the horizon sees what is held inside twice, by light of E > 0 and of E < 0 that left at two times. The worldline of
+/// something that moves is met once: it leaves the camera's past on one side or on the other, and each vertex finds out which.
 pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
     let camera = view.camera;
-    Order::ALL
-        .into_iter()
-        .take(orders as usize)
-        .filter_map(|order| {
-            let (mut placement, position) = match object.motion {
-                Motion::Held { position, attitude } => (held(camera, position, attitude, object), position),
-                Motion::Flying(history) => flying(camera, time, history, order, object)?,
-            };
-            placement.ids = [u32::from(order.number()), object.id, 0, 0];
-            let width = view.width(position, object.reach, order) / view.pixel;
-            if width < LEAST_PIXELS && order.number() > 1 {
-                return None;
+    let settings = view.settings;
+    let image = |order: Order, branch: Branch| {
+        let (mut placement, position, age) = match object.motion {
+            // From inside, higher orders show only what is outside.
+            Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
+            Motion::Held { position, attitude } => {
+                (held(camera, position, attitude, object), position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 })
             }
-            if width < THIN_PIXELS {
-                placement.triangles[3] |= THIN;
-            }
-            // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
-            let small = width < COARSE_PIXELS && object.reach < 0.1 * position.length();
-            let model = if small { object.coarse } else { object.model };
-            Some(Placed { model, placement })
-        })
-        .collect()
+            Motion::Flying(history) => flying(view, time, history, order, object)?,
+        };
+        placement.ids = [u32::from(order.number()), object.id, 0, 0];
+        if branch == Branch::Minus {
+            placement.triangles[3] |= MINUS;
+        }
+        let extent = view.extent(position, object.reach, order, age);
+        if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
+            return None;
+        }
+        let width = extent.width / view.pixel;
+        if width < settings.least_width && order.number() > 1 {
+            return None;
+        }
+        if width < settings.thin_below && settings.min_width > 0.0 {
+            placement.triangles[3] |= THIN;
+        }
+        // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
+        let small = width < settings.coarse_below && object.reach < 0.1 * position.length();
+        let model = if small { object.coarse } else { object.model };
+        Some(Placed { model, placement })
+    };
+    let folded = match object.motion {
+        Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends(),
+        Motion::Flying(_) => false,
+    };
+    let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
+    let orders = orders.min(settings.method.orders());
+    Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 
 /// Two-sided triangles; as in shaders/types.wgsl.
@@ -91,14 +115,8 @@ const TWO_SIDED: u32 = 1;
 const HELD: u32 = 2;
 /// A thin image; as in shaders/types.wgsl.
 pub const THIN: u32 = 4;
-/// Images narrower than this are drawn as thin ones, in pixels: from here down single triangles would miss pixel centres.
-const THIN_PIXELS: f64 = 2.0;
-
-/// Images of order 2 and 3 narrower than this are not drawn: a line a pixel wide, of which they cover a twentieth, is lost among the stars that
-/// crowd at the edge of the shadow. The stages of geometry would take longer over such a line than over the ship itself.
-const LEAST_PIXELS: f64 = 0.05;
-/// Images narrower than this show the coarse model: its cells (a sixth of the object) are then a pixel wide.
-const COARSE_PIXELS: f64 = 6.0;
+/// The image by light of E < 0; as in shaders/types.wgsl.
+const MINUS: u32 = 8;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]
@@ -109,27 +127,68 @@ pub struct View<'a> {
     pub slice: &'a Slice,
     /// Angle of a pixel in radians.
     pub pixel: f64,
+    /// Height over width of the screen: what lies off it is left out. None: nothing is.
+    pub aspect: Option<f64>,
+    /// How the picture is made.
+    pub settings: &'a Settings,
+}
+
+/// Where the image of a ball is seen, in the rain frame.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    /// The direction of its centre, a unit vector in rain axes.
+    look: DVec3,
+    /// A cone about it, in radians, that holds the image.
+    radius: f64,
+    /// Its extent in ψ, or its angular size if that is less, in radians.
+    width: f64,
+}
+
+impl Extent {
+    fn may_be_seen(&self, camera: &Camera, aspect: f64) -> bool {
+        /// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
+        const MARGIN: f64 = 3.0;
+        may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
+    }
 }
 
 impl View<'_> {
-    /// The width, in radians, of the image of a ball of radius `reach` at `position`: its extent in ψ, or its angular size if that is less.
+    /// Where the image of a ball of radius `reach` at `position` is seen.
     /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
-    fn width(&self, position: DVec3, reach: f64, order: Order) -> f64 {
+    /// `age` decides, inside the horizon, which light is meant.
+    fn extent(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Extent {
         let (l, r) = (self.camera.radius(), position.length());
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
-        let half = if reach < r { (reach / r).asin() } else { return std::f64::consts::PI };
+        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI };
+        let half = if reach < r { (reach / r).asin() } else { return anywhere };
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
-            let ray =
-                lens_lookup_at(self.slice, (r * cosine - l) as f32, (r * sine) as f32, (r * cosine) as f32, u32::from(order.number()));
-            (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay))
+            if !self.settings.method.bends() {
+                let (along, across) = (r * cosine - l, r * sine);
+                return Some((across.atan2(along), along.hypot(across)));
+            }
+            let [along, across, height] = [r * cosine - l, r * sine, r * cosine].map(|x| x as f32);
+            let ray = lens_lookup_aged(self.slice, along, across, height, u32::from(order.number()), age as f32);
+            ray.valid.then(|| (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay)))
         };
-        let (centre, path) = seen(r, phi);
-        let around = [seen(r, phi - half).0, seen(r, phi + half).0, seen((r - reach).max(1.001), phi).0, seen(r + reach, phi).0];
-        let (low, high) = around.iter().fold((centre, centre), |(low, high), &psi| (low.min(psi), high.max(psi)));
-        (high - low).min(2.0 * reach / path.max(1e-9))
+        let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
+        let places = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];
+        // Where part of the object is not seen its image ends, as wide as it may be.
+        let Some(around) = places.map(|(r, phi)| seen(r, phi)).into_iter().collect::<Option<Vec<_>>>() else {
+            return anywhere;
+        };
+        let (centre, path) = around[0];
+        let (low, high) = around.iter().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
+        let across = position - n * position.dot(n);
+        let distance = across.length();
+        // Round the axis: a ball that meets it is seen all round.
+        let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
+        let turn = if order.flips() { -1.0 } else { 1.0 };
+        let look = n * centre.cos() + across * (turn * centre.sin() / distance.max(1e-300));
+        let steepest = low.sin().max(high.sin()).max(if low < FRAC_PI_2 && high > FRAC_PI_2 { 1.0 } else { 0.0 });
+        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width: (high - low).min(2.0 * reach / path.max(1e-9)) }
     }
 }
 
@@ -152,6 +211,7 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
     let turn = DMat3::from_quat(attitude);
     Placement {
         offset: row(position - camera.position, 0.0),
+        position: row(position, 0.0),
         momentum: [0.0, 0.0, 0.0, 1.0],
         shape: columns(turn * DMat3::from_diagonal(object.scale)),
         turn: columns(turn),
@@ -161,8 +221,14 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
     }
 }
 
-fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3)> {
-    let emission = emission_time(camera, time, history, order)?;
+/// The placement, where the object then is, and the age of its light.
+fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3, f64)> {
+    let camera = view.camera;
+    let emission = match view.settings {
+        Settings { light_delay: false, .. } => time,
+        Settings { method: Method::Flat, .. } => flat_emission_time(camera, time, history)?,
+        _ => emission_time(camera, time, history, order)?,
+    };
     let at = |t: f64| {
         let sample = history.at(t);
         (sample, DMat3::from_quat(sample.attitude) * DMat3::from_diagonal(object.scale))
@@ -173,10 +239,13 @@ fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &
     let span = object.scale.max_element().max(1e-3);
     let (later, later_body) = at(emission + span);
     let rate = (contraction(later.momentum) * later_body - shape) * (1.0 / span);
+    let still = !view.settings.light_delay;
+    let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
     let placement = Placement {
         offset: row(sample.position - camera.position, time - emission),
-        velocity: row(sample.velocity, 1.0),
-        momentum: row(sample.momentum, gamma(sample.momentum)),
+        position: row(sample.position, 0.0),
+        velocity: row(sample.velocity, if still { 0.0 } else { 1.0 }),
+        momentum: row(momentum, gamma(momentum)),
         shape: columns(shape),
         shape_rate: columns(rate),
         turn: columns(DMat3::from_quat(sample.attitude)),
@@ -184,7 +253,12 @@ fn flying(camera: &Camera, time: f64, history: &History, order: Order, object: &
         triangles: [0, 0, 0, if object.two_sided { TWO_SIDED } else { 0 }],
         ..Placement::default()
     };
-    Some((placement, sample.position))
+    Some((placement, sample.position, time - emission))
+}
+
+/// The momentum against what hovers there, which takes the part of the rain where light is drawn straight; inside nothing hovers.
+pub fn against_static(position: DVec3, momentum: DVec3) -> DVec3 {
+    static_momentum(position).map_or(momentum, |rest| relative_momentum(rest, momentum))
 }
 
 /// The Lorentz contraction of a body of momentum p per mass, on the rain frame's slice: 1 − p pᵀ/(γ(1 + γ)).
@@ -194,12 +268,12 @@ fn contraction(p: DVec3) -> DMat3 {
 }
 
 /// Travel time of light of this order from a place on the slice to the camera, and its gradient over the place; None if there is none.
-pub fn light_path(camera: &Camera, position: DVec3, order: Order) -> Option<(f64, DVec3)> {
+pub fn light_path(camera: &Camera, position: DVec3, order: Order, branch: Branch) -> Option<(f64, DVec3)> {
     let (l, r) = (camera.radius(), position.length());
     let n = camera.position / l;
     let across = position - n * position.dot(n);
     let phi = across.length().atan2(position.dot(n)).max(1e-12);
-    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, Branch::Plus)?;
+    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch)?;
     // dΔ/dx = −k/E at the point, k the photon's spatial momentum there.
     let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
     let turn = if order.flips() { -1.0 } else { 1.0 };
@@ -207,24 +281,49 @@ pub fn light_path(camera: &Camera, position: DVec3, order: Order) -> Option<(f64
     let tangent = (side * (m.dot(n)) - n * m.dot(side)) * turn;
     let (u, w, e) = (1.0 / r, ray.emission_slope, ray.energy);
     let beta = u.sqrt();
-    let radial = if w < 0.0 || u >= 1.0 { (u * u - e * e) / (beta * e - w) } else { (beta * e + w) / (1.0 - u) };
+    let radial = if e > 0.0 && (w < 0.0 || u >= 1.0) { (u * u - e * e) / (beta * e - w) } else { (beta * e + w) / (1.0 - u) };
     let momentum = (m * radial - tangent * u) / e;
     ray.delay.is_finite().then_some((ray.delay, -momentum))
 }
 
-/// The time T_e at which the light left that arrives at `time`: the root of T_e + Δ(x(T_e)) − T, which increases strictly with T_e.
-/// Bracketed Newton; None if the object is seen at no time.
+/// Which of the two rays from a place inside the horizon to a camera inside is the one by which light of this age (r_s/c) can be seen:
+/// that of E < 0 if it is older than light of zero energy.
+pub fn branch_of(camera: &Camera, position: DVec3, age: f64) -> Branch {
+    let (u, u_camera) = (1.0 / position.length(), 1.0 / camera.radius());
+    if u > 1.0 && u_camera > 1.0 && age > light::zero_energy_delay(u, u_camera) { Branch::Minus } else { Branch::Plus }
+}
+
+/// The time T_e at which the light left that arrives at `time`: the root of T_e + Δ(x(T_e)) − T, which increases strictly with T_e for light of
+/// E > 0 and decreases for E < 0. A worldline leaves the camera's past only once, so there is one root on both branches together.
+/// None if the object is seen at no time.
 pub fn emission_time(camera: &Camera, time: f64, history: &History, order: Order) -> Option<f64> {
-    let late = |t: f64| -> Option<(f64, f64)> {
+    leaving(time, |t| {
         let sample = history.at(t);
-        let (delay, gradient) = light_path(camera, sample.position, order)?;
-        Some((t + delay - time, 1.0 + gradient.dot(sample.velocity)))
-    };
-    // Seen from outside, something below the horizon has no ray: too late.
+        let branch = branch_of(camera, sample.position, time - t);
+        let (delay, gradient) = light_path(camera, sample.position, order, branch)?;
+        let sign = if branch == Branch::Minus { -1.0 } else { 1.0 };
+        Some((sign * (t + delay - time), sign * (1.0 + gradient.dot(sample.velocity))))
+    })
+}
+
+/// The same for straight light.
+fn flat_emission_time(camera: &Camera, time: f64, history: &History) -> Option<f64> {
+    leaving(time, |t| {
+        let sample = history.at(t);
+        let line = sample.position - camera.position;
+        // Across the hole a ship may fall faster than straight light.
+        Some((t + line.length() - time, (1.0 + line.normalize_or_zero().dot(sample.velocity)).max(0.05)))
+    })
+}
+
+/// The root of an increasing function of T_e, given with its slope, that is negative in the camera's past and has no value where no light
+/// leaves any more. Bracketed Newton from `time` backwards.
+fn leaving(time: f64, late: impl Fn(f64) -> Option<(f64, f64)>) -> Option<f64> {
     let (mut low, mut high) = (f64::NEG_INFINITY, time);
-    let mut t = time - light_path(camera, history.at(time).position, order).map_or(1.0, |(delay, _)| delay);
+    let mut t = time - late(time).map_or(1.0, |(missing, _)| missing.max(0.0));
     for _ in 0..100 {
         let next = match late(t) {
+            // Seen from outside, something below the horizon has no ray: too late.
             None => {
                 high = high.min(t);
                 if low.is_finite() { 0.5 * (low + high) } else { t - (time - t).max(1.0) }

@@ -11,7 +11,7 @@ use bevy::render::view::ViewTarget;
 use bevy::render::{Extract, ExtractSchedule, RenderApp};
 
 use super::Gpu;
-use super::device::missing_limits;
+use super::device::{Watch, missing_limits};
 use super::frame::FrameInput;
 use super::renderer::{Renderer, Surroundings};
 
@@ -52,7 +52,8 @@ impl Plugin for RelativisticRenderPlugin {
             error!("there is no graphics device: nothing is drawn");
             return;
         };
-        let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone() };
+        let gpu =
+            Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
         if let Some(needs) = missing_limits(&gpu.device.limits()) {
             error!("the GPU adapter `{}` cannot be used: {needs}", gpu.adapter.name);
             return;

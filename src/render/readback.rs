@@ -12,6 +12,12 @@ pub enum PictureError {
     /// The GPU did not hand the data over.
     #[error("the GPU did not return the picture: {0}")]
     Map(String),
+    /// The device is gone, or refuses.
+    #[error("{0}")]
+    Device(String),
+    /// There is nothing to draw.
+    #[error("nothing was drawn: the camera's numbers are not finite, or the picture has no size")]
+    Nothing,
     /// The file could not be written.
     #[error("cannot write {path}: {reason}")]
     Write {
@@ -64,7 +70,20 @@ pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>,
     Ok(padded.chunks_exact(row as usize).flat_map(|line| &line[..(width * bytes) as usize]).copied().collect())
 }
 
+/// The texels of a texture of four 32-bit floats a texel.
+pub fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
+    let bytes = texture(gpu, source, 16)?;
+    Ok(bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+}
+
 fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    mapped(gpu, copy).map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
+}
+
+fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    if let Some(complaint) = gpu.watch.complaint() {
+        return Err(PictureError::Device(complaint));
+    }
     let (send, receive) = std::sync::mpsc::channel();
     copy.slice(..).map_async(wgpu::MapMode::Read, move |result| {
         // The receiver waits below; if it is gone there is nobody to tell.
@@ -88,6 +107,10 @@ pub struct Picture {
     pub linear: Vec<[f32; 4]>,
     /// Object id, image order, travel time, g of the nearest surface; empty unless asked for.
     pub layers: Vec<[f32; 4]>,
+    /// Texture coordinates and coverage of that surface; as `layers`.
+    pub surface: Vec<[f32; 4]>,
+    /// The part of each pixel that thin images cover together; empty where there are none.
+    pub thin: Vec<f32>,
 }
 
 impl Picture {
@@ -114,6 +137,7 @@ impl Picture {
         if !self.layers.is_empty() {
             let names = ["object.id", "image.order", "travel.time", "frequency.ratio"];
             channels.extend(names.iter().enumerate().map(|(k, name)| channel(name, &self.layers, k)));
+            channels.extend(["texture.u", "texture.v"].iter().enumerate().map(|(k, name)| channel(name, &self.surface, k)));
         }
         let size = (self.size[0] as usize, self.size[1] as usize);
         let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));

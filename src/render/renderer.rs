@@ -4,19 +4,21 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{Slice, Table};
+use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
 use crate::scene::model::Model;
 
 use super::Gpu;
+use super::aurora::Aurora;
 use super::develop::Develop;
 use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
 use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
+use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
-use super::sky::table::{NODES, sky_table};
+use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::targets::Targets;
 use super::timing::Timing;
@@ -38,6 +40,8 @@ pub struct Surroundings {
 pub struct Renderer {
     gpu: Gpu,
     table: Arc<Table>,
+    /// Paper 1's tables, once they are asked for.
+    paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
     lens_slice: Numbers,
     sky_slice: wgpu::Buffer,
@@ -48,8 +52,8 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
     frame_group: wgpu::BindGroup,
-    /// The radius that the slices are for.
-    sliced: f64,
+    /// The radius and the method that the slices are for.
+    sliced: (f64, Method),
     slice: Option<Slice>,
     disk: Option<DiskPasses>,
     /// Whether the scene has a disk; its passes are kept for the next that has.
@@ -58,8 +62,11 @@ pub struct Renderer {
     geometry: Geometry,
     background: Background,
     stars: Stars,
+    aurora: Aurora,
     develop: Develop,
     targets: Targets,
+    /// The output has no size.
+    hidden: bool,
     timing: Timing,
 }
 
@@ -80,17 +87,19 @@ impl Renderer {
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
-        let targets = Targets::new(device, size);
+        let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
         let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
             table: surroundings.table.clone(),
+            paper: None,
             frame,
             lens_slice,
             sky_slice,
@@ -100,12 +109,13 @@ impl Renderer {
             frame_layout,
             format,
             frame_group,
-            sliced: f64::NAN,
+            sliced: (f64::NAN, Method::default()),
             slice: None,
             disk: None,
             has_disk: false,
             develop,
             targets,
+            hidden: size.contains(&0),
         }
     }
 
@@ -117,6 +127,11 @@ impl Renderer {
     /// The baked table.
     pub fn table(&self) -> &Arc<Table> {
         &self.table
+    }
+
+    /// The tables for the method "paper1", instead of those that are loaded or baked when it is first drawn.
+    pub fn set_paper_table(&mut self, table: Arc<Table>) {
+        self.paper = Some(table);
     }
 
     /// Adds a model.
@@ -158,9 +173,10 @@ impl Renderer {
         self.targets.size
     }
 
-    /// Makes targets of another size.
+    /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
-        if size != self.targets.size {
+        self.hidden = size.contains(&0);
+        if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
             self.develop.resize(&self.gpu, &self.targets);
         }
@@ -175,34 +191,51 @@ impl Renderer {
         }
     }
 
-    /// Uploads what the frame needs. The camera must be finite and away from r = 0; else the frame stays as it was, and false is returned.
+    /// Uploads what the frame needs. There must be a device and a size, and the camera must be finite and away from r = 0; else the frame
+    /// stays as it was, and false is returned.
     pub fn prepare(&mut self, input: &FrameInput) -> bool {
         let camera = &input.camera;
+        if self.hidden || self.gpu.watch.complaint().is_some() {
+            return false;
+        }
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
         let l = camera.radius();
-        // The slices depend on the radius alone.
-        if self.sliced != l {
-            self.sliced = l;
+        // The slices depend on radius and method alone.
+        let method = input.settings.method;
+        if self.sliced != (l, method) {
+            if self.sliced.1 != method {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+                self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
+            }
+            self.sliced = (l, method);
             let slice = Slice::new(&self.table, l);
-            if self.lens_slice.write(&self.gpu, "lens slice", slice.texels()) {
+            let texels = match method {
+                Method::Paper1 => {
+                    let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
+                    paper::slice(table, l)
+                }
+                Method::Table | Method::Flat => slice.texels().to_vec(),
+            };
+            if self.lens_slice.write(&self.gpu, "lens slice", &texels) {
                 let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
             }
-            self.sky = sky_table(l);
+            self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
             self.slice = Some(slice);
         }
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed);
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let uniform = uniform(input, self.targets.size, self.geometry.capacity());
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
         self.background.prepare(&self.gpu, self.targets.size);
+        self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         true
     }
 
@@ -225,6 +258,10 @@ impl Renderer {
         compute(encoder, "mesh", &|pass| geometry.mesh(pass));
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
+            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+        }
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         if let Some(disk) = disk {
             compute(encoder, "disk arcs", &|pass| disk.compute(pass));
@@ -269,6 +306,20 @@ impl Renderer {
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
+        for image in 0..self.aurora.images() {
+            let Some(light) = self.aurora.light() else { break };
+            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
+                    timestamp_writes: self.timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, group, &[]);
+                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
+            }
+        }
         self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
         self.timing.end(encoder);
     }
@@ -278,7 +329,9 @@ impl Renderer {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
         let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
         for _ in 0..2 {
-            self.prepare(input);
+            if !self.prepare(input) {
+                return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
+            }
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
             self.encode(&mut encoder, &view);
             if layers {
@@ -292,27 +345,25 @@ impl Renderer {
             .chunks_exact(8)
             .map(|texel| std::array::from_fn(|k| half::f16::from_le_bytes([texel[2 * k], texel[2 * k + 1]]).to_f32()))
             .collect();
-        let layers = match &self.targets.layers {
-            Some((texture, _, _)) if layers => {
-                let bytes = readback::texture(&self.gpu, texture, 16)?;
-                bytes
-                    .chunks_exact(16)
-                    .map(|texel| {
-                        std::array::from_fn(|k| f32::from_le_bytes([texel[4 * k], texel[4 * k + 1], texel[4 * k + 2], texel[4 * k + 3]]))
-                    })
-                    .collect()
-            }
-            _ => Vec::new(),
+        let (layers, surface) = match &self.targets.layers {
+            Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
+            _ => Default::default(),
         };
-        Ok(Picture { size: self.targets.size, developed, linear, layers })
+        let thin = if self.geometry.has_thin() {
+            let halves = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            halves.chunks_exact(8).map(|texel| half::f16::from_le_bytes([texel[6], texel[7]]).to_f32()).collect()
+        } else {
+            Vec::new()
+        };
+        Ok(Picture { size: self.targets.size, developed, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
-        let (_, view, depth_view) = self.targets.layers(&self.gpu.device);
+        let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("layers"),
-            color_attachments: &[Some(colour(view, true))],
-            depth_stencil_attachment: Some(depth(depth_view, true)),
+            color_attachments: &[Some(colour(&targets.what.1, true)), Some(colour(&targets.surface.1, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
             ..Default::default()
         });
         pass.set_bind_group(0, &self.frame_group, &[]);
@@ -334,6 +385,15 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
+}
+
+/// Nodes along each axis of paper 1's tables, when they are baked here: a few seconds on two cores, and about the error of the paper's 64³.
+const PAPER_NODES: usize = 64;
+
+fn paper_table() -> Table {
+    let file = lensing::default_file().with_file_name("paper1.lut");
+    let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
+    lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
 fn frame_bindings(

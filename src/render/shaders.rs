@@ -3,6 +3,8 @@
 //! A pass is its own file after the library files it needs; the order is the order of the floors. Nothing is generated, so a line of an
 //! error message can be found by counting through the list.
 
+use super::method::Method;
+
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
@@ -15,6 +17,7 @@ const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
+const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
 const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
@@ -50,6 +53,14 @@ pub enum Pass {
     StarsProject,
     /// Draws stars.
     StarsDraw,
+    /// Projects the ends of the aurora's chords.
+    AuroraProject,
+    /// Walks between them.
+    AuroraWalk,
+    /// Adds up the aurora's light.
+    AuroraSplat,
+    /// Makes it a colour.
+    AuroraResolve,
     /// Lays thin triangles over the picture.
     Compose,
     /// Halves and doubles the picture.
@@ -80,7 +91,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 24] = [
+    pub const ALL: [Pass; 28] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -92,6 +103,10 @@ impl Pass {
         Pass::Background,
         Pass::StarsProject,
         Pass::StarsDraw,
+        Pass::AuroraProject,
+        Pass::AuroraWalk,
+        Pass::AuroraSplat,
+        Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
@@ -109,7 +124,12 @@ impl Pass {
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        self.source_by(Method::default())
+    }
+
+    /// The same with another method of projection, where the pass looks rays up.
+    pub fn source_by(self, method: Method) -> String {
+        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -122,6 +142,10 @@ impl Pass {
             Pass::Background => include_str!("../../shaders/sky/background.wgsl"),
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
+            Pass::AuroraProject => include_str!("../../shaders/aurora/project.wgsl"),
+            Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
+            Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
@@ -142,7 +166,10 @@ impl Pass {
             Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
-            Pass::StarsDraw => vec![TYPES, BINDINGS],
+            Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
+            Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices | Pass::DiskMesh => {

@@ -8,9 +8,10 @@ use thiserror::Error;
 
 use crate::lensing;
 pub use crate::scene::picture_size as size;
-use crate::scene::{self, ConfigError, GameConfig, SceneError};
+use crate::scene::{self, Assembly, ConfigError, GameConfig, Scene, SceneError};
 pub use crate::sim::Moment;
 
+use super::frame::Settings;
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
 use super::stage::{Stage, settings};
@@ -52,7 +53,7 @@ pub struct Request<'a> {
 
 /// Everything around: table, stars, Milky Way, from the project's files. What cannot be read is said in the log and replaced.
 pub fn surroundings() -> Surroundings {
-    let file = scene::assets_folder().join("..").join("tables").join("default.lut");
+    let file = lensing::default_file();
     let complain = |error: &lensing::TableError| warn!("{error}; the table is baked anew");
     let table = lensing::load_or_bake(&file, lensing::Scheme::Residual, lensing::SMALL_NODES, complain, |_| ());
     let (stars, wrong) = scene::stars::load_or_stand_in();
@@ -86,8 +87,30 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
     let camera = stage.camera(moment.time(), &moment.ships());
-    let frame = stage.frame(camera, request.size[0], moment.time(), &moment.histories(), None, &settings(config));
+    let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
     Ok(renderer.picture(&frame, request.layers)?)
+}
+
+/// Draws a scene with models made elsewhere, once with its sky and once without, both with layers: for comparing with the judge's picture.
+pub fn with_and_without_sky(
+    scene: &Scene,
+    assembly: Assembly,
+    config: &GameConfig,
+    at: f64,
+    size: [u32; 2],
+) -> Result<[Picture; 2], ShotError> {
+    let gpu = Gpu::headless()?;
+    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::of(&mut renderer, scene, assembly, config);
+    let moment = Moment::new(scene, config, at, 0);
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let with = settings(config);
+    let without = Settings { stars: false, milky_way: false, ..with };
+    let mut draw = |settings| {
+        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, &settings);
+        renderer.picture(&frame, true)
+    };
+    Ok([draw(with)?, draw(without)?])
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -1,20 +1,22 @@
 //! A scene on the renderer: its models uploaded, and a frame made of its objects at any T.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Body, GameConfig, Scene, lighting, viewpoint};
+use crate::scene::{self, Assembly, Body, GameConfig, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
 use super::Renderer;
+use super::aurora::{Show, planet_history};
 use super::coarse::coarse;
 use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
+use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, View, place};
 
@@ -30,14 +32,30 @@ pub struct Stage {
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
     has_ships: bool,
+    planet: Option<Planet>,
+    has_disk: bool,
+    /// The planet's model, and the coarse one.
+    globe: [ModelRange; 2],
+    /// Shared, because a stage is only read when it makes a frame.
+    show: Arc<Mutex<Option<Show>>>,
 }
+
+/// Light on a planet's night side, where only stars shine; and on its day side, if a disk shines on it.
+const NIGHT: f32 = 0.004;
+const DAY: f32 = 0.35;
+/// A scene without a disk is lit by the stars beyond the hole, gathered by its lensing: just enough to see the planet by.
+const STARLIGHT: f32 = 0.015;
 
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
+        Stage::of(renderer, scene, scene.assemble(config), config)
+    }
+
+    /// The same with models made elsewhere.
+    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
         renderer.clear_models();
         renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
-        let assembly = scene.assemble(config);
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
@@ -53,6 +71,11 @@ impl Stage {
             let range = ranges[object.model];
             (object, range)
         });
+        let globe = scene.planet.as_ref().map_or_else(Default::default, |planet| {
+            let model = planet.model();
+            let fine = renderer.add_model(&model);
+            [fine, coarse(&model).map_or(fine, |model| renderer.add_model(&model))]
+        });
         Stage {
             objects: objects.collect(),
             reaches,
@@ -61,6 +84,10 @@ impl Stage {
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
+            planet: scene.planet,
+            has_disk: scene.disk(config).is_some(),
+            globe,
+            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
         }
     }
 
@@ -71,19 +98,20 @@ impl Stage {
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
-    /// drawn (the cockpit's own); `width` is that of the picture in pixels.
+    /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
         camera: Camera,
-        width: u32,
+        size: [u32; 2],
         time: f64,
         histories: &[&History],
         hidden: Option<usize>,
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
-        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-        let view = View { camera: &camera, slice: &slice, pixel };
+        let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
+        let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
+        let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
@@ -105,14 +133,42 @@ impl Stage {
             };
             placed.extend(place(&view, time, &object, settings.orders));
         }
+        let mut aurora = None;
+        if let Some(planet) = &self.planet {
+            // Light of the higher orders goes once round the hole.
+            let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
+            if let Some(history) = planet_history(planet, time, back, DQuat::IDENTITY) {
+                let position = history.at(time).position;
+                let to_hole = -position.normalize_or_zero();
+                let day = if self.has_disk { DAY } else { STARLIGHT };
+                let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
+                let object = Object {
+                    model: self.globe[0],
+                    coarse: self.globe[1],
+                    motion: Motion::Flying(&history),
+                    reach: planet.radius,
+                    scale: DVec3::splat(2.0 * planet.radius),
+                    id: self.objects.len() as u32 + 1,
+                    two_sided: false,
+                    light: lighting::Surroundings { ambient: [NIGHT, NIGHT, 1.2 * NIGHT], directed },
+                };
+                placed.extend(place(&view, time, &object, settings.orders));
+            }
+            let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
+            aurora = show.as_mut().and_then(|show| show.frame(&view, time, back, settings.orders));
+        }
         let mut settings = *settings;
         settings.stars &= self.sky.0;
         settings.milky_way &= self.sky.1;
         settings.star_brightness *= self.sky.2;
         settings.sky_brightness *= self.sky.2;
-        FrameInput { camera, time, placed, settings }
+        FrameInput { camera, time, placed, aurora, settings }
     }
 }
+
+/// Standard deviation of a star's spot over its radius. 0.7 pixels at the default radius is the narrowest Gaussian whose light, sampled at
+/// pixel centres, changes by less than 1 % as it moves (its transform at the sampling frequency is e^{−2π²·0.49} = 6e-5).
+const SPOT_SIGMA: f64 = 0.7 / 1.1;
 
 /// The settings that `game.toml` asks for.
 pub fn settings(config: &GameConfig) -> Settings {
@@ -120,11 +176,22 @@ pub fn settings(config: &GameConfig) -> Settings {
     Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
+        method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
+        light_delay: render.light_delay,
+        halvings: render.tessellation_max_level,
+        vertex_budget: render.vertex_budget,
+        min_width: render.min_width as f32,
+        thin_below: render.thin_below,
+        coarse_below: render.coarse_below,
+        least_width: render.least_width,
         doppler: render.doppler,
         beaming: render.beaming,
         star_brightness: config.sky.star_brightness as f32,
         sky_brightness: config.sky.milky_way_brightness as f32,
         bloom: render.bloom as f32,
+        exposure_key: render.exposure_key as f32,
+        star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
+        faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         ..Settings::default()
     }

@@ -7,6 +7,17 @@ use super::layout::{DEPTH_FORMAT, HDR_FORMAT};
 /// the others, for a glow of two pixels.
 const BLOOM_LEVELS: usize = 5;
 
+/// The targets of the layers of a picture.
+#[derive(Debug)]
+pub struct LayerTargets {
+    /// Object id, order, travel time, g.
+    pub what: (wgpu::Texture, wgpu::TextureView),
+    /// Texture coordinates, coverage.
+    pub surface: (wgpu::Texture, wgpu::TextureView),
+    /// A depth of their own.
+    pub depth: wgpu::TextureView,
+}
+
 /// Targets of one size.
 #[derive(Debug)]
 pub struct Targets {
@@ -18,12 +29,14 @@ pub struct Targets {
     pub picture: wgpu::TextureView,
     /// Depth, reversed.
     pub depth: wgpu::TextureView,
+    /// Sum of thin triangles, as a texture to copy from.
+    pub thin_texture: wgpu::Texture,
     /// Sum of thin triangles.
     pub thin: wgpu::TextureView,
     /// The picture at a quarter of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,
-    /// Object id, order, travel time, g; made when first asked for.
-    pub layers: Option<(wgpu::Texture, wgpu::TextureView, wgpu::TextureView)>,
+    /// What the pixels show; made when first asked for.
+    pub layers: Option<LayerTargets>,
 }
 
 impl Targets {
@@ -31,6 +44,7 @@ impl Targets {
     pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
         let size = size.map(|side| side.max(1));
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
+        let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
         let mut bloom = Vec::new();
         let mut level = size;
         while bloom.len() < BLOOM_LEVELS {
@@ -46,7 +60,8 @@ impl Targets {
             picture_texture,
             picture,
             depth: target(device, "depth", size, DEPTH_FORMAT).1,
-            thin: target(device, "thin", size, HDR_FORMAT).1,
+            thin_texture,
+            thin,
             bloom,
             layers: None,
         }
@@ -57,12 +72,13 @@ impl Targets {
         1.min(self.bloom.len() - 1)
     }
 
-    /// The target of the layers and its depth.
-    pub fn layers(&mut self, device: &wgpu::Device) -> &(wgpu::Texture, wgpu::TextureView, wgpu::TextureView) {
+    /// The targets of the layers.
+    pub fn layers(&mut self, device: &wgpu::Device) -> &LayerTargets {
         let size = self.size;
-        self.layers.get_or_insert_with(|| {
-            let (texture, view) = target(device, "layers", size, LAYERS_FORMAT);
-            (texture, view, target(device, "layers depth", size, DEPTH_FORMAT).1)
+        self.layers.get_or_insert_with(|| LayerTargets {
+            what: target(device, "layers", size, LAYERS_FORMAT),
+            surface: target(device, "layers surface", size, LAYERS_FORMAT),
+            depth: target(device, "layers depth", size, DEPTH_FORMAT).1,
         })
     }
 }

@@ -52,10 +52,17 @@ impl Timing {
         }
     }
 
-    /// A new frame.
+    /// A new frame. The one before has been submitted by now, so that its copy may be mapped: a buffer that a command still writes must not be.
     pub fn begin(&mut self) {
-        if let Some(inner) = &mut self.inner {
-            inner.labels.clear();
+        let Some(inner) = &mut self.inner else { return };
+        inner.labels.clear();
+        if let Some(labels) = inner.copied.take() {
+            let (send, receive) = std::sync::mpsc::channel();
+            inner.mapped.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+                // Nobody waits any more if the renderer is gone.
+                let _ = send.send(result.is_ok());
+            });
+            inner.waiting = Some((labels, receive));
         }
     }
 
@@ -98,17 +105,9 @@ impl Timing {
         inner.copied = Some(inner.labels.clone());
     }
 
-    /// Durations in milliseconds of the passes of an earlier frame, those of one label added; call once a frame, after it was submitted.
+    /// Durations in milliseconds of the passes of an earlier frame, those of one label added; call as often as you like.
     pub fn latest(&mut self) -> &[(&'static str, f32)] {
         let Some(inner) = &mut self.inner else { return &[] };
-        if let Some(labels) = inner.copied.take() {
-            let (send, receive) = std::sync::mpsc::channel();
-            inner.mapped.slice(..).map_async(wgpu::MapMode::Read, move |result| {
-                // Nobody waits any more if the renderer is gone.
-                let _ = send.send(result.is_ok());
-            });
-            inner.waiting = Some((labels, receive));
-        }
         let arrived = inner.waiting.as_ref().and_then(|(_, receive)| receive.try_recv().ok());
         if let (Some(ok), Some((labels, _))) = (arrived, inner.waiting.as_ref().map(|w| (w.0.clone(), ()))) {
             inner.waiting = None;

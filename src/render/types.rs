@@ -29,10 +29,6 @@ pub mod flags {
     pub const DOPPLER: u32 = 1;
     /// Light changes its strength.
     pub const BEAMING: u32 = 2;
-    /// Stars are drawn.
-    pub const STARS: u32 = 4;
-    /// The Milky Way is drawn.
-    pub const MILKY_WAY: u32 = 8;
     /// The camera is inside the horizon.
     pub const INSIDE: u32 = 16;
     /// The exposure stays as it is.
@@ -45,6 +41,7 @@ pub mod flags {
 #[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
 pub struct Placement {
     pub offset: [f32; 4],
+    pub position: [f32; 4],
     pub velocity: [f32; 4],
     pub momentum: [f32; 4],
     pub shape: [[f32; 4]; 3],
@@ -54,6 +51,15 @@ pub struct Placement {
     pub ids: [u32; 4],
     pub vertices: [u32; 4],
     pub triangles: [u32; 4],
+}
+
+impl Placement {
+    /// Whether every number of it is one.
+    pub fn is_finite(&self) -> bool {
+        let rows = [self.offset, self.position, self.velocity, self.momentum];
+        let matrices = [self.shape, self.shape_rate, self.turn, self.light];
+        rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
+    }
 }
 
 /// `ModelVertex` in WGSL.
@@ -129,7 +135,24 @@ pub struct Counters {
     pub cut: u32,
     pub caught: u32,
     pub model_vertices: u32,
-    pub unused: u32,
+    pub lost: u32,
+}
+
+impl Counters {
+    /// What a person should know of these counts, in words; None if all is well.
+    pub fn complaint(&self) -> Option<String> {
+        let mut parts = Vec::new();
+        if self.coarse > 0 {
+            parts.push(format!("{} patches are drawn coarser than asked: raise render.vertex_budget", self.coarse));
+        }
+        if self.lost > 0 {
+            parts.push(format!("{} patches found no room at all", self.lost));
+        }
+        if self.caught > 0 {
+            parts.push(format!("{} results were not finite and are left out", self.caught));
+        }
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
 }
 
 /// Bytes of `Piece` in WGSL.

@@ -11,12 +11,20 @@
 //! # or, instead of position and momentum, with a ship:
 //! follow = "hunter"
 //! offset = [0.0, 0.3, 1.0]      # r_s, in the ship's body axes (+x right, +y up, −z forward)
+//! # or, instead of all these, with the planet:
+//! above = [1.18, 0.0, 10.0]     # magnetic latitude and longitude (radians), height (km; the planet's radius is 6371)
+//! look = [0.0, 0.9, 0.4]        # east, north, up; up if absent
+//! up = [0.0, 0.0, 1.0]          # the same axes; up if absent (north where the camera looks up)
 //! ```
 
-use glam::{DQuat, DVec3};
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use glam::{DMat3, DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::aurora::dipole::PLANET_RADIUS;
+use super::planet::Planet;
 use super::ship::{Fault, MAX_START_MOMENTUM, ShipSpec, fault, in_range};
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
@@ -54,6 +62,15 @@ pub enum Mount {
         /// Upwards in the ship's body axes.
         up: DVec3,
     },
+    /// With the planet, turning as it does.
+    Planet {
+        /// Place in the axes of the planet's dipole, in its radii.
+        place: DVec3,
+        /// Camera axes to the dipole's.
+        view: DQuat,
+        /// The planet.
+        planet: Planet,
+    },
 }
 
 impl Default for Camera {
@@ -88,21 +105,23 @@ pub struct CameraEntry {
     momentum: Option<Spanned<[f64; 3]>>,
     follow: Option<Spanned<String>>,
     offset: Option<Spanned<[f64; 3]>>,
+    above: Option<Spanned<[f64; 3]>>,
     look: Option<Spanned<[f64; 3]>>,
     up: Option<Spanned<[f64; 3]>>,
     fov: Option<Spanned<f64>>,
 }
 
-/// Checks the camera against its ranges and the ships it may follow.
-pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec]) -> Result<Camera, Fault> {
+/// Checks the camera against its ranges and the ships or the planet it may go with.
+pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec], planet: Option<&Planet>) -> Result<Camera, Fault> {
     let whole = entry;
     let entry = entry.get_ref();
     let fov = entry.fov.as_ref().map_or(Ok(60.0), |fov| in_range(fov, "fov", 1.0..=170.0, "degrees"))?.to_radians();
-    let mount = match (&entry.position, &entry.follow) {
-        (Some(position), None) => free(entry, position)?,
-        (None, Some(ship)) => follow(entry, ship, ships)?,
+    let mount = match (&entry.position, &entry.follow, &entry.above) {
+        (Some(position), None, None) => free(entry, position)?,
+        (None, Some(ship), None) => follow(entry, ship, ships)?,
+        (None, None, Some(above)) => over(entry, above, planet)?,
         _ => {
-            return fault(whole, "needs either position or follow (and not both)".into());
+            return fault(whole, "needs either position, follow or above (and only one)".into());
         }
     };
     Ok(Camera { mount, fov })
@@ -147,6 +166,33 @@ fn follow(entry: &CameraEntry, ship: &Spanned<String>, ships: &[ShipSpec]) -> Re
     }
     let (look, up) = axes(entry, DVec3::NEG_Z)?;
     Ok(Mount::Follow { ship: ship.get_ref().clone(), offset, look, up })
+}
+
+fn over(entry: &CameraEntry, above: &Spanned<[f64; 3]>, planet: Option<&Planet>) -> Result<Mount, Fault> {
+    let Some(planet) = planet else {
+        return fault(above, "goes with a [planet] only".into());
+    };
+    if let Some(place) = entry.momentum.as_ref().or(entry.offset.as_ref()) {
+        return fault(place, "does not go with above".into());
+    }
+    let [latitude, longitude, height] = vector(above)?.to_array();
+    if latitude.abs() > FRAC_PI_2 || longitude.abs() > TAU || !(1.0..=1e5).contains(&height) {
+        return fault(above, format!("is [{latitude}, {longitude}, {height}], allowed [-π/2 to π/2 rad, -2π to 2π rad, 1 to 100000 km]"));
+    }
+    let (sine, cosine) = longitude.sin_cos();
+    let east = DVec3::new(-sine, cosine, 0.0);
+    let upwards = DVec3::new(cosine * latitude.cos(), sine * latitude.cos(), latitude.sin());
+    let ground = DQuat::from_mat3(&DMat3::from_cols(east, upwards.cross(east), upwards));
+    let look = entry.look.as_ref().map_or(Ok(DVec3::Z), vector)?;
+    if let (Some(place), true) = (&entry.look, look.length() < 1e-9) {
+        return fault(place, "must not be zero".into());
+    }
+    let default_up = if look.normalize().cross(DVec3::Z).length() > 1e-3 { DVec3::Z } else { DVec3::Y };
+    let up = entry.up.as_ref().map_or(Ok(default_up), vector)?;
+    let Some(view) = frames::look(look, up) else {
+        return fault(above, "look and up must not lie along one line".into());
+    };
+    Ok(Mount::Planet { place: upwards * (1.0 + height / PLANET_RADIUS), view: ground * view, planet: *planet })
 }
 
 /// Direction of view and upwards, of unit length and not along one line.

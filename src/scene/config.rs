@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::de::{DeTable, DeValue};
 
 pub use super::config_fields::{
-    Assist, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
+    Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
 };
 use super::document::{complain, syntax};
 use super::error::{Complaint, ConfigError};
@@ -34,7 +34,33 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
             }
         }
     }
+    together(&config).map_err(|(key, message)| {
+        let span = document.get_ref().iter().find_map(|(section, table)| {
+            let (wanted, key) = key.split_once('.')?;
+            let DeValue::Table(table) = table.get_ref() else { return None };
+            (section.get_ref() == wanted).then(|| table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.span()))?
+        });
+        complain(file, text, Fault { span: span.unwrap_or(0..0), message })
+    })?;
     Ok(config)
+}
+
+/// What single ranges cannot say: a lower end above its upper one, a key for two things. The key to name, and what is wrong.
+fn together(config: &GameConfig) -> Result<(), (String, String)> {
+    let below = |low: &str, a: f64, high: &str, b: f64| {
+        if a < b { Ok(()) } else { Err((low.to_owned(), format!("{a} must be less than {high} = {b}"))) }
+    };
+    below("render.exposure_min", config.render.exposure_min, "exposure_max", config.render.exposure_max)?;
+    below("disk.inner", config.disk.inner, "outer", config.disk.outer)?;
+    let mut bound: Vec<(String, String)> = Vec::new();
+    for setting in settings().iter().filter(|setting| setting.section == "controls") {
+        let Value::Word(name) = setting.get(config) else { continue };
+        if let Some((_, other)) = bound.iter().find(|(known, _)| *known == name && name != "None") {
+            return Err((format!("controls.{}", setting.key), format!("{name} is already the key of {other}")));
+        }
+        bound.push((name, setting.key.to_owned()));
+    }
+    Ok(())
 }
 
 /// Sets every entry of `table` in `config`, as keys of `section`.

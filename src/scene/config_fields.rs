@@ -115,10 +115,13 @@ config! {
     render: Render {
         pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
         orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
-        method: String = "table", Choice(&["table", "newton", "flat", "paper1"]), "", "how a vertex is projected";
-        tessellation_max_level: u32 = 6u32, integer(0, 8), "halvings", "finest subdivision of a triangle";
-        vertex_budget: u32 = 2_000_000u32, integer(10_000, 50_000_000), "vertices", "room for tessellated vertices in a frame";
-        min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner images are drawn this wide, with their coverage as alpha";
+        method: String = "table", Choice(&["table", "flat", "paper1"]), "", "how a vertex is projected";
+        tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
+        vertex_budget: u32 = 600_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
+        min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";
+        thin_below: f64 = 2.0, number(0.0, 100.0), "pixels", "images narrower than this are thin ones";
+        coarse_below: f64 = 6.0, number(0.0, 100.0), "pixels", "images narrower than this show a coarse stand-in";
+        least_width: f64 = 0.05, number(0.0, 10.0), "pixels", "images of order 2 and 3 narrower than this are left out";
         doppler: bool = true, Switch, "", "frequency shift of all light";
         beaming: bool = true, Switch, "", "brightness change that goes with the shift";
         lensing: bool = true, Switch, "", "bending of light; off draws flat space";
@@ -126,7 +129,7 @@ config! {
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
         exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
-        exposure_key: f64 = 0.16, number(0.01, 1.0), "", "grey that the mean of the picture is brought to";
+        exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
@@ -155,6 +158,23 @@ config! {
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
     }
+    /// The aurora of a planet.
+    aurora: AuroraConfig {
+        enabled: bool = true, Switch, "", "the aurora is simulated and drawn";
+        walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in paper 3";
+        streaks: u32 = 24_000u32, integer(64, 200_000), "streaks", "most electrons drawn; fewer when the aurora is small on the screen";
+        splats: u32 = 14u32, integer(4, 48), "splats", "luminous points along one electron's fall";
+        radius: f64 = 0.8, number(0.05, 50.0), "km", "spread of a luminous point (the planet's radius is 6371 km)";
+        energy: f64 = 4.0, number(0.1, 100.0), "keV", "energy that electrons gain in the potential above the aurora";
+        thermal: f64 = 1.5, number(0.05, 50.0), "keV", "thermal energy on top of it";
+        flux: f64 = 20.0, number(0.0, 1000.0), "erg cm^-2 s^-1", "energy flux in a curtain";
+        brightness: f64 = 0.02, number(0.0, 10.0), "per kilorayleigh", "what a kilorayleigh of green light is in the picture";
+        field: f64 = 30.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";
+        renewal: f64 = 45.0, number(1.0, 1000.0), "s", "time in which new electrons bring a curtain back to its place";
+        contrast: f64 = 0.7, number(0.0, 1.0), "", "contrast of the rays and of the brightness that travels along the curtains";
+        pace: f64 = 4.0, number(0.0, 1000.0), "s per r_s/c", "how fast the aurora moves against the game's clock";
+        seed: u32 = 1u32, integer(0, u32::MAX), "", "which aurora";
+    }
     /// The player's ship.
     ship: ShipConfig {
         thrust: f64 = 0.06, number(0.0, 10.0), "c^2/r_s", "largest proper acceleration";
@@ -177,7 +197,6 @@ config! {
         hold_time: f64 = 2.0, number(0.0, 1000.0), "r_s/c", "for this long without a break";
         time_limit: f64 = 400.0, number(1.0, 1e9), "r_s/c", "the hunter loses after this time";
         arena_radius: f64 = 20.0, number(5.0, 1e6), "r_s", "the quarry turns back before this radius";
-        start_distance: f64 = 8.0, number(0.5, 1000.0), "r_s", "distance between the ships when a chase is drawn by seed";
     }
     /// Flight assistance.
     assist: Assist {

@@ -101,11 +101,12 @@ impl From<&RulesConfig> for Rules {
 fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     let ships = check_ships(&entry.ship)?;
     entry.rules.check(Rules::default())?;
+    let planet = entry.planet.as_ref().map(check_planet).transpose()?;
     Ok(Scene {
         name: String::new(),
-        camera: entry.camera.as_ref().map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships))?,
+        camera: entry.camera.as_ref().map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships, planet.as_ref()))?,
         props: check_props(&entry.prop)?,
-        planet: entry.planet.as_ref().map(check_planet).transpose()?,
+        planet,
         sky: check_sky(&entry.sky)?,
         disk: None,
         rules: entry.rules.clone(),

@@ -11,6 +11,7 @@
 //! axis_tilt = 0.3        # radians between axis and z
 //! dipole_tilt = 0.2      # radians between magnetic and rotation axis
 //! seed = 1               # which clouds and continents
+//! aurora = "oval"        # "oval" round both magnetic poles, "arcs" at the north magnetic meridian, or "none"
 //!
 //! [sky]
 //! stars = true
@@ -18,13 +19,17 @@
 //! brightness = 1.0       # factor on both
 //! ```
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use glam::DQuat;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::model::{Material, Model};
 use super::ship::{Fault, in_range};
-use crate::spacetime::orbit::Elements;
+use super::{shapes, texture};
+use crate::spacetime::matter::ShipState;
+use crate::spacetime::orbit::{Elements, orbital_frequency};
 
 /// A planet on a circular orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +46,52 @@ pub struct Planet {
     pub dipole_tilt: f64,
     /// Which clouds and continents.
     pub seed: u32,
+    /// Its aurora.
+    pub aurora: AuroraShape,
 }
+
+/// Where a planet's aurora is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AuroraShape {
+    /// Curtains round both magnetic poles.
+    #[default]
+    Oval,
+    /// Arcs over the place at magnetic latitude 67.9°, longitude 0.
+    Arcs,
+    /// There is none.
+    None,
+}
+
+impl Planet {
+    /// The planet's centre at T = `time` as a ship's state; its body axes are the model's: +y the axis of rotation.
+    pub fn state(&self, time: f64) -> Option<ShipState> {
+        let radius = self.orbit.semi_latus_rectum;
+        let phase = self.orbit.phase + orbital_frequency(radius) * time;
+        let state = Elements { phase, ..self.orbit }.state().ok()?;
+        Some(ShipState { attitude: self.attitude(time), ..state })
+    }
+
+    /// Model axes (+y the axis of rotation) to rain axes at T = `time`.
+    fn attitude(&self, time: f64) -> DQuat {
+        // y to z, tilted about x, then turned about its own axis.
+        DQuat::from_rotation_x(self.axis_tilt + FRAC_PI_2) * DQuat::from_rotation_y(TAU * (time / self.day).fract())
+    }
+
+    /// The magnetic dipole's axes (+z its north) to the model's.
+    pub fn dipole(&self) -> DQuat {
+        DQuat::from_rotation_x(-FRAC_PI_2 + self.dipole_tilt)
+    }
+
+    /// A unit sphere of diameter 1 with clouds and continents.
+    pub fn model(&self) -> Model {
+        let material = Material { base_colour: [1.0; 4], texture: Some(texture::planet(self.seed)), ..Material::default() };
+        shapes::uv_sphere(TRIANGLES, material)
+    }
+}
+
+/// Triangles of the planet: their chords leave the sphere by a ten-thousandth of its radius.
+const TRIANGLES: u32 = 16_000;
 
 /// `[planet]` as the file has it, before any check.
 #[derive(Debug, Clone, Deserialize)]
@@ -57,6 +107,8 @@ pub struct PlanetEntry {
     dipole_tilt: Option<Spanned<f64>>,
     #[serde(default)]
     seed: u32,
+    #[serde(default)]
+    aurora: AuroraShape,
 }
 
 /// Checks the planet against its ranges.
@@ -76,6 +128,7 @@ pub fn check_planet(entry: &PlanetEntry) -> Result<Planet, Fault> {
         axis_tilt: or(&entry.axis_tilt, "axis_tilt", 0.0, PI, "rad", 0.0)?,
         dipole_tilt: or(&entry.dipole_tilt, "dipole_tilt", 0.0, PI, "rad", 0.0)?,
         seed: entry.seed,
+        aurora: entry.aurora,
     })
 }
 

@@ -1,10 +1,11 @@
-//! The two procedural textures: a chequer and a spiral galaxy. Deterministic.
+//! The procedural textures: a chequer, a spiral galaxy, a planet. Deterministic.
 
 use std::f32::consts::{PI, TAU};
 use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
+use super::aurora::random;
 use super::model::Image;
 
 /// Width and height of the galaxy, in pixels.
@@ -37,6 +38,62 @@ pub fn galaxy() -> Arc<Image> {
             }))
         })
         .clone()
+}
+
+/// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which.
+pub fn planet(seed: u32) -> Arc<Image> {
+    Arc::new(draw(1024, 512, |x, y| {
+        let (longitude, colatitude) = (TAU * (x as f32 + 0.5) / 1024.0, PI * (y as f32 + 0.5) / 512.0);
+        let (sine, cosine) = colatitude.sin_cos();
+        let place = [sine * longitude.sin(), cosine, sine * longitude.cos()];
+        let [r, g, b] = planet_light(place, seed).map(encode_srgb);
+        [r, g, b, 255]
+    }))
+}
+
+/// Albedo of the planet at a unit vector, linear sRGB.
+fn planet_light(place: [f32; 3], seed: u32) -> [f32; 3] {
+    let mix = |a: [f32; 3], b: [f32; 3], s: f32| std::array::from_fn(|k| a[k] + (b[k] - a[k]) * s);
+    let step = |low: f32, high: f32, x: f32| {
+        let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    };
+    let height = clouds_of_noise(place, 1.7, seed) + 0.35 * (clouds_of_noise(place, 6.0, seed ^ 5) - 0.5);
+    let land = step(0.51, 0.54, height);
+    let high = step(0.54, 0.75, height);
+    let ground = mix([0.05, 0.09, 0.035], [0.20, 0.15, 0.09], high);
+    let ice = step(0.80, 0.90, place[1].abs() + 0.12 * (height - 0.5));
+    let surface = mix(mix([0.010, 0.028, 0.060], ground, land), [0.65, 0.70, 0.75], ice);
+    let cloud = step(0.50, 0.72, clouds_of_noise(place.map(|x| x + 0.15 * height), 3.1, seed ^ 77));
+    mix(surface, [0.75; 3], 0.8 * cloud)
+}
+
+/// Six octaves of smooth noise in [0, 1] over space.
+fn clouds_of_noise(place: [f32; 3], scale: f32, seed: u32) -> f32 {
+    let (mut sum, mut weight, mut scale) = (0.0, 0.5, scale);
+    for octave in 0..6u32 {
+        sum += weight * space_noise(place.map(|x| x * scale + 17.3), seed.wrapping_mul(31).wrapping_add(octave));
+        weight *= 0.5;
+        scale *= 2.03;
+    }
+    sum / (1.0 - 1.0 / 64.0)
+}
+
+/// Noise in [0, 1], smooth, one value at each point of the integer lattice.
+fn space_noise(place: [f32; 3], seed: u32) -> f32 {
+    let cell = place.map(f32::floor);
+    let s: [f32; 3] = std::array::from_fn(|k| {
+        let t = place[k] - cell[k];
+        t * t * (3.0 - 2.0 * t)
+    });
+    let mut sum = 0.0;
+    for corner in 0..8u32 {
+        let bit = |k: usize| (corner >> k & 1) as f32;
+        let key = (0..3).fold(seed, |key, k| random::hash(key.wrapping_add((cell[k] + bit(k)) as i32 as u32)));
+        let weight: f32 = (0..3).map(|k| if bit(k) > 0.0 { s[k] } else { 1.0 - s[k] }).product();
+        sum += weight * (key >> 8) as f32 / 16_777_216.0;
+    }
+    sum
 }
 
 fn draw(width: u32, height: u32, pixel: impl Fn(u32, u32) -> [u8; 4] + Sync) -> Image {

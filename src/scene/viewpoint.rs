@@ -28,6 +28,12 @@ impl Camera {
         let state = match &self.mount {
             Mount::Static(state) => *state,
             Mount::Falling(state) => fall(state, time),
+            Mount::Planet { place, view, planet } => {
+                // A planet's orbit was checked when the scene was read.
+                let state = planet.state(time).unwrap_or(ShipState::new(DVec3::Z * 20.0, DVec3::ZERO));
+                let dipole = planet.dipole();
+                return beside(&state, dipole * *place * planet.radius, dipole * *view, self.fov);
+            }
             Mount::Follow { ship, offset, look, up } => {
                 let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
                     return Viewpoint {

@@ -1,9 +1,22 @@
-//! The chart `projection`: every method of projection on the same points, error against time and memory.
+//! The chart `projection`: every method of projection on the same points, error against time per lookup and against memory; where each
+//! fails; and paper 1's tables 2 and 3 with its own sampling.
+
+mod draw;
+mod maps;
+mod paper;
+mod points;
+mod score;
+mod time;
 
 use std::path::PathBuf;
 
+pub use points::{Row, rows};
+pub use score::{Score, Truth, score, truth};
+
 use super::chart::{Output, Provenance, Sheet, SheetError};
-use super::plot::{Axis, Figure, Panel, PlotError, Point, Scatter};
+use super::methods::{self, CATALOGUE, Entry, FAMILIES, Projector};
+use super::plot::PlotError;
+use crate::spacetime::light::Order;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
@@ -14,6 +27,8 @@ pub struct Request {
     pub points: usize,
     /// Seed of the points.
     pub seed: u64,
+    /// Methods to race; empty for all.
+    pub methods: Vec<String>,
 }
 
 /// Why there is no chart.
@@ -25,41 +40,107 @@ pub enum ChartError {
     /// The picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// No method has that name.
+    #[error("unknown method {name:?}: choose among {}", methods::names())]
+    Method {
+        /// The name asked for.
+        name: String,
+    },
 }
 
-/// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
-    let sheet = request.output.sheet("projection", || measure(request))?;
-    let figure = draw(&sheet);
-    Ok(figure.save(&request.output.folder, "projection")?.into_iter().chain([request.output.csv("projection")]).collect())
+/// The time of a method on a graphics adapter: nanoseconds a lookup for points of one order, where it has the method of that name.
+pub trait Adapter {
+    /// The adapter's name.
+    fn name(&self) -> String;
+    /// Median nanoseconds a lookup of the method called `method`; None where the adapter does not have it.
+    fn time(&mut self, method: &str, frames: &[time::TimedFrame]) -> Option<f64>;
 }
 
-fn measure(request: &Request) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["method", "order", "max_degrees"]);
-    sheet.notes = Provenance::now("").notes();
-    let table = crate::lensing::default_table();
-    let scores = crate::lensing::score::score(&table, crate::lensing::score::Points::Adversarial, request.points, request.seed);
-    for (i, score) in scores.iter().enumerate() {
-        sheet.push(["table".to_owned(), (i + 1).to_string(), score.angle.max.to_string()]);
+pub use time::TimedFrame;
+
+/// Measures (or reads) and draws; returns the files written. `adapter` adds a column of its times.
+pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
+    let output = &request.output;
+    let sheet = output.sheet("projection", || measure(request, adapter))?;
+    let mut paths = vec![output.csv("projection")];
+    paths.extend(draw::race(&sheet).save(&output.folder, "projection")?);
+    paths.extend(draw::everything(&sheet).save(&output.folder, "projection-all")?);
+    let sheet = output.sheet("projection-maps", || maps::measure(request))?;
+    paths.push(output.csv("projection-maps"));
+    paths.extend(maps::draw(&sheet).save(&output.folder, "projection-maps")?);
+    if request.methods.is_empty() {
+        output.sheet("projection-paper1", || Ok::<_, ChartError>(paper::measure(request)))?;
+        paths.push(output.csv("projection-paper1"));
+    }
+    Ok(paths)
+}
+
+/// Methods with what the catalogue says of them.
+type Methods = Vec<(Entry, Box<dyn Projector>)>;
+
+/// The methods asked for.
+fn chosen(request: &Request) -> Result<Methods, ChartError> {
+    let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
+    if let Some(name) = wrong {
+        return Err(ChartError::Method { name: name.clone() });
+    }
+    let wanted = |entry: &&Entry| request.methods.is_empty() || request.methods.iter().any(|name| name == entry.name);
+    Ok(CATALOGUE.iter().filter(wanted).filter_map(|entry| Some((*entry, methods::named(entry.name)?))).collect())
+}
+
+const COLUMNS: &[&str] = &[
+    "method",
+    "family",
+    "order",
+    "rows",
+    "answered",
+    "missing",
+    "false",
+    "max_degrees",
+    "p999_degrees",
+    "rms_degrees",
+    "worst_r",
+    "worst_phi",
+    "worst_L",
+    "delay_max",
+    "delay_p999",
+    "delay_over_allowed",
+    "delay_worst_r",
+    "delay_worst_phi",
+    "delay_worst_L",
+    "nanoseconds",
+    "adapter_nanoseconds",
+    "frame_microseconds",
+    "bytes",
+];
+
+fn measure(request: &Request, mut adapter: Option<&mut dyn Adapter>) -> Result<Sheet, ChartError> {
+    let methods = chosen(request)?;
+    let mut sheet = Sheet::new(COLUMNS);
+    sheet.notes = Provenance::now(&adapter.as_ref().map(|adapter| adapter.name()).unwrap_or_default()).notes();
+    sheet.notes.push(("points".into(), format!("{} for each order, seed {}", request.points, request.seed)));
+    eprintln!("timing {} methods", methods.len());
+    let frames = time::frames(request.seed);
+    let times = time::measure(&methods, &frames);
+    let rows = rows(request.points, request.seed);
+    let truths: Vec<Vec<Truth>> = Order::ALL.iter().map(|order| truth(&rows, *order)).collect();
+    for ((entry, method), timed) in methods.iter().zip(times) {
+        eprintln!("scoring {}", entry.name);
+        let on_adapter = adapter.as_mut().and_then(|adapter| adapter.time(entry.name, &frames));
+        for (order, truth) in Order::ALL.into_iter().zip(&truths) {
+            let s = score(method.as_ref(), &rows, truth, order);
+            let mut cells = vec![entry.name.to_owned(), FAMILIES[entry.family].to_owned(), order.number().to_string()];
+            cells.extend([rows.len(), s.answered, s.missing, s.invented].map(|n| n.to_string()));
+            cells.extend([s.angle.max, s.angle.most, s.angle.rms].map(|v| format!("{v:.4e}")));
+            cells.extend(s.angle.worst.map(|v| format!("{v:.9}")));
+            cells.extend([s.delay.max, s.delay.most, s.delay_share.max].map(|v| format!("{v:.4e}")));
+            cells.extend(s.delay_share.worst.map(|v| format!("{v:.9}")));
+            cells.push(format!("{:.1}", timed.nanoseconds));
+            cells.push(on_adapter.map(|v| format!("{v:.3}")).unwrap_or_default());
+            cells.push(format!("{:.2}", timed.frame_microseconds));
+            cells.push(method.memory().to_string());
+            sheet.push(cells);
+        }
     }
     Ok(sheet)
-}
-
-fn draw(sheet: &Sheet) -> Figure {
-    let points = sheet.rows.iter().map(|row| Point {
-        x: sheet.number(row, "order"),
-        y: sheet.number(row, "max_degrees"),
-        label: sheet.text(row, "method").to_owned(),
-        family: 0,
-        failed: false,
-    });
-    let scatter =
-        Scatter { x: Axis::linear("order"), y: Axis::log("largest error, degrees"), points: points.collect(), ..Scatter::default() };
-    Figure {
-        title: "Projection".into(),
-        panels: vec![Panel::Scatter(scatter)],
-        size: [900, 600],
-        footer: Provenance::footer(&sheet.notes),
-        ..Figure::default()
-    }
 }

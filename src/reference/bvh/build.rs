@@ -8,7 +8,7 @@
 //! let tree = build(&boxes, &Settings::default());
 //! validate(&tree, &boxes).unwrap();
 //! // Everything that a point might lie in:
-//! let mut found = Vec::new();
+//! let mut found: Vec<u32> = Vec::new();
 //! let mut stack = vec![0];
 //! while let Some(at) = stack.pop() {
 //!     let node = &tree.nodes[at];
@@ -21,7 +21,7 @@
 //!         stack.extend(node.children());
 //!     }
 //! }
-//! assert_eq!(found, [&7]);
+//! assert_eq!(found, [7]);
 //! ```
 
 use super::bounds::{Bounds, Scalar};

@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
+use super::disk::Crossing;
 use super::world::{Flying, Motion, World, Worldline};
 use crate::reference::geodesic::{Segment, State, root};
 use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius, unwrap};
@@ -62,6 +63,11 @@ impl World<'_> {
     /// Follows the light seen from `position` (r_s) in direction `look` (rain frame) back to the first thing that it meets, with a local error
     /// of `tolerance` in each step.
     pub fn look(&self, position: DVec3, look: DVec3, tolerance: f64) -> Seen {
+        self.look_through(position, look, tolerance, &mut |_| ())
+    }
+
+    /// The same, telling on the way of every crossing of the plane z = 0, in order.
+    pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
         let radius = self.held.radius.max(sky_radius(position.length())).max(self.flying_radius());
         if !self.hole {
@@ -69,7 +75,7 @@ impl World<'_> {
             let segment = Segment::straight(0.0, state, position.length() + radius);
             let direction = axes[0] * in_plane.x + axes[1] * in_plane.y;
             let swept = in_plane.y.atan2(in_plane.x);
-            return match self.meet(&segment, axes, 0.0) {
+            return match self.meet(&segment, axes, 0.0, cross) {
                 Some(hit) => Seen::Hit(hit),
                 None => Seen::Sky { direction, swept, energy: 1.0 },
             };
@@ -77,7 +83,7 @@ impl World<'_> {
         let mut follower = Follower::new(position.length(), in_plane, tolerance, Stop { radius, ..Stop::default() });
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
-            if let Some(hit) = self.meet(&segment, axes, swept) {
+            if let Some(hit) = self.meet(&segment, axes, swept, cross) {
                 return Seen::Hit(hit);
             }
             swept = follower.swept;
@@ -103,7 +109,7 @@ impl World<'_> {
     }
 
     /// The first meeting in one step of the ray, which had swept `swept` when it began.
-    fn meet(&self, segment: &Segment, axes: [DVec3; 2], swept: f64) -> Option<Hit> {
+    fn meet(&self, segment: &Segment, axes: [DVec3; 2], swept: f64, cross: &mut dyn FnMut(Crossing)) -> Option<Hit> {
         let bend = segment.bend();
         let whole = Piece { segment, axes, from: 0.0, to: segment.length };
         let chord = whole.place(0.0).distance(whole.place(segment.length));
@@ -120,6 +126,9 @@ impl World<'_> {
                 if let Motion::Flying(line) = self.things[flying.thing as usize].motion {
                     self.meet_flying(&piece, flying, line, &mut met);
                 }
+            }
+            if let Some(crossing) = cross_plane(&piece, met.map_or(piece.to, |met| met.elapsed)) {
+                cross(crossing);
             }
             if let Some(met) = met {
                 return Some(self.hit(&piece, &met, swept));
@@ -225,6 +234,26 @@ impl World<'_> {
             until
         });
     }
+}
+
+/// Where a piece goes through z = 0 before the elapsed time `end`. The plane goes through the hole, round which a segment turns by less than
+/// half a turn, so it does so at most once. A piece that starts on the plane has been told of by the one before.
+fn cross_plane(piece: &Piece, end: f64) -> Option<Crossing> {
+    let a = DVec2::new(piece.axes[0].z, piece.axes[1].z);
+    let height = |s: f64| a.dot(piece.segment.position(s));
+    let (h0, h1) = (height(piece.from), height(end));
+    if h0 == 0.0 || h0 * h1 > 0.0 {
+        return None;
+    }
+    let elapsed = piece.segment.cross_line(a, 0.0, piece.from, end);
+    let state = piece.segment.at(elapsed);
+    let embed = |v: DVec2| piece.axes[0] * v.x + piece.axes[1] * v.y;
+    let position = embed(state.position);
+    Some(Crossing {
+        position: DVec3::new(position.x, position.y, 0.0),
+        momentum: embed(state.momentum),
+        delay: piece.segment.start + elapsed,
+    })
 }
 
 /// The first crossing of a piece with a triangle that does not move, up to the elapsed time `end`.

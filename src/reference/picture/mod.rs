@@ -3,10 +3,11 @@
 //! - [`world`]: the things of a scene, with worldlines handed in from above.
 //! - [`tree`]: boxes over triangles, asked along pieces of a curve.
 //! - `find`: what one look direction shows.
-//! - [`shade`], [`texture`], [`sky`]: the game's rules of colour.
+//! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`develop`]: linear light to a picture for the eye.
 
 pub mod develop;
+pub mod disk;
 mod find;
 pub mod shade;
 pub mod sky;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
+pub use disk::{Crossing, Disk};
 pub use find::Seen;
 pub use world::{Motion, Pose, Thing, World, Worldline};
 
@@ -35,6 +37,8 @@ pub struct Setting<'a> {
     pub background: &'a Background,
     /// The stars' spots on this picture.
     pub stars: &'a [Spot],
+    /// The accretion disk.
+    pub disk: Option<&'a Disk>,
     /// How light changes on its way.
     pub shift: Shift,
 }
@@ -80,14 +84,28 @@ pub struct Picture {
     pub layers: Vec<Layer>,
     /// For each pixel the part of its samples that show each thing in each order: (object, order, part), in that order.
     pub shares: Vec<Vec<(u32, u32, f32)>>,
+    /// The part of each pixel that nothing solid covers.
+    pub open: Vec<f32>,
+    /// Whether every sample of a pixel shows the shadow.
+    pub dark: Vec<bool>,
 }
 
 /// Rows of pixels that one task traces together; texture detail is found from neighbours inside it.
 const BAND: u32 = 8;
 
-/// One sample before it is coloured.
+/// One ray: what it shows at its end, through the disk.
 #[derive(Clone, Copy)]
-enum Sample {
+struct Sample {
+    end: Ending,
+    /// The light of the disk in front.
+    veil: Vec3,
+    /// The part of what is behind that comes through the disk.
+    through: f32,
+}
+
+/// What a ray ends at, before it is coloured.
+#[derive(Clone, Copy)]
+enum Ending {
     Dark,
     Sky { direction: DVec3, g: f64 },
     Surface { hit: Hit, surface: Surface },
@@ -105,22 +123,30 @@ pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Qual
             result
         })
         .collect();
-    let mut picture = Picture { size: camera.size, light: Vec::new(), layers: Vec::new(), shares: Vec::new() };
-    let mut open = Vec::with_capacity((width * height) as usize);
+    let count = (width * height) as usize;
+    let mut picture = Picture {
+        size: camera.size,
+        light: Vec::with_capacity(count),
+        layers: Vec::with_capacity(count),
+        shares: Vec::with_capacity(count),
+        open: Vec::with_capacity(count),
+        dark: Vec::with_capacity(count),
+    };
     for band in bands {
         picture.light.extend(band.light);
         picture.layers.extend(band.layers);
         picture.shares.extend(band.shares);
-        open.extend(band.open);
+        picture.open.extend(band.open);
+        picture.dark.extend(band.dark);
     }
     for spot in setting.stars {
-        draw_spot(&mut picture, &open, spot);
+        draw_spot(&mut picture, spot);
     }
     picture
 }
 
 /// Adds a star's light to the pixels around it, as far as nothing solid covers them.
-fn draw_spot(picture: &mut Picture, open: &[f32], spot: &Spot) {
+fn draw_spot(picture: &mut Picture, spot: &Spot) {
     let [width, height] = picture.size.map(i64::from);
     let [x, y] = spot.place;
     for row in (y - 2.5).ceil() as i64..=(y + 2.5).floor() as i64 {
@@ -131,7 +157,7 @@ fn draw_spot(picture: &mut Picture, open: &[f32], spot: &Spot) {
             }
             let at = (row * width + column) as usize;
             let weight = (-(dx * dx + dy * dy) / (2.0 * SPOT_SIGMA * SPOT_SIGMA)).exp() / (2.0 * PI * SPOT_SIGMA * SPOT_SIGMA);
-            let light = spot.light * (weight as f32 * open[at]);
+            let light = spot.light * (weight as f32 * picture.open[at]);
             for (channel, add) in picture.light[at].iter_mut().zip(light.to_array()) {
                 *channel += add;
             }
@@ -160,8 +186,8 @@ struct Band {
     light: Vec<[f32; 3]>,
     layers: Vec<Layer>,
     shares: Vec<Vec<(u32, u32, f32)>>,
-    /// The part of each pixel that nothing solid covers.
     open: Vec<f32>,
+    dark: Vec<bool>,
 }
 
 impl Painter<'_> {
@@ -179,27 +205,31 @@ impl Painter<'_> {
         let mut band = Band {
             light: Vec::with_capacity(pixels),
             layers: Vec::with_capacity(pixels),
-            shares: Vec::new(),
+            shares: Vec::with_capacity(pixels),
             open: Vec::with_capacity(pixels),
+            dark: Vec::with_capacity(pixels),
         };
         let weight = 1.0 / (n * n) as f32;
         for y in 0..(end - first) as usize {
             for x in 0..width as usize {
                 let mut light = Vec3::ZERO;
                 let mut open = 0.0;
+                let mut dark = true;
                 let mut shares: Vec<(u32, u32, f32)> = Vec::new();
                 for k in 0..(n * n) as usize {
                     let (row, column) = (y * n as usize + k / n as usize, x * n as usize + k % n as usize);
-                    light += self.colour(&grid, row, column) * weight;
-                    match &samples[row * columns + column] {
-                        Sample::Surface { hit, .. } => {
+                    let sample = &samples[row * columns + column];
+                    light += (sample.veil + self.colour(&grid, row, column) * sample.through) * weight;
+                    dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
+                    match &sample.end {
+                        Ending::Surface { hit, .. } => {
                             let key = (self.world.things[hit.object].id, hit.order);
                             match shares.iter_mut().find(|share| (share.0, share.1) == key) {
                                 Some(share) => share.2 += weight,
                                 None => shares.push((key.0, key.1, weight)),
                             }
                         }
-                        _ => open += weight,
+                        _ => open += weight * sample.through,
                     }
                 }
                 shares.sort_unstable_by_key(|share| (share.0, share.1));
@@ -213,6 +243,7 @@ impl Painter<'_> {
                 band.layers.push(self.layer(&centre));
                 band.shares.push(shares);
                 band.open.push(open);
+                band.dark.push(dark);
             }
         }
         band
@@ -220,29 +251,39 @@ impl Painter<'_> {
 
     fn sample(&self, x: f64, y: f64) -> Sample {
         let (look, blue) = self.camera.look(x, y);
-        match self.world.look(self.camera.position, look, self.quality.tolerance) {
-            Seen::Captured => Sample::Dark,
-            Seen::Sky { direction, energy, .. } => Sample::Sky { direction, g: blue / energy },
-            Seen::Hit(hit) => Sample::Surface { hit, surface: self.world.surface(&hit, blue) },
-        }
+        let (mut veil, mut through) = (Vec3::ZERO, 1.0);
+        let end = self.world.look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| {
+            if let Some(disk) = self.setting.disk {
+                let (light, opacity) = disk.light(&crossing, blue, self.world.time, self.setting.shift);
+                veil += light * through;
+                through *= 1.0 - opacity;
+            }
+        });
+        let end = match end {
+            Seen::Captured => Ending::Dark,
+            Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
+            Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },
+        };
+        Sample { end, veil, through }
     }
 
+    /// The light of what a ray ends at.
     fn colour(&self, grid: &Grid, row: usize, column: usize) -> Vec3 {
-        match *grid.at(row, column) {
-            Sample::Dark => Vec3::ZERO,
-            Sample::Sky { direction, g } => {
-                let size = grid.change(row, column, |other| match other {
-                    Sample::Sky { direction: other, .. } => Some(direction.angle_between(*other)),
+        match grid.at(row, column).end {
+            Ending::Dark => Vec3::ZERO,
+            Ending::Sky { direction, g } => {
+                let size = grid.change(row, column, |other| match other.end {
+                    Ending::Sky { direction: other, .. } => Some(direction.angle_between(other)),
                     _ => None,
                 });
                 self.setting.background.light(direction, size[0].max(size[1]), g, self.setting.shift)
             }
-            Sample::Surface { hit, surface } => {
+            Ending::Surface { hit, surface } => {
                 let thing = &self.world.things[hit.object];
                 let material = &self.world.models[thing.model].materials[surface.material as usize];
                 let pyramid = material.texture.as_ref().and_then(|image| self.pyramids.get(&(Arc::as_ptr(image) as usize)));
-                let [across, down] = grid.change(row, column, |other| match other {
-                    Sample::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
+                let [across, down] = grid.change(row, column, |other| match other.end {
+                    Ending::Surface { hit: other, surface: there } if other.object == hit.object && other.order == hit.order => {
                         Some(f64::from(there.uv.distance(surface.uv)))
                     }
                     _ => None,
@@ -254,7 +295,7 @@ impl Painter<'_> {
     }
 
     fn layer(&self, sample: &Sample) -> Layer {
-        let Sample::Surface { hit, surface } = sample else { return Layer::default() };
+        let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
         Layer {
             object: self.world.things[hit.object].id,
             triangle: hit.triangle as u32,

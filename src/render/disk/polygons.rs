@@ -66,7 +66,7 @@ impl PolygonPass {
                 Placed { model: self.range, placement }
             })
             .collect();
-        self.geometry.prepare(gpu, &self.models, &placed);
+        self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget);
         self.group = Some(bind(
             &gpu.device,
             "polygons",

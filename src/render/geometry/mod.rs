@@ -7,7 +7,8 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use super::Gpu;
 use super::frame::Capacity;
-use super::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use super::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute_of, layout, module, raster};
+use super::method::Method;
 use super::models::Models;
 use super::placements::{Placed, THIN};
 use super::shaders::Pass;
@@ -22,13 +23,17 @@ const REFINE_PASSES: u32 = 11;
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// Spare room past the model vertices, for what the mesh stage makes.
-const SPARE: Capacity = Capacity { vertices: 600_000, indices: 3_000_000, work: 60_000, thin: 600_000 };
+/// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at edges;
+/// blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models.
+fn room(budget: u32, vertices: u32, triangles: u32) -> Capacity {
+    Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
+}
 
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
 pub struct Geometry {
     group_layout: wgpu::BindGroupLayout,
+    arguments_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
     stages: Stages,
     draws: Draws,
@@ -39,10 +44,10 @@ pub struct Geometry {
     seen: Growing,
     emitted: Growing,
     edge_states: Growing,
-    pieces: wgpu::Buffer,
-    work: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    thin: wgpu::Buffer,
+    pieces: Growing,
+    work: Growing,
+    indices: Growing,
+    thin: Growing,
     counters: wgpu::Buffer,
     arguments: wgpu::Buffer,
     arguments_group: wgpu::BindGroup,
@@ -73,6 +78,32 @@ struct Draws {
     layers_thin: wgpu::RenderPipeline,
 }
 
+impl Stages {
+    fn new(
+        device: &wgpu::Device,
+        frame: &wgpu::BindGroupLayout,
+        geometry: &wgpu::BindGroupLayout,
+        arguments: &wgpu::BindGroupLayout,
+        method: Method,
+    ) -> Self {
+        let groups = [Some(frame), Some(geometry)];
+        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_by(method), entry, &groups);
+        let with_arguments = [Some(frame), Some(geometry), Some(arguments)];
+        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_by(method), entry, &with_arguments);
+        Stages {
+            vertices: stage("vertices", Pass::Vertices, "main"),
+            edges: stage("edges", Pass::Edges, "main"),
+            triangles: stage("triangles", Pass::Triangles, "main"),
+            refine: stage("refine", Pass::Refine, "main"),
+            next_pieces: argument("next_pieces"),
+            finish: argument("finish"),
+            finish_thin: argument("finish_thin"),
+            mesh_vertices: stage("mesh vertices", Pass::Mesh, "vertices"),
+            mesh_triangles: stage("mesh triangles", Pass::Mesh, "triangles"),
+        }
+    }
+}
+
 impl Geometry {
     /// Compiles the stages.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
@@ -86,34 +117,22 @@ impl Geometry {
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout =
             layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
-        let groups = [Some(frame_layout), Some(&group_layout)];
-        let stage = |label, pass| compute(device, label, pass, "main", &groups);
-        let with_arguments = [Some(frame_layout), Some(&group_layout), Some(&arguments_layout)];
-        let argument = |entry| compute(device, entry, Pass::Arguments, entry, &with_arguments);
-        let stages = Stages {
-            vertices: stage("vertices", Pass::Vertices),
-            edges: stage("edges", Pass::Edges),
-            triangles: stage("triangles", Pass::Triangles),
-            refine: stage("refine", Pass::Refine),
-            next_pieces: argument("next_pieces"),
-            finish: argument("finish"),
-            finish_thin: argument("finish_thin"),
-            mesh_vertices: compute(device, "mesh vertices", Pass::Mesh, "vertices", &groups),
-            mesh_triangles: compute(device, "mesh triangles", Pass::Mesh, "triangles", &groups),
-        };
+        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, Method::default());
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let draw = |label, vertex, fragment, format, blend, write| {
-            let stage = Raster { vertex, fragment, targets: &[(format, blend)], depth: Some(write) };
+        let draw_to = |label, vertex, fragment, targets: &[_], write| {
+            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
             raster(device, label, &shader, stage, &draw_groups)
         };
+        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
+        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
         let draws = Draws {
             opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
             thin: draw("thin", "thin_vertex", "thin_fragment", HDR_FORMAT, Some(sum), false),
-            layers: draw("layers", "opaque_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
-            layers_thin: draw("layers thin", "thin_vertex", "layers_fragment", LAYERS_FORMAT, None, true),
+            layers: layers("layers", "opaque_vertex"),
+            layers_thin: layers("layers thin", "thin_vertex"),
         };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
@@ -129,6 +148,7 @@ impl Geometry {
         });
         Geometry {
             group_layout,
+            arguments_layout,
             draw_layout,
             stages,
             draws,
@@ -138,18 +158,23 @@ impl Geometry {
             seen: Growing::new(device, "seen vertices", storage),
             emitted: Growing::new(device, "emitted", storage),
             edge_states: Growing::new(device, "edge states", storage),
-            pieces: buffer(device, "pieces", 2 * types::PIECE_BYTES * u64::from(SPARE.work), storage),
-            work: buffer(device, "work", types::WORK_BYTES * u64::from(SPARE.work), storage),
-            indices: buffer(device, "indices", 4 * u64::from(SPARE.indices), storage | BufferUsages::INDEX),
-            thin: buffer(device, "thin", types::THIN_BYTES * u64::from(SPARE.thin), storage),
+            pieces: Growing::new(device, "pieces", storage),
+            work: Growing::new(device, "work", storage),
+            indices: Growing::new(device, "indices", storage | BufferUsages::INDEX),
+            thin: Growing::new(device, "thin", storage),
             counters: buffer(device, "counters", size_of::<Counters>() as u64, storage),
             arguments,
             arguments_group,
             sampler,
             groups: None,
             has_thin: false,
-            capacity: SPARE,
+            capacity: room(0, 0, 0),
         }
+    }
+
+    /// Compiles the stages for another method of projection.
+    pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
+        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, method);
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
@@ -167,12 +192,18 @@ impl Geometry {
         self.groups = None;
     }
 
-    /// Writes what is to be drawn in this frame.
-    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed]) {
+    /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
+    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32) {
         let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
-        let (mut vertices, mut edges) = (0, 0);
+        let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
+        let mut refused = 0;
         for item in placed {
+            if !item.placement.is_finite() {
+                // Caught at the door: counted with what the shaders catch.
+                refused += 1;
+                continue;
+            }
             let model = item.model;
             let mut placement = item.placement;
             placement.ids[2] = vertices;
@@ -185,10 +216,11 @@ impl Geometry {
             }
             vertices += model.vertices[1];
             edges += model.edges[1];
+            triangles += model.triangles[1];
             placements.push(placement);
         }
         self.has_thin = placements.iter().any(|placement| placement.triangles[3] & THIN != 0);
-        self.capacity = Capacity { vertices: vertices + SPARE.vertices, ..SPARE };
+        self.capacity = room(budget, vertices, triangles);
         let device = &gpu.device;
         let mut replaced = self.placements.write(gpu, &placements);
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
@@ -198,13 +230,18 @@ impl Geometry {
             replaced |= buffer.write(gpu, list);
         }
         replaced |= self.seen.reserve(device, u64::from(self.capacity.vertices) * size_of::<SeenVertex>() as u64);
+        let work = u64::from(self.capacity.work);
+        replaced |= self.pieces.reserve(device, 2 * types::PIECE_BYTES * work);
+        replaced |= self.work.reserve(device, types::WORK_BYTES * work);
+        replaced |= self.indices.reserve(device, 4 * u64::from(self.capacity.indices));
+        replaced |= self.thin.reserve(device, types::THIN_BYTES * u64::from(self.capacity.thin));
         replaced |= self.emitted.reserve(device, u64::from(vertices) * 16);
         replaced |= self.edge_states.reserve(device, u64::from(edges) * 16);
         if replaced || self.groups.is_none() {
             self.make_groups(gpu, models);
         }
         // Out vertices are appended behind those of the models; the first pass of splitting reads queue 0.
-        let counters = Counters { vertices, model_vertices: vertices, turn: 1, ..Counters::default() };
+        let counters = Counters { vertices, model_vertices: vertices, turn: 1, caught: refused, ..Counters::default() };
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&counters));
     }
 
@@ -220,10 +257,10 @@ impl Geometry {
                 &self.seen.buffer,
                 &self.emitted.buffer,
                 &self.edge_states.buffer,
-                &self.pieces,
-                &self.work,
-                &self.indices,
-                &self.thin,
+                &self.pieces.buffer,
+                &self.work.buffer,
+                &self.indices.buffer,
+                &self.thin.buffer,
                 &self.counters,
             ];
             let resources: Vec<_> = all.iter().map(|buffer| buffer.as_entire_binding()).collect();
@@ -242,7 +279,7 @@ impl Geometry {
                 models.material_buffer.buffer.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&textures),
                 wgpu::BindingResource::Sampler(&self.sampler),
-                self.thin.as_entire_binding(),
+                self.thin.buffer.as_entire_binding(),
             ],
         );
         self.groups = Some((compute, draw));
@@ -311,7 +348,7 @@ impl Geometry {
         if thin {
             pass.draw_indirect(&self.arguments, types::ARGUMENTS_THIN);
         } else {
-            pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_OPAQUE);
         }
     }
@@ -349,6 +386,6 @@ impl Geometry {
 
     /// Indices of opaque triangles.
     pub fn indices(&self) -> &wgpu::Buffer {
-        &self.indices
+        &self.indices.buffer
     }
 }

@@ -39,6 +39,22 @@ pub fn sky_table(l: f64) -> Vec<[f32; 4]> {
     rows.chunks_exact(4).map(|r| std::array::from_fn(|k| r[k] as f32)).collect()
 }
 
+/// The rows where light is straight: Φ = ψ, and the shadow is a point.
+pub fn straight_sky_table() -> Vec<[f32; 4]> {
+    (0..NODES)
+        .map(|i| {
+            let share = i as f64 / (NODES - 1) as f64;
+            let (s, phi) = (S_END * share, PHI_END * share);
+            let gap = (-s).exp();
+            // The axis of s ends with the gap of the last node; beyond a half turn there is nothing.
+            let least = (-S_END).exp();
+            let left = (1.0 - phi / PI).max(least);
+            let slope = if left > least { 1.0 / (PI * left) } else { 0.0 };
+            [PI * (1.0 - gap), PI * gap, -left.ln(), slope].map(|x| x as f32)
+        })
+        .collect()
+}
+
 /// The Rust twin of `hermite` in WGSL: value and slope at `x` in [0, 1] of the cubic through (0, a), (1, b) with slopes da, db.
 pub fn hermite(a: f32, da: f32, b: f32, db: f32, x: f32) -> [f32; 2] {
     let c2 = 3.0 * (b - a) - 2.0 * da - db;

@@ -117,6 +117,11 @@ impl Motion {
         &self.starts
     }
 
+    /// Length of a curve at rest, km.
+    pub fn rest_length(&self, curve: &Curve) -> f64 {
+        length(curve)
+    }
+
     /// Nodes whose speed was not finite, and that were put back to where they rest, so far.
     pub fn caught(&self) -> u64 {
         self.caught

@@ -70,6 +70,16 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     time + to_rain_time(u_camera) - to_rain_time(u_point)
 }
 
+/// The delay in r_s/c of the ray of zero energy between two places inside the horizon, u > 1: E > 0 and E < 0 meet there. It is the mean of
+/// the delays of the two, whatever the angle swept: light that left longer ago has E < 0. With t = √r it is 2 [artanh t − t].
+pub fn zero_energy_delay(u_point: f64, u_camera: f64) -> f64 {
+    let part = |u: f64| {
+        let t = 1.0 / u.sqrt();
+        2.0 * (t.atanh() - t)
+    };
+    part(u_point) - part(u_camera)
+}
+
 /// e − w without cancellation.
 fn ahead(e: f64, w: f64, u: f64) -> f64 {
     if e * w > 0.0 { u * u * (1.0 - u) / (e + w) } else { e - w }

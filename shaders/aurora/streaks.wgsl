@@ -1,0 +1,187 @@
+// What the passes of the aurora share: electrons ("streaks"), where they come down, how they fall. Lengths in km and heights above the
+// planet, in the axes of its magnetic dipole (+z north); see src/scene/aurora for the physics, and src/render/aurora for who fills what.
+
+struct AuroraSettings {
+    /// x: streaks, y: chords of a streak, z: splats of a streak, w: nodes in a row of the history.
+    counts: vec4<u32>,
+    /// x: rows of the history, y: segments, z: room for splats of one placement, w: AURORA_*.
+    history: vec4<u32>,
+    /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod 4096), w: contrast.
+    clock: vec4<f32>,
+    /// x: accelerated, y: thermal energy in keV, z: spread of a luminous point in km, w unused.
+    electrons: vec4<f32>,
+};
+
+/// The paper's walk: linear on the screen.
+const AURORA_LINEAR: u32 = 1u;
+/// Every second streak comes down in the south.
+const AURORA_BOTH_POLES: u32 = 2u;
+
+/// A part of a curtain between two nodes.
+struct Segment {
+    /// x: its first streak, y: its first node, z: its streaks (a multiple of 4), w: nodes from there to its last.
+    range: vec4<u32>,
+    /// x: collisions of 35 eV in it (kR km²), y: width in km, zw unused.
+    light: vec4<f32>,
+}
+
+/// One end of a chord as the camera sees it.
+struct ChordEnd {
+    /// Apparent place, camera axes, in r_s; w: 1 where there is one.
+    apparent: vec4<f32>,
+    /// Change of it for a km in two directions across the field; w: energy flux there over its mean (first), unused (second).
+    east: vec4<f32>,
+    north: vec4<f32>,
+}
+
+struct Splat {
+    /// x, y: centre in NDC, z: depth, w: kR in its middle.
+    place: vec4<f32>,
+    /// Two half axes of its ellipse, pixels (x right, y up), one standard deviation.
+    axes: vec4<f32>,
+    /// Share of each line.
+    lines: vec4<f32>,
+}
+
+struct SplatDraw {
+    vertices: u32,
+    instances: atomic<u32>,
+    first_vertex: u32,
+    first_instance: u32,
+}
+
+@group(1) @binding(0) var<uniform> aurora: AuroraSettings;
+@group(1) @binding(1) var<storage, read> aurora_placements: array<Placement>;
+/// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean.
+@group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
+@group(1) @binding(3) var<storage, read> segments: array<Segment>;
+/// Photons by row (ROWS × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
+@group(1) @binding(4) var<storage, read> falls: array<f32>;
+@group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
+@group(1) @binding(6) var<storage, read_write> splats: array<Splat>;
+@group(1) @binding(7) var<storage, read_write> splat_draws: array<SplatDraw>;
+
+const ROWS: u32 = 96u;
+const PARTS: u32 = 32u;
+const KINDS: u32 = 3u;
+const DELAYS: u32 = 64u;
+const FIRST_DELAY: u32 = 384u;
+const FIRST_HEIGHT: u32 = 512u;
+const LN_FIRST_REACH: f32 = -18.420681;
+const LN_REACHES: f32 = 14.508658;
+const PLANET_RADIUS: f32 = 6371.0;
+const REFERENCE_HEIGHT: f32 = 110.0;
+
+const GREEN: u32 = 0u;
+const PROMPT: u32 = 1u;
+const RED: u32 = 2u;
+
+/// Greatest and least height of a kind, km.
+fn height_range(kind: u32) -> vec2<f32> {
+    return select(vec2<f32>(340.0, 84.0), vec2<f32>(480.0, 130.0), kind == RED);
+}
+
+/// Twin of scene::aurora::random::hash.
+fn hash(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+fn unit(bits: u32) -> f32 {
+    return f32(bits >> 8u) * (1.0 / 16777216.0);
+}
+
+struct Streak {
+    segment: u32,
+    /// Of the segment from its first node, and across it in [−½, ½].
+    along: f32,
+    across: f32,
+    kind: u32,
+    /// One over the streaks of its kind in the segment.
+    share: f32,
+    south: bool,
+    key: u32,
+}
+
+/// A streak by its number. Its place within its segment depends on its number there alone, so that when streaks are added or taken away the
+/// others stay where they are.
+fn streak_of(index: u32) -> Streak {
+    var low = 0u;
+    var high = aurora.history.y - 1u;
+    while low < high {
+        let middle = (low + high + 1u) / 2u;
+        if segments[middle].range.x <= index {
+            low = middle;
+        } else {
+            high = middle - 1u;
+        }
+    }
+    let range = segments[low].range;
+    let number = index - range.x;
+    var streak: Streak;
+    streak.segment = low;
+    streak.key = hash(number + hash(low + 1u));
+    // The golden ratio spreads any number of them evenly.
+    streak.along = fract(0.618034 * f32(number) + unit(hash(low)));
+    streak.across = unit(hash(streak.key + 1u)) - 0.5;
+    // Of four, two are green, one prompt and one red.
+    let turn = number & 3u;
+    streak.kind = select(select(PROMPT, RED, turn == 3u), GREEN, turn < 2u);
+    streak.share = select(4.0, 2.0, turn < 2u) / f32(max(range.z, 1u));
+    streak.south = (aurora.history.w & AURORA_BOTH_POLES) != 0u && ((number >> 2u) & 1u) == 1u;
+    return streak;
+}
+
+/// Seconds that the light of a streak waits at a height: exponentially distributed over the streaks, with the mean of the line there.
+fn waits(streak: Streak, height: f32) -> f32 {
+    if streak.kind == PROMPT {
+        return 0.0;
+    }
+    let x = clamp((height - 80.0) / 420.0, 0.0, 1.0) * f32(DELAYS - 1u);
+    let k = min(u32(x), DELAYS - 2u);
+    let column = FIRST_DELAY + select(0u, 1u, streak.kind == RED);
+    let mean = mix(falls[column + 2u * k], falls[column + 2u * k + 2u], x - f32(k));
+    return -log(max(1.0 - unit(hash(streak.key + 2u)), 1e-6)) * mean;
+}
+
+/// Row of the table of falls for a streak: energy from the spectrum φ ∝ E exp(−(E − E_acc)/E_th), slope µ = √u. y: the energy in keV.
+fn fall_of(streak: Streak, flux: f32) -> vec2<f32> {
+    // Brighter parts of a curtain are harder: the potential goes as the square root of the flux.
+    let accelerated = aurora.electrons.x * sqrt(clamp(flux, 0.05, 4.0));
+    let thermal = aurora.electrons.y;
+    var x = -log(max(1.0 - unit(hash(streak.key + 3u)), 1e-6));
+    if unit(hash(streak.key + 4u)) * (accelerated + thermal) >= accelerated {
+        x -= log(max(1.0 - unit(hash(streak.key + 5u)), 1e-6));
+    }
+    let energy = clamp(accelerated + thermal * x, 0.05, 500.0);
+    let slope = clamp(sqrt(unit(hash(streak.key + 6u))), 0.05, 1.0);
+    let ln_reach = log(4.57e-6 * slope) + 1.75 * log(energy);
+    return vec2<f32>(clamp((ln_reach - LN_FIRST_REACH) / LN_REACHES, 0.0, 1.0) * f32(ROWS - 1u), energy);
+}
+
+/// Height below which `part` (0 to 1) of the light of a kind has been passed.
+fn height_of(row: f32, kind: u32, part: f32) -> f32 {
+    let y = clamp(part, 0.0, 1.0) * f32(PARTS);
+    let j = min(u32(y), PARTS - 1u);
+    let i = min(u32(row), ROWS - 2u);
+    let at = FIRST_HEIGHT + (i * KINDS + kind) * (PARTS + 1u) + j;
+    let next = at + KINDS * (PARTS + 1u);
+    let low = mix(falls[at], falls[at + 1u], y - f32(j));
+    let high = mix(falls[next], falls[next + 1u], y - f32(j));
+    return mix(low, high, row - f32(i));
+}
+
+/// The point at a height on the field line through a place of the plane across the field; twin of scene::aurora::dipole::on_field_line.
+fn on_field_line(place: vec2<f32>, height: f32) -> vec3<f32> {
+    let reference = PLANET_RADIUS + REFERENCE_HEIGHT;
+    let distance = length(place);
+    var along = vec2<f32>(1.0, 0.0);
+    if distance > 0.0 {
+        along = place / distance;
+    }
+    let colatitude = min(distance / reference, 1.5707963);
+    let radius = max(PLANET_RADIUS + height, 0.0);
+    let sine = min(sin(colatitude) * sqrt(radius / reference), 1.0);
+    return vec3<f32>(along * sine, sqrt(1.0 - sine * sine)) * radius;
+}

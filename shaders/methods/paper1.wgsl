@@ -1,0 +1,55 @@
+// Method "paper1": the tables of Yamashita (2012) as its author used them. ψ in the static frame, linear between nodes on the meshes of its
+// equations 3 to 7, one table for points nearer than the camera and one for those beyond; triangles are drawn as they are, and dropped where
+// the hole makes them more than nine times as large (its section 4.3). Outside the horizon and for two orders only.
+
+/// Triangles are filtered by area instead of being cut at the axis and subdivided.
+const METHOD_FILTERS: bool = true;
+
+/// Place on a mesh of n nodes, F[A, a, b] of the paper's section 4.2: node and fraction.
+fn paper_cell(mesh: vec4<f32>, x: f32, n: f32) -> vec2<f32> {
+    let share = (x - mesh.y) / max(mesh.z - mesh.y, 1e-30);
+    var z = share;
+    if mesh.x != 0.0 {
+        z = log1p(share * (exp(mesh.x) - 1.0)) / mesh.x;
+    }
+    let p = clamp(z, 0.0, 1.0) * (n - 1.0);
+    let i = min(floor(p), n - 2.0);
+    return vec2<f32>(i, p - i);
+}
+
+fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
+    let cam = lens_camera();
+    let at = place(cam, along, across, height);
+    if !(finite(at.r) && finite(at.dr) && at.room > 0.0 && cam.room > 0.0 && order <= 2u) {
+        return no_ray();
+    }
+    let inner = at.dr <= 0.0;
+    let n = f32(cam.nx);
+    let meshes = HEADER + select(2u, 0u, inner);
+    let cr = paper_cell(lens_texel(meshes), at.r, n);
+    let cp = paper_cell(lens_texel(meshes + 1u), at.phi, n);
+    let first = HEADER + 4u + 2u * (u32(cp.x) * cam.nx + u32(cr.x)) + select(1u, 0u, inner);
+    let low = mix(lens_texel(first), lens_texel(first + 2u), vec4<f32>(cr.y));
+    let high = mix(lens_texel(first + 2u * cam.nx), lens_texel(first + 2u * cam.nx + 2u), vec4<f32>(cr.y));
+    let both = mix(low, high, vec4<f32>(cp.y));
+    let found = select(both.zw, both.xy, order == 1u);
+    // From the static angle the rest follows; on which side of a turning point the light left, as straight light would.
+    let c = 1.0 / at.r;
+    let room = max(at.room, 1e-4);
+    let w = -cam.a * sqrt(cam.room) * cos(found.x) / max(sin(found.x), 1e-7);
+    let e = energy(w, cam.a, cam.room);
+    let w_e = sqrt(max(e * e - c * c * room, 0.0));
+    let leaves_inward = c * cos(at.phi) > cam.a && order == 1u;
+    return ray_of(cam, c, room, w, e, select(-w_e, w_e, leaves_inward), found.y);
+}
+
+/// Rain-frame momentum and γ of what is held in place: of a static observer, γβ outward; inside, where nothing is static, of the rain.
+fn held_momentum(position: vec3<f32>) -> vec4<f32> {
+    let r = length(position);
+    if r < 1.0 {
+        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
+    }
+    let held = max(r, 1.0005);
+    let gamma = inverseSqrt(1.0 - 1.0 / held);
+    return vec4<f32>(position * (gamma / (held * sqrt(held))), gamma);
+}

@@ -1,0 +1,326 @@
+//! The lookup for eight points at once on the processor: the formulas of `formulas` and `lookup` under the same names, without branches, in
+//! SIMD registers of eight f32. It exists for speed alone; a test holds it to the answers of `lookup`.
+
+use wide::f32x8;
+
+use super::lookup::{LensRay, lens_lookup_aged};
+use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, LARGEST_SWEEP, SMALLEST_SWEEP};
+use super::slice::{HEADER, Slice};
+
+/// Points in a batch.
+pub const LANES: usize = 8;
+
+/// Eight answers: the fields of [`LensRay`].
+#[derive(Clone, Copy, Debug)]
+pub struct LensRays {
+    /// See [`LensRay::cos_psi`].
+    pub cos_psi: [f32; LANES],
+    /// See [`LensRay::sin_psi`].
+    pub sin_psi: [f32; LANES],
+    /// See [`LensRay::delay`].
+    pub delay: [f32; LANES],
+    /// See [`LensRay::frequency`].
+    pub frequency: [f32; LANES],
+    /// See [`LensRay::emission_radial`].
+    pub emission_radial: [f32; LANES],
+    /// See [`LensRay::emission_tangential`].
+    pub emission_tangential: [f32; LANES],
+    /// See [`LensRay::emission_frequency`].
+    pub emission_frequency: [f32; LANES],
+    /// See [`LensRay::slope`].
+    pub slope: [f32; LANES],
+    /// See [`LensRay::emission_slope`].
+    pub emission_slope: [f32; LANES],
+    /// See [`LensRay::energy`].
+    pub energy: [f32; LANES],
+    /// See [`LensRay::valid`].
+    pub valid: [bool; LANES],
+}
+
+impl LensRays {
+    /// The answer for one of the points.
+    pub fn ray(&self, i: usize) -> LensRay {
+        LensRay {
+            cos_psi: self.cos_psi[i],
+            sin_psi: self.sin_psi[i],
+            delay: self.delay[i],
+            frequency: self.frequency[i],
+            emission_radial: self.emission_radial[i],
+            emission_tangential: self.emission_tangential[i],
+            emission_frequency: self.emission_frequency[i],
+            slope: self.slope[i],
+            emission_slope: self.emission_slope[i],
+            energy: self.energy[i],
+            valid: self.valid[i],
+        }
+    }
+
+    fn set(&mut self, i: usize, ray: LensRay) {
+        self.cos_psi[i] = ray.cos_psi;
+        self.sin_psi[i] = ray.sin_psi;
+        self.delay[i] = ray.delay;
+        self.frequency[i] = ray.frequency;
+        self.emission_radial[i] = ray.emission_radial;
+        self.emission_tangential[i] = ray.emission_tangential;
+        self.emission_frequency[i] = ray.emission_frequency;
+        self.slope[i] = ray.slope;
+        self.emission_slope[i] = ray.emission_slope;
+        self.energy[i] = ray.energy;
+        self.valid[i] = ray.valid;
+    }
+}
+
+fn all(x: f32) -> f32x8 {
+    f32x8::splat(x)
+}
+
+/// The larger of two, neither being NaN.
+fn most(a: f32x8, b: f32) -> f32x8 {
+    a.fast_max(all(b))
+}
+
+fn log1p(x: f32x8) -> f32x8 {
+    let z = x / (all(2.0) + x);
+    let y = z * z;
+    let series = all(2.0) * z * (all(1.0) + y * (all(1.0 / 3.0) + y * (all(0.2) + y * (all(1.0 / 7.0) + y * all(1.0 / 9.0)))));
+    z.abs().simd_lt(all(0.1)).select(series, (all(1.0) + x).ln())
+}
+
+fn arsinh(x: f32x8) -> f32x8 {
+    let y = x.abs();
+    let v = log1p(y + y * y / (all(1.0) + (all(1.0) + y * y).sqrt()));
+    x.simd_lt(all(0.0)).select(-v, v)
+}
+
+fn angle(sine: f32x8, cosine: f32x8) -> f32x8 {
+    let y = sine * sine;
+    let x = sine * (all(1.0) + y * (all(1.0 / 6.0) + y * (all(3.0 / 40.0) + y * (all(15.0 / 336.0) + y * all(105.0 / 3456.0)))));
+    let near = cosine.simd_lt(all(0.0)).select(all(HALF_TURN) - x, x);
+    sine.simd_lt(all(0.25)).select(near, sine.atan2(cosine))
+}
+
+/// r, 1 − 1/r, r − L, φ.
+fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
+    let l = all(cam.l);
+    let square = along * along + across * across;
+    let r = (height * height + across * across).sqrt();
+    let inverse = all(1.0) / r;
+    let phi = angle(across * inverse, height * inverse);
+    let near = square.simd_lt(all(0.25 * cam.l * cam.l));
+    let dr = (all(2.0) * l * along + square) / (r + l);
+    let room = near.select(all(cam.room) + dr * inverse * all(1.0 / cam.l), (r - all(1.0)) * inverse);
+    [r, room, near.select(dr, r - l), phi]
+}
+
+fn sweep_axis(cam: &Camera, c: f32x8, sweep: f32x8) -> f32x8 {
+    // Twice the stretched ends of the axis need no logarithm: arsinh(10 Φ) there is a constant.
+    const END: f32 = 5.239_102_6;
+    let s = all(1.0) / (all(2.8) * (all(cam.a / (1.0 + cam.a)) + c).sqrt());
+    let first = all(-0.3) * arsinh(all(HALF_TURN) * s);
+    let last = all(LARGEST_SWEEP + END) + all(0.3) * arsinh(all(LARGEST_SWEEP - HALF_TURN) * s);
+    let here = sweep + all(0.3) * arsinh((sweep - all(HALF_TURN)) * s) + arsinh(sweep * all(10.0));
+    (here - first) / (last - first)
+}
+
+fn bent_sweep(sweep: f32x8) -> f32x8 {
+    let beyond = sweep.simd_gt(all(BEND_START));
+    if !beyond.any() {
+        return sweep;
+    }
+    let off = sweep - all(BEND_START);
+    let x = off * all(1.0 / BEND_RANGE);
+    let x2 = x * x;
+    beyond.select(all(BEND_START) + off / (all(1.0) + x2 * x2).sqrt().sqrt(), sweep)
+}
+
+fn basis(cam: &Camera, sweep: f32x8) -> [f32x8; 2] {
+    let x = all(cam.rate) * sweep;
+    let y = all(cam.bend) * sweep * sweep;
+    let one = all(1.0);
+    let small_s = sweep * (one + y * all(1.0 / 6.0) * (one + y * all(1.0 / 20.0) * (one + y * all(1.0 / 42.0))));
+    let small_k = all(0.5) * sweep * sweep * (one + y * all(1.0 / 12.0) * (one + y * all(1.0 / 30.0) * (one + y * all(1.0 / 56.0))));
+    let small = x.simd_lt(all(0.3));
+    let over = 1.0 / cam.rate;
+    let [s, k] = if cam.bend < 0.0 {
+        // sin x = 2 sin(x/2) cos(x/2): one evaluation serves both.
+        let (sin, cos) = (all(0.5) * x).sin_cos();
+        let h = sin * all(over);
+        [all(2.0) * h * cos, all(2.0) * h * h]
+    } else {
+        let up = x.exp();
+        let down = one / up;
+        [all(0.5) * (up - down) * all(over), (all(0.5) * (up + down) - one) * all(over * over)]
+    };
+    [small.select(small_s, s), small.select(small_k, k)]
+}
+
+fn slope_guess(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
+    let [s, k] = basis(cam, bent);
+    let m = all(cam.fade) / (all(1.0) + all(cam.a) * all(cam.a) * k * k);
+    let am = all(cam.a) * m;
+    let f = all(cam.force);
+    let b = s * (all(1.0) + am * k);
+    let c = rise - f * k - all(0.5) * am * f * k * k;
+    let q = m * k * k;
+    let root = (b * b + all(2.0) * q * c).fast_max(all(0.05) * b * b + all(1e-4) * q).sqrt();
+    let w = b.simd_gt(all(0.0)).select(all(2.0) * c / (b + root), (root - b) / q);
+    let turn = all(1.0) + all(cam.bend) * k;
+    let w_e = if cam.bend > 0.0 {
+        let rest = (all(1.5) + all(0.5 * cam.bend) * k) * k * k * (am * f + m * w * w);
+        (turn * rise + f * k + rest) / s + w * am * s * s
+    } else {
+        w * (turn * (all(1.0) + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w
+    };
+    [w, w_e]
+}
+
+fn turned_slope(guess: f32x8, u: f32x8, turn: f32x8) -> f32x8 {
+    // −u cot(θ₀ + turn) with the lengths of the numerator and denominator left out, as they cancel; the floor keeps the scalar's meaning.
+    let (st, ct) = turn.sin_cos();
+    let n = (u * u + guess * guess).sqrt();
+    let sine = (u * ct - guess * st).fast_max(all(1e-12) * n);
+    u * (guess * ct + u * st) / sine
+}
+
+fn energy(w: f32x8, u: f32x8, room: f32x8) -> f32x8 {
+    most(w * w + u * u * room, 0.0).sqrt()
+}
+
+fn joined(w: f32x8, w_e: f32x8, cam: &Camera, c: f32x8, room: f32x8) -> [f32x8; 3] {
+    if cam.room <= 0.0 {
+        let e = energy(w_e, c, room);
+        return [-(e * e - all(cam.a * cam.a * cam.room)).sqrt(), e, w_e];
+    }
+    let e = energy(w, all(cam.a), all(cam.room));
+    let square = e * e - c * c * room;
+    let sure = square.simd_gt(all(0.3) * e * e);
+    let root = most(square, 0.0).sqrt();
+    [w, e, sure.select(w_e.simd_lt(all(0.0)).select(-root, root), w_e)]
+}
+
+fn radial_momentum(w: f32x8, e: f32x8, u: f32x8, beta: f32x8, room: f32x8) -> f32x8 {
+    w.simd_gt(all(0.0)).select((w + beta * e) / room, (u * u - e * e) / (beta * e - w))
+}
+
+/// The three parts of the delay; `at` is r, 1 − 1/r, r − L.
+fn delay_parts(cam: &Camera, [r, room, dr]: [f32x8; 3], c: f32x8, bent: f32x8, [w, e, w_e]: [f32x8; 3]) -> [f32x8; 3] {
+    let (l, a) = (cam.l, all(cam.a));
+    let root_r = r.sqrt();
+    let root_l = all(l.sqrt());
+    let (sin, cos) = (all(0.5) * bent).sin_cos();
+    let x = all(2.0) * sin;
+    let k = all(0.5) * x * x;
+    let y = all(2.0) * cos;
+    let soft = all(2.0) * (a + c) / (all(1.0) + a + c) * k * k;
+    let reach = (y * y + soft).sqrt();
+    let ahead = y.simd_gt(all(0.0));
+    let other = all(0.5) * soft / (reach + y.abs());
+    let sum = all(0.5) * (y.abs() + reach);
+    let h = ahead.select(sum, other);
+    let excess = ahead.select(other, sum);
+    let q = x * x - excess * (h + y);
+    let fall = dr / (root_r + root_l);
+    let over = all(1.0) / dr;
+    let far = dr.abs().simd_gt(all(1e-6 * l));
+    let rate_in = far.select(all(2.0) * log1p(fall / (all(1.0) + root_l)) * over, all(1.0) / (root_l * (all(1.0) + root_l)));
+    let rate_log = far.select(all(2.0) * log1p(dr * a) * over, all(2.0) * a);
+    let mean = all(1.0) + all(1.5) * rate_log;
+    let rain = (all(2.0) / (root_r + root_l) + all(0.5) * rate_log - rate_in) * dr;
+    let across = mean * (all(1.0) + all(3.0) * c) * (room + k * c * c * a * all(1.0 / (1.0 + cam.a))) * r * all(l) * q;
+    let chord = (mean * mean * dr * dr + across).sqrt();
+    let zero = all(0.0);
+    let out = w_e.simd_gt(zero).select((w_e + e) * r / room, c / (e - w_e));
+    let back = w.simd_gt(zero).select(a * all(cam.room) / (e + w), (e - w) * all(l));
+    let a4 = cam.a * cam.a * cam.a * cam.a;
+    let c4 = c * c * c * c;
+    let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(a4 / (1.0 + a4))).sqrt();
+    [all(2.0) * (out * back).ln() - rain, chord - all(2.0) * (all(0.5) * h).ln(), factor]
+}
+
+/// The three residuals of each point at coordinates in 0..=1, clamped.
+fn residuals(slice: &Slice, x: f32x8, y: f32x8) -> [f32x8; 3] {
+    let [nx, ny] = slice.size;
+    let cell = |x: f32x8, n: u32| {
+        let p = most(x, 0.0).fast_min(all(1.0)) * all((n - 1) as f32);
+        let i = p.floor().fast_min(all((n - 2) as f32));
+        (i.to_array(), spline_weights(p - i))
+    };
+    let ((i, wx), (j, wy)) = (cell(x, nx), cell(y, ny));
+    let (wx, wy) = (wx.map(|w| w.to_array()), wy.map(|w| w.to_array()));
+    let mut sums = [[0.0f32; LANES]; 3];
+    for lane in 0..LANES {
+        // Four channels at once: a texel is one register.
+        let mut sum = wide::f32x4::ZERO;
+        for (b, weight) in wy.iter().enumerate() {
+            let at = HEADER + (j[lane] as usize + b) * (nx as usize + 2) + i[lane] as usize;
+            let texels = &slice.texels[at..at + 4];
+            let mut row = wide::f32x4::ZERO;
+            for (texel, weights) in texels.iter().zip(&wx) {
+                row += wide::f32x4::from(*texel) * wide::f32x4::splat(weights[lane]);
+            }
+            sum += row * wide::f32x4::splat(weight[lane]);
+        }
+        let sum = sum.to_array();
+        (0..3).for_each(|h| sums[h][lane] = sum[h]);
+    }
+    sums.map(f32x8::from)
+}
+
+fn spline_weights(t: f32x8) -> [f32x8; 4] {
+    let s = all(1.0) - t;
+    let sixth = all(1.0 / 6.0);
+    let inner = |t: f32x8| (all(4.0) - all(6.0) * t * t + all(3.0) * t * t * t) * sixth;
+    [s * s * s * sixth, inner(t), inner(s), t * t * t * sixth]
+}
+
+/// The rays of `order` (1 to 3) from eight points, each `along` outward and `across` from the axis, away from the camera of `slice`;
+/// `height` = L + along. As [`super::lens_lookup_at`] for each; points inside the horizon go through it one by one.
+pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES], height: [f32; LANES], order: u32) -> LensRays {
+    let cam = &slice.camera;
+    let [r, room, dr, phi] = place(cam, along.into(), across.into(), height.into());
+    let sweep = match order {
+        2 => all(2.0 * HALF_TURN) - phi,
+        3 => all(2.0 * HALF_TURN) + phi,
+        _ => phi,
+    };
+    let swept = most(sweep, SMALLEST_SWEEP);
+    let c = all(1.0) / r;
+    let open = most(room, 1e-4);
+    let bent = bent_sweep(swept);
+    let guess = slope_guess(cam, -dr * c * all(cam.a), bent);
+    let x = ((c + all(cam.soft)).ln() - all(2.0) * open.sqrt() - all(cam.start)) * all(cam.scale);
+    let table = residuals(slice, x, sweep_axis(cam, c, swept));
+    let scale = c + all(cam.a / (1.0 + 4.0 * cam.a));
+    let ends = joined(turned_slope(guess[0], all(cam.a), table[0]), turned_slope(guess[1], scale, table[2]), cam, c, open);
+    let parts = delay_parts(cam, [r, open, dr], c, bent, ends);
+    let [w, e, w_e] = ends;
+    let delay = parts[0] + parts[2] * (parts[1] + table[1]);
+    let radial = radial_momentum(w, e, all(cam.a), all(cam.beta), all(cam.room));
+    let frequency = (radial * radial + all(cam.a * cam.a)).sqrt();
+    let leaving = radial_momentum(w_e, e, c, c.sqrt(), open);
+    let emission_frequency = (leaving * leaving + c * c).sqrt();
+    let over = all(1.0) / frequency;
+    let mut rays = LensRays {
+        cos_psi: (-radial * over).to_array(),
+        sin_psi: (all(cam.a) * over).to_array(),
+        delay: delay.to_array(),
+        frequency: frequency.to_array(),
+        emission_radial: leaving.to_array(),
+        emission_tangential: c.to_array(),
+        emission_frequency: emission_frequency.to_array(),
+        slope: w.to_array(),
+        emission_slope: w_e.to_array(),
+        energy: e.to_array(),
+        valid: [true; LANES],
+    };
+    // What is not a plain point outside (inside, NaN, infinite, overflowing) is answered by the scalar lookup.
+    let sum = frequency + emission_frequency + w.abs() + w_e.abs() + delay.abs() + r;
+    let plain = room.simd_gt(all(0.0)) & sum.simd_lt(all(3e38));
+    let plain = plain.to_bitmask();
+    if plain != (1 << LANES) - 1 {
+        for i in (0..LANES).filter(|i| plain >> i & 1 == 0) {
+            rays.set(i, lens_lookup_aged(slice, along[i], across[i], height[i], order, super::lookup::YOUNG));
+        }
+    }
+    rays
+}

@@ -1,0 +1,145 @@
+//! Hit by hit: every method against every other, and against brute force in f64.
+
+use glam::Vec3;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+use super::contest::Built;
+use super::rays::{Job, SIZES, tiled};
+use crate::reference::bvh::{EyePacket, EyePackets, Hit, Packets, Ray, order};
+use crate::reference::scenes::Triangle;
+
+/// Rays that are tried against every triangle.
+const SAMPLE: usize = 2000;
+
+/// Checks one scene, says on stderr what it found, and returns the number of hits that are wrong.
+pub fn check(job: &Job) -> usize {
+    let built = Built::new(job);
+    let rays = &job.primary;
+    let single: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
+    let mut wrong = 0;
+    // Ours must agree bit for bit.
+    for (name, hits) in ours(job, &built) {
+        let differ = hits.iter().zip(&single).filter(|(a, b)| a != b).count();
+        if differ > 0 {
+            eprintln!("{}: {name}: {differ} of {} rays differ from single rays", job.scene.name, rays.len());
+        }
+        wrong += differ;
+    }
+    for (kind, rays) in &job.secondary {
+        let plain: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let mut packets = Packets::default();
+        for (rays, hits) in rays.chunks(1024).zip(hits.chunks_mut(1024)) {
+            built.wide.closest_packet(rays, hits, &mut packets);
+        }
+        let differ = hits.iter().zip(&plain).filter(|(a, b)| a != b).count();
+        eprintln!("{}: {kind}: {differ} of {} rays differ between packets and single rays", job.scene.name, rays.len());
+        wrong += differ;
+    }
+    // Others may differ by rounding: each such ray is judged.
+    let random = &mut StdRng::seed_from_u64(9);
+    let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..rays.len())).collect();
+    let theirs: Vec<Hit> = rays.iter().map(|ray| built.obvhs.closest(ray)).collect();
+    let disputed: Vec<usize> = (0..rays.len()).filter(|&i| theirs[i].triangle != single[i].triangle).collect();
+    judged.extend(&disputed);
+    let (mut within, mut false_ones, mut their_false) = (0, 0, 0);
+    for &i in &judged {
+        match verdict(&job.scene.triangles, &rays[i], single[i]) {
+            Verdict::Right => (),
+            Verdict::Rounding => within += 1,
+            Verdict::Wrong => {
+                eprintln!("{}: {:?}: {:?} is wrong", job.scene.name, rays[i], single[i]);
+                false_ones += 1;
+            }
+        }
+        their_false += usize::from(verdict(&job.scene.triangles, &rays[i], theirs[i]) == Verdict::Wrong);
+    }
+    eprintln!(
+        "{}: of {} rays tried against every triangle in f64 ({} disputed by obvhs) ours differs on {within} within rounding, is wrong on \
+         {false_ones}; obvhs is wrong on {their_false}",
+        job.scene.name,
+        judged.len(),
+        disputed.len(),
+    );
+    wrong + false_ones
+}
+
+fn ours(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
+    let rays = &job.primary;
+    let mut each = vec![Hit::MISS; rays.len()];
+    built.wide.closest_each(rays, &mut each);
+    let mut all = vec![("tree of eight".to_owned(), each)];
+    for size in SIZES.into_iter().chain([1]) {
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let (tiles, starts) = tiled(rays, job.size, size);
+        let (pixels, _) = order::tiles(job.size, size);
+        let mut packets = Packets::default();
+        for run in starts.windows(2) {
+            let mut found = vec![Hit::MISS; run[1] - run[0]];
+            built.wide.closest_packet(&tiles[run[0]..run[1]], &mut found, &mut packets);
+            for (&pixel, hit) in pixels[run[0]..run[1]].iter().zip(found) {
+                hits[pixel as usize] = hit;
+            }
+        }
+        all.push((format!("ours {size}"), hits));
+        for splits in 0..=2 {
+            let (pixels, starts) = order::squares(job.size, size);
+            let mut hits = vec![Hit::MISS; rays.len()];
+            let mut scratch = EyePackets::default();
+            for run in starts.windows(2) {
+                let pixels = &pixels[run[0]..run[1]];
+                let directions: Vec<_> = pixels.iter().map(|&i| rays[i as usize].direction).collect();
+                let mut found = vec![Hit::MISS; pixels.len()];
+                let packet = EyePacket { eye: rays[0].origin, directions: &directions, screen: job.screen };
+                built.mesh.closest_packet(&packet, splits, &mut found, &mut scratch);
+                for (&pixel, hit) in pixels.iter().zip(found) {
+                    hits[pixel as usize] = hit;
+                }
+            }
+            all.push((format!("{splits} splits, {size}"), hits));
+        }
+    }
+    all
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Right,
+    /// Another triangle at the same place, or an edge passed within rounding of f32.
+    Rounding,
+    Wrong,
+}
+
+/// Tries every triangle in f64 (Möller–Trumbore).
+fn verdict(triangles: &[Triangle], ray: &Ray, hit: Hit) -> Verdict {
+    let (origin, direction) = (Vec3::from(ray.origin).as_dvec3(), Vec3::from(ray.direction).as_dvec3());
+    let (mut best, mut number, mut margin) = (f64::INFINITY, Hit::NONE, f64::INFINITY);
+    for (i, corners) in triangles.iter().enumerate() {
+        let [a, b, c] = corners.map(|p| Vec3::from(p).as_dvec3());
+        let (along, across, from) = (b - a, c - a, origin - a);
+        let p = direction.cross(across);
+        let q = from.cross(along);
+        let whole = along.dot(p);
+        let (u, v, t) = (from.dot(p) / whole, direction.dot(q) / whole, across.dot(q) / whole);
+        let least = u.min(v).min(1.0 - u - v);
+        // Not a number where the triangle is seen edge-on.
+        if least.is_nan() || !(0.0..=f64::from(ray.until)).contains(&t) {
+            continue;
+        }
+        if t <= best * (1.0 + 1e-6) || i as u32 == hit.triangle {
+            margin = margin.min(least.abs());
+        }
+        if least >= 0.0 && t < best {
+            (best, number) = (t, i as u32);
+        }
+    }
+    let near = hit.is_hit() && (f64::from(hit.t) - best).abs() <= 2e-5 * (1.0 + best);
+    if hit.triangle == number && (near || !hit.is_hit()) {
+        Verdict::Right
+    } else if near || margin < 1e-3 {
+        Verdict::Rounding
+    } else {
+        Verdict::Wrong
+    }
+}

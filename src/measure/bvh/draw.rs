@@ -1,0 +1,106 @@
+//! The picture: paper 4's figures again, and who is faster.
+
+use super::super::chart::{Provenance, Sheet};
+use super::super::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
+use super::rays::{SCENES, SIZES};
+
+/// Panels: figures 3.17 and 4.8, 4.9 to 4.14 (with 4.16 and 4.17 in castle and balls4A), then the comparisons.
+pub fn draw(sheet: &Sheet) -> Figure {
+    let scenes: Vec<&str> = SCENES.into_iter().filter(|name| sheet.rows.iter().any(|row| sheet.text(row, "scene") == *name)).collect();
+    let mut panels: Vec<Panel> = scenes.iter().map(|scene| one_scene(sheet, scene)).collect();
+    panels.push(one_method(sheet, &scenes, "Wald", "Packets of fixed size (figure 3.17)"));
+    panels.push(one_method(sheet, &scenes, "split 4", "Split in 4 (figure 4.8)"));
+    panels.push(one_method(sheet, &scenes, "ours", "Ours: packet and tree descended together"));
+    let singles: Vec<_> = ["bvh", "obvhs", "Embree", "tree of two", "tree of eight"].map(|m| (m, "primary", 1)).to_vec();
+    panels.push(against_obvhs(sheet, &scenes, "Single rays, in obvhs' speed", &singles));
+    let packets = [("obvhs", "primary", 1), ("Embree 8", "primary", 8), ("Embree 16", "primary", 16)];
+    let packets: Vec<_> = packets.into_iter().chain([8, 16, 32, 64].map(|size| ("ours", "primary", size))).collect();
+    panels.push(against_obvhs(sheet, &scenes, "Packets, in the speed of obvhs' single rays", &packets));
+    let kinds = [("ours", "shadow", 32), ("ours", "mirrored", 32), ("ours", "scattered", 32), ("tree of eight", "scattered", 1)];
+    panels.push(against_obvhs(sheet, &scenes, "Secondary rays, in obvhs' speed", &kinds));
+    Figure {
+        title: "Straight rays: paper 4 reproduced and beaten".into(),
+        subtitle: "One thread, 1024 × 768 rays, closest hit, all in one process, medians of interleaved runs; ray set-up and planes are in the time.\n\
+                   Bars to beat: obvhs single rays (1); 20 / 45 / 45 Mrays/s for balls4A / tree10 / bunny where obvhs makes 7.2 / 14.5 / 12.0, that is 2.8 / 3.1 / 3.75."
+            .into(),
+        panels,
+        columns: 3,
+        size: [1650, 1720],
+        footer: Provenance::footer(&sheet.notes),
+    }
+}
+
+/// Mrays/s, or NaN where it was not measured.
+fn speed(sheet: &Sheet, scene: &str, method: &str, kind: &str, packet: usize, column: &str) -> f64 {
+    let wanted = [("scene", scene), ("method", method), ("rays", kind)];
+    sheet
+        .rows
+        .iter()
+        .find(|row| wanted.iter().all(|(name, text)| sheet.text(row, name) == *text) && sheet.number(row, "packet") == packet as f64)
+        .map_or(f64::NAN, |row| sheet.number(row, column))
+}
+
+fn sizes() -> Axis {
+    Axis::log("packet size, pixels").between(1.0, 64.0)
+}
+
+/// Time for a million rays over the size of packets; size 1 is the single ray through the same tree.
+fn curve(sheet: &Sheet, scene: &str, method: &str) -> Vec<[f64; 2]> {
+    let single = if method == "ours" { "tree of eight" } else { "tree of two" };
+    let at = |size, method| [size as f64, 1e3 / speed(sheet, scene, method, "primary", size, "Mrays_per_s")];
+    std::iter::once(at(1, single)).chain(SIZES.map(|size| at(size, method))).filter(|p| p[1].is_finite()).collect()
+}
+
+fn one_scene(sheet: &Sheet, scene: &str) -> Panel {
+    let figure = SCENES.iter().position(|name| *name == scene).map_or(0, |i| 9 + i);
+    let also = match scene {
+        "castle" => " and 4.16",
+        "balls4A" => " and 4.17",
+        _ => "",
+    };
+    let line = |(i, (method, name)): (usize, (&str, &str))| Line {
+        name: name.into(),
+        points: curve(sheet, scene, method),
+        dots: true,
+        color: Some(i),
+        ..Line::default()
+    };
+    let methods = [("Wald", "fixed"), ("split 4", "split in 4"), ("split 16", "split in 16"), ("ours", "ours")];
+    let guides = ["obvhs", "Embree"]
+        .map(|method| Guide { at: 1e3 / speed(sheet, scene, method, "primary", 1, "Mrays_per_s"), label: format!("{method} single") })
+        .into_iter()
+        .filter(|guide| guide.at.is_finite())
+        .collect();
+    Panel::Lines(Lines {
+        title: format!("{scene} (figure 4.{figure}{also})"),
+        x: sizes(),
+        y: Axis::log("ms for a million rays"),
+        lines: methods.into_iter().enumerate().map(line).collect(),
+        guides,
+        ..Lines::default()
+    })
+}
+
+fn one_method(sheet: &Sheet, scenes: &[&str], method: &str, title: &str) -> Panel {
+    let line = |scene: &&str| Line { name: (*scene).into(), points: curve(sheet, scene, method), dots: true, ..Line::default() };
+    let lines = scenes.iter().map(line).collect();
+    Panel::Lines(Lines { title: title.into(), x: sizes(), y: Axis::log("ms for a million rays"), lines, ..Lines::default() })
+}
+
+fn against_obvhs(sheet: &Sheet, scenes: &[&str], title: &str, methods: &[(&str, &str, usize)]) -> Panel {
+    let series = methods.iter().map(|&(method, kind, packet)| {
+        let values: Vec<_> = scenes.iter().map(|scene| Some(speed(sheet, scene, method, kind, packet, "times_obvhs"))).collect();
+        let size = if packet > 1 { format!(" {packet} × {packet}") } else { String::new() };
+        let name = if kind == "primary" { format!("{method}{}", if method == "ours" { &size } else { "" }) } else { format!("{kind}, {method}") };
+        Series { name, values }
+    });
+    let series = series.filter(|s: &Series| s.values.iter().flatten().any(|v| v.is_finite())).collect();
+    Panel::Bars(Bars {
+        title: title.into(),
+        y: Axis::linear("times obvhs"),
+        groups: scenes.iter().map(|s| (*s).to_owned()).collect(),
+        series,
+        guides: vec![Guide { at: 1.0, label: "obvhs".into() }],
+        values: true,
+    })
+}

@@ -1,0 +1,94 @@
+//! `lensrunner compare`: a renderer's picture of a scene, handed in from above, against the judge's.
+
+use std::path::Path;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Frame;
+use super::metrics::{Limits, compare};
+use super::report::{side_by_side, table};
+use crate::measure::flip::flip;
+use crate::measure::picture_file::{PictureFileError, write_png};
+use crate::measure::trace::{Case, Request, TraceError};
+use crate::reference::picture::{Picture, Quality};
+use crate::scene;
+
+/// Draws the case with the renderer that is to be judged. The models of the case have texture coordinates everywhere.
+pub type Contestant<'a> = dyn Fn(&Case) -> Result<Frame, String> + 'a;
+
+/// Why there is no verdict.
+#[derive(Debug, thiserror::Error)]
+pub enum CompareError {
+    /// The judge has no picture.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// The contestant has none: exit code 1.
+    #[error("the renderer gave no picture: {0}")]
+    Contestant(String),
+}
+
+impl From<PictureFileError> for CompareError {
+    fn from(error: PictureFileError) -> Self {
+        CompareError::Trace(error.into())
+    }
+}
+
+impl CompareError {
+    /// Whether the asker is at fault.
+    pub fn is_input(&self) -> bool {
+        matches!(self, CompareError::Trace(error) if error.is_input())
+    }
+}
+
+/// Renders both, gives what goes beyond the limits, prints the verdict to standard output and writes the pictures side by side to `output`, a .png.
+pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+    let side = request.check()?;
+    if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
+        return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
+    }
+    let config = config.map(scene::config::load).transpose().map_err(TraceError::from)?.unwrap_or_default();
+    let scene = scene::load(&request.scene).map_err(TraceError::from)?;
+    let case = case(Case::new(scene, config, request.at, request.size));
+    let frame = contestant(&case).map_err(CompareError::Contestant)?;
+    let bar = ProgressBar::new(u64::from(request.size[0]) * u64::from(request.size[1]));
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
+        bar.set_style(style);
+    }
+    let judge = case.trace(&Quality { samples: side, tolerance: request.tolerance }, true, &|pixels| bar.inc(pixels));
+    bar.finish_and_clear();
+    let difference = difference(&judge, &frame);
+    let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
+    let verdict = compare(&judge, &frame, &names, &difference);
+    let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
+    let faults = verdict.faults(&limits);
+    print!("{}", table(&verdict, &faults));
+    let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
+    write_png(output, &bytes, size)?;
+    Ok(faults)
+}
+
+/// ꟻLIP of the two pictures, both exposed so that the judge's brightest hundredth is white.
+pub fn difference(judge: &Picture, frame: &Frame) -> Vec<f32> {
+    let mut peaks: Vec<f32> = judge.light.iter().map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).filter(|peak| *peak > 0.0).collect();
+    peaks.sort_by(f32::total_cmp);
+    let white = peaks.get(peaks.len() * 99 / 100).copied().unwrap_or(1.0).max(1e-9);
+    let exposed = |light: &[[f32; 3]]| -> Vec<[f32; 3]> { light.iter().map(|rgb| rgb.map(|c| c / white)).collect() };
+    flip(&exposed(&judge.light), &exposed(&frame.light), judge.size)
+}
+
+/// Gives models without texture coordinates some, so that points of their surfaces can be told apart: two slanted views of the body, which
+/// are different at neighbouring points of any surface. Such models have no texture, so nothing looks different.
+pub fn case(mut case: Case) -> Case {
+    for model in &mut case.assembly.models {
+        let plain = model.vertices.iter().all(|vertex| Some(vertex.uv) == model.vertices.first().map(|first| first.uv));
+        if !plain {
+            continue;
+        }
+        let scale = 1.0 / (4.0 * model.radius().max(1e-9));
+        for vertex in &mut model.vertices {
+            let [x, y, z] = vertex.position;
+            vertex.uv = [0.5 + scale * (x + 0.31 * y + 0.17 * z), 0.5 + scale * (z + 0.43 * y - 0.23 * x)];
+        }
+    }
+    case
+}

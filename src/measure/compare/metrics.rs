@@ -1,0 +1,296 @@
+//! How far a picture is from the judge's.
+
+use std::collections::BTreeMap;
+
+use super::{Frame, Shown};
+use crate::reference::picture::{Layer, Picture};
+
+/// Displacements between the same surface points in the two pictures, in pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Displacement {
+    /// Pixels it was measured at.
+    pub pixels: usize,
+    /// Their mean.
+    pub mean: f64,
+    /// 99 of 100 are less.
+    pub most: f64,
+    /// The greatest.
+    pub max: f64,
+    /// Pixels counted apart: what they show is magnified so far that f32 cannot tell neighbours, or changes too unevenly to be measured.
+    pub apart: usize,
+}
+
+/// One object (all copies of a name) in one image order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// The name.
+    pub name: String,
+    /// The image order.
+    pub order: u32,
+    /// Pixels whose centre shows it to the judge.
+    pub pixels: usize,
+    /// Pixels of the judge's image that touch another, and those just outside of it.
+    pub rim: usize,
+    /// Pixels in which one shows it and the other does not.
+    pub mismatched: usize,
+    /// Of those, the ones that are no rim: at least one pixel away from any edge.
+    pub beyond_rim: usize,
+    /// Where the surface points are.
+    pub displacement: Displacement,
+    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant.
+    pub thin: [f64; 2],
+    /// Mean ꟻLIP over the judge's pixels of it.
+    pub flip: f64,
+}
+
+/// All that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// By name and order.
+    pub groups: Vec<Group>,
+    /// Pixels that show the right object in a wrong order.
+    pub wrong_order: usize,
+    /// Pixels without light, in the midst of others, where the judge sees a thing all around.
+    pub holes: usize,
+    /// Pixels with light of a thing where the judge sees the shadow all around.
+    pub lit: usize,
+    /// Mean ꟻLIP of the whole picture.
+    pub flip: f64,
+    /// Displacement at each pixel, in pixels; not a number where it was not measured.
+    pub displaced: Vec<f32>,
+}
+
+/// What a picture must keep to be taken as right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Of 99 in 100 displacements, in pixels.
+    pub most: f64,
+    /// Of every displacement, in pixels.
+    pub max: f64,
+    /// Of mismatched pixels, as a part of the object's pixels and its rim.
+    pub coverage: f64,
+    /// Of the difference in area of thin images, as a part of their area, where that is more than 20 pixels.
+    pub thin: f64,
+    /// Image orders that are drawn at all; higher ones are listed and not judged.
+    pub orders: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Limits {
+        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 0.2, orders: 3 }
+    }
+}
+
+impl Verdict {
+    /// What goes beyond the limits, in words; nothing if the picture is right.
+    pub fn faults(&self, limits: &Limits) -> Vec<String> {
+        let mut faults = Vec::new();
+        for group in self.groups.iter().filter(|group| group.order <= limits.orders) {
+            let who = format!("{} order {}", group.name, group.order);
+            let d = &group.displacement;
+            if d.most > limits.most {
+                faults.push(format!("{who}: 99 % of displacements are under {:.2} px, not {}", d.most, limits.most));
+            }
+            if d.max > limits.max {
+                faults.push(format!("{who}: displacement up to {:.2} px, more than {}", d.max, limits.max));
+            }
+            let allowed = limits.coverage * (group.pixels + group.rim) as f64;
+            // One pixel may always fall either way.
+            if group.mismatched as f64 > allowed.max(1.0) {
+                faults.push(format!("{who}: {} pixels differ, allowed {:.1}", group.mismatched, allowed.max(1.0)));
+            }
+            let [judge, shown] = group.thin;
+            if (judge - shown).abs() > (limits.thin * judge).max(limits.thin * 20.0) {
+                faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1}"));
+            }
+        }
+        for (count, what) in
+            [(self.wrong_order, "show the wrong order"), (self.holes, "are holes"), (self.lit, "are lit where there is no light")]
+        {
+            if count > 0 {
+                faults.push(format!("{count} pixels {what}"));
+            }
+        }
+        faults
+    }
+}
+
+/// A thing's surface coordinates resolve this much in f32: a few roundings of a number near 1, at a tenth of a pixel.
+const RESOLUTION: f64 = 4e-6;
+
+/// Compares. `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of each pixel.
+pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f32]) -> Verdict {
+    let [width, height] = judge.size.map(|side| side as usize);
+    let grid = Grid { width, height };
+    let thin = thin_images(judge);
+    let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
+    let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
+    let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
+    let (mut wrong_order, mut holes, mut lit) = (0, 0, 0);
+    let mut displaced = vec![f32::NAN; width * height];
+    for i in 0..width * height {
+        let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
+        let around = grid.around(i);
+        let at_rim = |object: u32, order: u32| {
+            let same = |j: &usize| (judge.layers[*j].object, judge.layers[*j].order) == (object, order);
+            let count = around.iter().filter(|j| same(j)).count();
+            count > 0 && count < around.len()
+        };
+        let agree = layer.object == shown.object && layer.order == shown.order;
+        wrong_order += usize::from(layer.object > 0 && layer.object == shown.object && layer.order != shown.order);
+        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0));
+        lit += usize::from(frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]));
+        for &(object, order, share) in &judge.shares[i] {
+            if is_thin(object, order) {
+                tallies.entry((name(object), order)).or_default().thin[0] += f64::from(share);
+            }
+        }
+        if shown.object > 0 && is_thin(shown.object, shown.order) {
+            tallies.entry((name(shown.object), shown.order)).or_default().thin[1] += f64::from(shown.coverage);
+        }
+        if layer.object > 0 && !is_thin(layer.object, layer.order) {
+            let tally = tallies.entry((name(layer.object), layer.order)).or_default();
+            tally.pixels += 1;
+            tally.flip += f64::from(difference[i]);
+            tally.rim += usize::from(at_rim(layer.object, layer.order));
+            if !agree {
+                tally.mismatched += 1;
+                tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
+            } else {
+                match displacement(judge, &grid, i, shown) {
+                    Some(Measured::Pixels(d)) => {
+                        tally.displacements.push(d);
+                        displaced[i] = d as f32;
+                    }
+                    Some(Measured::Apart) => tally.apart += 1,
+                    None => {}
+                }
+            }
+        }
+        if shown.object > 0 && !agree && !is_thin(shown.object, shown.order) {
+            let tally = tallies.entry((name(shown.object), shown.order)).or_default();
+            tally.mismatched += 1;
+            let rim = at_rim(shown.object, shown.order);
+            tally.rim += usize::from(rim);
+            tally.beyond_rim += usize::from(!rim);
+        }
+    }
+    let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order)).collect();
+    let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
+    Verdict { groups, wrong_order, holes, lit, flip, displaced }
+}
+
+/// Objects and orders that nowhere fill a pixel.
+fn thin_images(judge: &Picture) -> std::collections::HashSet<(u32, u32)> {
+    let mut fullest: BTreeMap<(u32, u32), f32> = BTreeMap::new();
+    for &(object, order, share) in judge.shares.iter().flatten() {
+        let most = fullest.entry((object, order)).or_default();
+        *most = most.max(share);
+    }
+    fullest.into_iter().filter(|(_, most)| *most < 0.999).map(|(key, _)| key).collect()
+}
+
+#[derive(Default)]
+struct Tally {
+    pixels: usize,
+    rim: usize,
+    mismatched: usize,
+    beyond_rim: usize,
+    displacements: Vec<f64>,
+    apart: usize,
+    thin: [f64; 2],
+    flip: f64,
+}
+
+impl Tally {
+    fn group(mut self, name: &str, order: u32) -> Group {
+        self.displacements.sort_by(f64::total_cmp);
+        let d = &self.displacements;
+        let count = d.len();
+        let displacement = Displacement {
+            pixels: count,
+            mean: d.iter().sum::<f64>() / count.max(1) as f64,
+            most: d.get((count * 99 / 100).min(count.saturating_sub(1))).copied().unwrap_or(0.0),
+            max: d.last().copied().unwrap_or(0.0),
+            apart: self.apart,
+        };
+        Group {
+            name: name.into(),
+            order,
+            pixels: self.pixels,
+            rim: self.rim,
+            mismatched: self.mismatched,
+            beyond_rim: self.beyond_rim,
+            displacement,
+            thin: self.thin,
+            flip: self.flip / self.pixels.max(1) as f64,
+        }
+    }
+}
+
+struct Grid {
+    width: usize,
+    height: usize,
+}
+
+impl Grid {
+    /// The pixel and those around it that exist.
+    fn around(&self, i: usize) -> Vec<usize> {
+        let (x, y) = (i % self.width, i / self.width);
+        let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
+        (y.saturating_sub(1)..=(y + 1).min(self.height - 1)).flat_map(|y| columns.clone().map(move |x| y * self.width + x)).collect()
+    }
+}
+
+enum Measured {
+    Pixels(f64),
+    Apart,
+}
+
+/// How far from the centre of pixel i the judge sees the surface point that the contestant shows there: the difference in texture coordinates
+/// over their change from pixel to pixel. None where no neighbour shows the same image.
+fn displacement(judge: &Picture, grid: &Grid, i: usize, shown: &Shown) -> Option<Measured> {
+    let here = &judge.layers[i];
+    let (x, y) = (i % grid.width, i / grid.width);
+    let slope = |before: Option<usize>, after: Option<usize>| {
+        let step = |j: Option<usize>| {
+            let there: &Layer = &judge.layers[j?];
+            ((there.object, there.order) == (here.object, here.order)).then(|| turns(there.uv, here.uv))
+        };
+        match (step(before), step(after)) {
+            (Some(a), Some(b)) => {
+                let uneven = (a[0] + b[0]).hypot(a[1] + b[1]) > 0.5 * (a[0] - b[0]).hypot(a[1] - b[1]);
+                Some(([0.5 * (b[0] - a[0]), 0.5 * (b[1] - a[1])], uneven))
+            }
+            (Some(a), None) => Some(([-a[0], -a[1]], false)),
+            (None, Some(b)) => Some((b, false)),
+            (None, None) => None,
+        }
+    };
+    let (across, uneven_across) = slope((x > 0).then(|| i - 1), (x + 1 < grid.width).then(|| i + 1))?;
+    let (down, uneven_down) = slope((y > 0).then(|| i - grid.width), (y + 1 < grid.height).then(|| i + grid.width))?;
+    let off = turns(shown.uv, here.uv);
+    // Singular values of the map from pixels to coordinates, and the displacement along each of its directions.
+    let (a, b, c) =
+        (across[0] * across[0] + across[1] * across[1], across[0] * down[0] + across[1] * down[1], down[0] * down[0] + down[1] * down[1]);
+    let angle = 0.5 * (2.0 * b).atan2(a - c);
+    let mut sum = 0.0;
+    for turn in [angle, angle + std::f64::consts::FRAC_PI_2] {
+        let (sine, cosine) = turn.sin_cos();
+        let image = [across[0] * cosine + down[0] * sine, across[1] * cosine + down[1] * sine];
+        let stretch = image[0].hypot(image[1]);
+        if stretch < RESOLUTION {
+            return Some(Measured::Apart);
+        }
+        sum += ((off[0] * image[0] + off[1] * image[1]) / (stretch * stretch)).powi(2);
+    }
+    let pixels = sum.sqrt();
+    // Where the map is far from linear a small displacement is still small; a large one cannot be told from the unevenness.
+    Some(if (uneven_across || uneven_down) && pixels > 0.5 { Measured::Apart } else { Measured::Pixels(pixels) })
+}
+
+/// a − b, with u on a circle.
+fn turns(a: [f32; 2], b: [f32; 2]) -> [f64; 2] {
+    let u = f64::from(a[0]) - f64::from(b[0]);
+    [u - u.round(), f64::from(a[1]) - f64::from(b[1])]
+}

@@ -1,0 +1,51 @@
+//! The verdict: a renderer's picture of a scene against the judge's, object by object and order by order.
+//!
+//! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
+//! - [`report`]: the numbers as text, the pictures side by side.
+//! - [`command`]: `lensrunner compare`.
+
+pub mod command;
+pub mod metrics;
+pub mod report;
+
+use crate::reference::picture::Picture;
+
+/// What a pixel of the contestant shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Shown {
+    /// The number of the thing, from 1; 0 for none.
+    pub object: u32,
+    /// The image order.
+    pub order: u32,
+    /// Texture coordinates.
+    pub uv: [f32; 2],
+    /// How much of the pixel it covers: less than 1 only for images narrower than a pixel.
+    pub coverage: f32,
+}
+
+/// The contestant's picture.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Linear light with the sky.
+    pub light: Vec<[f32; 3]>,
+    /// Linear light of the things alone.
+    pub bare: Vec<[f32; 3]>,
+    /// What each pixel shows.
+    pub shown: Vec<Shown>,
+}
+
+impl Frame {
+    /// The judge's own picture as a contestant: what a perfect renderer would hand in, and what tests break on purpose.
+    pub fn of(picture: &Picture) -> Frame {
+        let shown = picture.layers.iter().map(|layer| Shown {
+            object: layer.object,
+            order: layer.order,
+            uv: layer.uv,
+            coverage: if layer.object > 0 { 1.0 } else { 0.0 },
+        });
+        let bare = picture.light.iter().zip(&picture.open).map(|(rgb, open)| if *open < 1.0 { *rgb } else { [0.0; 3] });
+        Frame { size: picture.size, light: picture.light.clone(), bare: bare.collect(), shown: shown.collect() }
+    }
+}

@@ -1,0 +1,130 @@
+//! The pictures of the race, from its sheet alone.
+
+use crate::measure::chart::{Provenance, Sheet};
+use crate::measure::methods::FAMILIES;
+use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
+
+/// Half a pixel at 3840 pixels over 60°, degrees.
+pub const HALF_PIXEL: f64 = 0.008;
+/// Smaller errors are drawn here, degrees: a thousandth of a pixel and less.
+const LEAST_ERROR: f64 = 1e-5;
+/// A method that leaves more than this share of the rows with a ray unanswered, or invents as many, has failed.
+const MOST_WRONG: f64 = 0.01;
+
+/// A method over all its orders.
+struct Entry {
+    name: String,
+    family: usize,
+    /// Share of the rows with the wrong presence.
+    wrong: f64,
+    max: f64,
+    most: f64,
+    rms: f64,
+    nanoseconds: f64,
+    bytes: f64,
+}
+
+fn entries(sheet: &Sheet) -> Vec<Entry> {
+    let mut all: Vec<Entry> = Vec::new();
+    let mut counts: Vec<[f64; 3]> = Vec::new();
+    for row in &sheet.rows {
+        let name = sheet.text(row, "method");
+        let at = all.iter().position(|entry| entry.name == name).unwrap_or_else(|| {
+            let family = FAMILIES.iter().position(|family| *family == sheet.text(row, "family")).unwrap_or(0);
+            let (nanoseconds, bytes) = (sheet.number(row, "nanoseconds"), sheet.number(row, "bytes"));
+            all.push(Entry { name: name.to_owned(), family, wrong: 0.0, max: 0.0, most: 0.0, rms: 0.0, nanoseconds, bytes });
+            counts.push([0.0; 3]);
+            all.len() - 1
+        });
+        let [answered, wrong, rows] =
+            [sheet.number(row, "answered"), sheet.number(row, "missing") + sheet.number(row, "false"), sheet.number(row, "rows")];
+        let (entry, count) = (&mut all[at], &mut counts[at]);
+        *count = [count[0] + answered, count[1] + wrong, count[2] + rows];
+        entry.max = entry.max.max(sheet.number(row, "max_degrees"));
+        entry.most = entry.most.max(sheet.number(row, "p999_degrees"));
+        let rms = sheet.number(row, "rms_degrees");
+        if answered > 0.0 {
+            entry.rms += rms * rms * answered;
+        }
+    }
+    for (entry, [answered, wrong, rows]) in all.iter_mut().zip(counts) {
+        entry.rms = (entry.rms / answered.max(1.0)).sqrt();
+        entry.wrong = wrong / rows.max(1.0);
+    }
+    all
+}
+
+fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: bool, guide: (f64, &str), title: &str) -> Scatter {
+    let points = entries.iter().map(|entry| {
+        let failed = entry.wrong > MOST_WRONG;
+        let share = if failed {
+            format!(" ({:.0} %)", 100.0 * entry.wrong)
+        } else if entry.max == 0.0 {
+            " (the measure of the others: below 1e-9)".to_owned()
+        } else {
+            String::new()
+        };
+        Point {
+            x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds },
+            y: y(entry).max(LEAST_ERROR),
+            label: format!("{}{share}", entry.name),
+            family: entry.family,
+            failed,
+        }
+    });
+    let x = if memory { "memory of tables, bytes (1000 = none)" } else { "nanoseconds a lookup, one core" };
+    Scatter {
+        title: title.into(),
+        x: Axis::log(x),
+        y: Axis::log(y_label),
+        points: points.collect(),
+        families: FAMILIES.iter().map(|name| (*name).to_owned()).collect(),
+        pareto: true,
+        guides: vec![Guide { at: guide.0, label: guide.1.into() }],
+        guides_x: Vec::new(),
+    }
+}
+
+fn footer(sheet: &Sheet) -> Vec<String> {
+    let mut lines = Provenance::footer(&sheet.notes);
+    if let Some(points) = sheet.note("points") {
+        lines.insert(
+            0,
+            format!("adversarial points: {points}; orders 1 to 3; cameras from r = 0.05 to 5000 r_s, points from 1.0005 to 10000 r_s"),
+        );
+    }
+    lines
+}
+
+/// The picture for a stranger: the largest error against time, and against memory.
+pub fn race(sheet: &Sheet) -> Figure {
+    let entries = entries(sheet);
+    let guide = (HALF_PIXEL, "half a pixel at 3840 over 60°");
+    let worst = |entry: &Entry| entry.max;
+    Figure {
+        title: "Where a vertex is seen near a black hole: error against cost".into(),
+        subtitle: "The worst error of each method on the same points, chosen to be hard. Lower and further left is better; the black line joins what nothing beats.\n\
+                   Red crosses failed: they leave so many per cent of the points unanswered (camera inside, or of higher order). Use \"table\", or \"table-batch\" on the processor."
+            .into(),
+        panels: vec![
+            Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", false, guide, "against time")),
+            Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", true, guide, "against memory")),
+        ],
+        columns: 2,
+        size: [1640, 860],
+        footer: footer(sheet),
+    }
+}
+
+/// Largest error, 99.9th percentile and rms, against time and memory.
+pub fn everything(sheet: &Sheet) -> Figure {
+    let entries = entries(sheet);
+    let mut panels = Vec::new();
+    for memory in [false, true] {
+        let guide = (HALF_PIXEL, "half a pixel");
+        panels.push(Panel::Scatter(scatter(&entries, |e| e.max, "largest error, degrees", memory, guide, "")));
+        panels.push(Panel::Scatter(scatter(&entries, |e| e.most, "99.9 % of errors below, degrees", memory, guide, "")));
+        panels.push(Panel::Scatter(scatter(&entries, |e| e.rms, "rms error, degrees", memory, (0.0005, "asked for"), "")));
+    }
+    Figure { title: "Projection: all errors".into(), panels, columns: 3, size: [2100, 1300], footer: footer(sheet), ..Figure::default() }
+}

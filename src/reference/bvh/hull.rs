@@ -1,0 +1,115 @@
+//! The space that a packet of rays sweeps: four planes and a front.
+//!
+//! All rays of a packet move along one axis, z, in one sense. Where they cross the plane in front of which they all start, their x lies in [a₀, a₁];
+//! their slopes dx/dz lie in [s₀, s₁]; so further on x lies in [a₀ + s₀ z, a₁ + s₁ z], and likewise y. For rays from one eye these are the planes
+//! through the packet's outermost rays. Nothing is asked of the order of rays, nor that they start in one point.
+
+use super::lanes::Lanes;
+use super::wide::{Block, Wide8};
+
+/// Slopes above this make a hull too wide to be of use, and its rounding too large: such packets are split instead.
+pub(super) const STEEPEST: f32 = 4.0;
+
+/// What the rays of a packet sweep, as seen along one axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hull {
+    /// [x, y]: lowest and highest where z = 0.
+    pub offsets: [[f32; 2]; 2],
+    /// [x, y]: least and largest slope.
+    pub slopes: [[f32; 2]; 2],
+}
+
+impl Hull {
+    /// Holds nothing.
+    pub const EMPTY: Hull = Hull { offsets: [[f32::INFINITY, f32::NEG_INFINITY]; 2], slopes: [[f32::INFINITY, f32::NEG_INFINITY]; 2] };
+
+    /// The hull of both.
+    #[inline(always)]
+    pub fn union(&self, other: &Hull) -> Hull {
+        let join = |a: [[f32; 2]; 2], b: [[f32; 2]; 2]| std::array::from_fn(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])]);
+        Hull { offsets: join(self.offsets, other.offsets), slopes: join(self.slopes, other.slopes) }
+    }
+
+    /// Whether the slopes are finite and gentle.
+    #[inline(always)]
+    pub fn is_gentle(&self) -> bool {
+        self.slopes.iter().flatten().all(|s| s.abs() <= STEEPEST)
+    }
+}
+
+/// The axes of a packet: z is the one along which its rays move, in the sense of `sign`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axes {
+    /// x, y, z as numbers of the scene's axes.
+    pub axes: [usize; 3],
+    /// 1 or −1.
+    pub sign: f32,
+    /// The scene's coordinate at which z = 0: no ray starts before it.
+    pub front: f32,
+    /// By how much boxes are widened.
+    pub widening: f32,
+}
+
+/// A hull laid out for eight boxes or triangles at once.
+#[derive(Clone, Copy)]
+pub(super) struct Planes<L> {
+    axes: Axes,
+    offsets: [[L; 2]; 2],
+    slopes: [[L; 2]; 2],
+    sign: L,
+    enter: L,
+    leave: L,
+    front: L,
+}
+
+impl<L: Lanes> Planes<L> {
+    #[inline(always)]
+    pub fn new(hull: &Hull, axes: &Axes) -> Planes<L> {
+        let shift = axes.sign * axes.widening;
+        // A slope carries the depth's widening over to x and y.
+        let pad = axes.widening * (1.0 + STEEPEST);
+        Planes {
+            axes: *axes,
+            offsets: hull.offsets.map(|[low, high]| [L::splat(low - pad), L::splat(high + pad)]),
+            slopes: hull.slopes.map(|s| s.map(L::splat)),
+            sign: L::splat(axes.sign),
+            enter: L::splat(axes.front + shift),
+            leave: L::splat(axes.front - shift),
+            front: L::splat(axes.front),
+        }
+    }
+
+    /// Which of a node's boxes the hull reaches before the depth `until`, and the depths at which they begin.
+    #[inline(always)]
+    pub fn boxes(&self, node: &Wide8, until: f32) -> (u32, L) {
+        let [x, y, z] = self.axes.axes;
+        let first = usize::from(self.axes.sign < 0.0);
+        let zero = L::splat(0.0);
+        let near = L::load(&node.bounds[z][first]).sub(self.enter).mul(self.sign).max(zero);
+        let far = L::load(&node.bounds[z][1 - first]).sub(self.leave).mul(self.sign);
+        let mut met = near.at_most(far).and(near.at_most(L::splat(until)));
+        for (k, axis) in [x, y].into_iter().enumerate() {
+            let [[a, b], [s, r]] = [self.offsets[k], self.slopes[k]];
+            let low = a.add(s.mul(near).min(s.mul(far)));
+            let high = b.add(r.mul(near).max(r.mul(far)));
+            met = met.and(low.at_most(L::load(&node.bounds[axis][1]))).and(L::load(&node.bounds[axis][0]).at_most(high));
+        }
+        (met.bits(), near)
+    }
+
+    /// Which of a block's triangles are not wholly outside one of the planes.
+    #[inline(always)]
+    pub fn triangles(&self, block: &Block) -> u32 {
+        let [x, y, z] = self.axes.axes;
+        let depth: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][z]).sub(self.front).mul(self.sign));
+        let mut met = L::splat(0.0).at_most(L::splat(0.0));
+        for (k, axis) in [x, y].into_iter().enumerate() {
+            let across: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][axis]));
+            let beside = |side: usize| -> [L; 3] { std::array::from_fn(|i| across[i].sub(self.slopes[k][side].mul(depth[i]))) };
+            let [low, high] = [beside(0), beside(1)];
+            met = met.and(self.offsets[k][0].at_most(low[0].max(low[1]).max(low[2])));
+            met = met.and(high[0].min(high[1]).min(high[2]).at_most(self.offsets[k][1]));
+        }
+        met.bits()
+    }
+}

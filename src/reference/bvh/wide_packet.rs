@@ -1,0 +1,396 @@
+//! Packets of any size through the wide tree, split as they descend.
+//!
+//! Paper 4 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes that its
+//! hull reaches, each opened for as long as that throws away more children than it keeps. Then the packet is split, and each part sifts the list with
+//! its own, narrower hull. What is left at the end is eight rays and the few small nodes in front of them, nearest first. The nodes above are opened once
+//! for all rays, whatever the size of the packet, and no node is opened for rays that cannot reach it.
+
+use super::hull::{Axes, Hull, Planes};
+use super::lanes::{Lanes, Portable};
+use super::ray::{Hit, Ray, widening};
+use super::triangle::{Shear, fastest};
+use super::wide::{Block, LEAF, STACK, Wide, leaf};
+use super::wide_ray::meet;
+
+/// Rays that are tested at once.
+const GROUP: usize = 8;
+
+/// A node is kept closed while a packet reaches at least this many of its children: its parts will throw away more.
+const CLOSED: u32 = 4;
+
+/// A part of the tree that a packet still has to look at: a node, and those of its children that the packet reaches.
+#[derive(Clone, Copy, Debug)]
+struct Item {
+    node: u32,
+    children: u32,
+}
+
+/// A run of groups, and the run of items that the packet it was split off has left for it.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    first: usize,
+    count: usize,
+    items: [usize; 2],
+}
+
+/// What packets need to remember on their way; keep one for each thread.
+pub struct Packets {
+    items: Vec<Item>,
+    parts: Vec<Part>,
+    hulls: Vec<Hull>,
+    stack: Box<[(u32, f32); STACK]>,
+}
+
+impl Default for Packets {
+    fn default() -> Packets {
+        Packets { items: Vec::new(), parts: Vec::new(), hulls: Vec::new(), stack: Box::new([(0, 0.0); STACK]) }
+    }
+}
+
+impl Wide {
+    /// The nearest triangle that each ray meets; the same bits as [`Wide::closest_each`]. The rays are taken in the order given, so that neighbours in
+    /// the list should be neighbours in space ([`super::order::tiles`] arranges a picture): any set gives the right answer, a good order a fast one.
+    ///
+    /// # Panics
+    /// When the lengths differ.
+    pub fn closest_packet(&self, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+        assert_eq!(rays.len(), hits.len(), "one hit a ray");
+        #[cfg(target_arch = "x86_64")]
+        if self.fast {
+            #[allow(unsafe_code)]
+            // SAFETY: `fast` is set only where AVX2 was detected.
+            return unsafe { packet_avx(self, rays, hits, packets) };
+        }
+        packet::<Portable>(self, rays, hits, packets);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
+fn packet_avx(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+    packet::<super::lanes::Avx>(wide, rays, hits, packets);
+}
+
+#[inline(always)]
+fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+    if wide.nodes.is_empty() {
+        hits.fill(Hit::MISS);
+        return;
+    }
+    if rays.is_empty() {
+        return;
+    }
+    let Some(axes) = sweep::<L>(wide, rays, &mut packets.hulls) else {
+        // No common direction: halves may have one, eight rays need none.
+        if rays.len() <= GROUP {
+            wide.each::<false>(rays, hits, &mut packets.stack);
+        } else {
+            let middle = (rays.len() / 2).next_multiple_of(GROUP);
+            let (first, second) = hits.split_at_mut(middle);
+            wide.closest_packet(&rays[..middle], first, packets);
+            wide.closest_packet(&rays[middle..], second, packets);
+        }
+        return;
+    };
+    let Packets { items, parts, hulls, stack } = packets;
+    items.clear();
+    items.push(Item { node: 0, children: !0 });
+    parts.clear();
+    parts.push(Part { first: 0, count: rays.len().div_ceil(GROUP), items: [0, 1] });
+    while let Some(part) = parts.pop() {
+        let [start, end] = part.items;
+        items.truncate(end);
+        let groups = part.first..part.first + part.count;
+        if part.count == 1 {
+            let run = part.first * GROUP..((part.first + 1) * GROUP).min(rays.len());
+            let planes = Planes::<L>::new(&hulls[part.first], &axes);
+            group(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, &items[start..end], stack);
+            continue;
+        }
+        let hull = hulls[groups.clone()].iter().fold(Hull::EMPTY, |all, h| all.union(h));
+        let planes = Planes::<L>::new(&hull, &axes);
+        for i in start..end {
+            sift(wide, &planes, items[i], items, stack);
+        }
+        if items.len() == end {
+            hits[groups.start * GROUP..(groups.end * GROUP).min(rays.len())].fill(Hit::MISS);
+            continue;
+        }
+        let size = if part.count > 8 { part.count.next_power_of_two() / 4 } else { 1 };
+        for first in groups.step_by(size).rev() {
+            parts.push(Part { first, count: size.min(part.first + part.count - first), items: [end, items.len()] });
+        }
+    }
+}
+
+/// Eight rays or fewer; lanes without one repeat the last, with an end before its start.
+#[inline(always)]
+fn eight<'a>(rays: &'a [Ray], spare: &'a mut [Ray; GROUP]) -> &'a [Ray; GROUP] {
+    if let Ok(full) = rays.try_into() {
+        return full;
+    }
+    *spare = [Ray { until: -1.0, ..rays[rays.len() - 1] }; GROUP];
+    spare[..rays.len()].copy_from_slice(rays);
+    spare
+}
+
+#[inline(always)]
+fn lanes<L: Lanes>(rays: &[Ray; GROUP], number: impl Fn(&Ray) -> f32) -> L {
+    L::load(&std::array::from_fn(|i| number(&rays[i])))
+}
+
+/// The common direction of the rays and the hull of each group; None if they have none.
+#[inline(always)]
+fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<Axes> {
+    let mut spare = [rays[0]; GROUP];
+    let middle = rays[rays.len() / 2].direction;
+    let z = fastest(middle);
+    let axes = [(z + 1) % 3, (z + 2) % 3, z];
+    let sign = 1f32.copysign(middle[z]);
+    let (mut low, mut high) = ([L::splat(f32::INFINITY); 3], [L::splat(f32::NEG_INFINITY); 3]);
+    for rays in rays.chunks(GROUP) {
+        let eight = eight(rays, &mut spare);
+        for axis in 0..3 {
+            let origin = lanes::<L>(eight, |r| r.origin[axis]);
+            low[axis] = origin.min(low[axis]);
+            high[axis] = origin.max(high[axis]);
+        }
+    }
+    let (low, high) = (low.map(L::least), high.map(L::greatest));
+    let front = if sign > 0.0 { low[z] } else { high[z] };
+    let widening = widening(&wide.root, low).max(widening(&wide.root, high));
+    let axes = Axes { axes, sign, front, widening };
+    hulls.clear();
+    for rays in rays.chunks(GROUP) {
+        let eight = eight(rays, &mut spare);
+        let along = lanes::<L>(eight, |r| r.direction[z]).mul(L::splat(sign));
+        let depth = lanes::<L>(eight, |r| r.origin[z]).sub(L::splat(front)).mul(L::splat(sign));
+        let mut hull = Hull::EMPTY;
+        for k in 0..2 {
+            let axis = axes.axes[k];
+            let slope = lanes::<L>(eight, |r| r.direction[axis]).div(along);
+            let offset = lanes::<L>(eight, |r| r.origin[axis]).sub(slope.mul(depth));
+            hull.slopes[k] = [slope.least(), slope.greatest()];
+            hull.offsets[k] = [offset.least(), offset.greatest()];
+        }
+        // The comparison also fails where something is not a number.
+        if L::splat(0.0).less(along).bits() != 0xff || !hull.is_gentle() {
+            return None;
+        }
+        hulls.push(hull);
+    }
+    Some(axes)
+}
+
+/// Opens an item for a packet as far as it pays, and adds what is left to the list, nearest first.
+#[inline(always)]
+fn sift<L: Lanes>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<Item>, stack: &mut [(u32, f32); STACK]) {
+    let mut only = item.children;
+    stack[0] = (item.node, 0.0);
+    let mut height = 1;
+    while height > 0 {
+        height -= 1;
+        let at = stack[height].0;
+        let node = &wide.nodes[at as usize];
+        let (met, near) = planes.boxes(node, f32::INFINITY);
+        let met = met & only;
+        only = !0;
+        let inner = met & node.inner;
+        if met == 0 {
+            continue;
+        }
+        if inner == 0 || met.count_ones() >= CLOSED {
+            items.push(Item { node: at, children: met });
+            continue;
+        }
+        if met != inner {
+            items.push(Item { node: at, children: met & !inner });
+        }
+        let nears = near.store();
+        push::<L>(wide, stack, &mut height, inner, &node.children, &nears);
+    }
+}
+
+/// Puts children on the stack, the nearest on top.
+#[inline(always)]
+fn push<L: Lanes>(wide: &Wide, stack: &mut [(u32, f32); STACK], height: &mut usize, mut lanes: u32, children: &[u32; 8], nears: &[f32; 8]) {
+    let ground = *height;
+    while lanes != 0 {
+        let lane = lanes.trailing_zeros() as usize;
+        lanes &= lanes - 1;
+        let waits = (children[lane], nears[lane]);
+        wide.fetch::<L>(waits.0);
+        let mut place = *height;
+        while place > ground && stack[place - 1].1 < waits.1 {
+            stack[place] = stack[place - 1];
+            place -= 1;
+        }
+        stack[place] = waits;
+        *height += 1;
+    }
+}
+
+/// Eight rays laid out lane by lane, and what they have met.
+struct Group<'a, L> {
+    rays: &'a [Ray; GROUP],
+    origin: [L; 3],
+    /// Of `Shear`, each lane along its own fastest axis.
+    slopes: [L; 3],
+    /// By axis: the lanes that move fastest along it.
+    fastest: [L; 3],
+    until: L,
+    t: L,
+    /// Numbers of triangles as bits.
+    triangle: L,
+    /// The depth where each ray starts, and depth for t.
+    depth: [L; 2],
+}
+
+impl<'a, L: Lanes> Group<'a, L> {
+    #[inline(always)]
+    fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, L> {
+        let origin: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.origin[k]));
+        let direction: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.direction[k]));
+        // As `fastest`.
+        let [x, y, z] = direction.map(L::abs);
+        let (all, none) = (L::splat(0.0).at_most(L::splat(0.0)), L::splat(0.0));
+        let first = y.at_most(x).and(z.at_most(x));
+        let second = first.select(none, z.at_most(y));
+        let fastest = [first, second, first.or(second).select(none, all)];
+        let slopes_along = |axis: usize| {
+            let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis].map(|k| direction[k]);
+            [x.div(z), y.div(z), L::splat(1.0).div(z)]
+        };
+        let slopes = match fastest.iter().position(|mask| mask.bits() == 0xff) {
+            Some(axis) => slopes_along(axis),
+            None => {
+                let [a, b, c] = [0, 1, 2].map(slopes_along);
+                std::array::from_fn(|k| first.select(a[k], second.select(b[k], c[k])))
+            }
+        };
+        let depth = axes.axes[2];
+        let sign = L::splat(axes.sign);
+        Group {
+            rays,
+            origin,
+            slopes,
+            fastest,
+            until: lanes(rays, |r| r.until),
+            t: L::splat(Hit::MISS.t),
+            triangle: L::splat(f32::from_bits(Hit::NONE)),
+            depth: [origin[depth].sub(L::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
+        }
+    }
+
+    /// Behind this depth nothing can be nearer than what every ray has.
+    #[inline(always)]
+    fn deepest(&self) -> f32 {
+        self.depth[0].add(self.depth[1].mul(self.t.min(self.until))).greatest()
+    }
+
+    /// Tests one block, and says whether a ray has met something nearer.
+    #[inline(always)]
+    fn block(&mut self, block: &Block, mut lanes: u32) -> bool {
+        let mut nearer = false;
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize;
+            lanes &= lanes - 1;
+            for axis in 0..3 {
+                if self.fastest[axis].bits() != 0 {
+                    nearer |= self.triangle(block, lane, axis);
+                }
+            }
+        }
+        nearer
+    }
+
+    /// `Shear::meet` for the lanes that move fastest along one axis.
+    #[inline(always)]
+    fn triangle(&mut self, block: &Block, lane: usize, axis: usize) -> bool {
+        let axes = [(axis + 1) % 3, (axis + 2) % 3, axis];
+        let corner = |i: usize| {
+            let [x, y, z] = std::array::from_fn(|k| L::splat(block.corners[i][axes[k]][lane]).sub(self.origin[axes[k]]));
+            [x.sub(self.slopes[0].mul(z)), y.sub(self.slopes[1].mul(z)), self.slopes[2].mul(z)]
+        };
+        let met = meet(corner(0), corner(1), corner(2));
+        let inside = met.inside.and(self.fastest[axis]);
+        if inside.bits() == 0 {
+            return false;
+        }
+        let number = block.triangles[lane];
+        let t = met.t();
+        let nearer = inside.and(L::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
+        // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
+        let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
+        if seldom.bits() != 0 {
+            return self.one_by_one(inside.bits(), &block.lane(lane), number);
+        }
+        self.t = nearer.select(t, self.t);
+        self.triangle = nearer.select(L::splat(f32::from_bits(number)), self.triangle);
+        nearer.bits() != 0
+    }
+
+    #[inline(never)]
+    fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
+        let mut hits = self.hits();
+        let before = hits;
+        for lane in (0..GROUP).filter(|lane| lanes >> lane & 1 == 1) {
+            let ray = &self.rays[lane];
+            Shear::new(ray).update(corners, number, ray.until, &mut hits[lane]);
+        }
+        self.t = L::load(&hits.map(|h| h.t));
+        self.triangle = L::load(&hits.map(|h| f32::from_bits(h.triangle)));
+        hits != before
+    }
+
+    #[inline(always)]
+    fn hits(&self) -> [Hit; GROUP] {
+        let (t, triangle) = (self.t.store(), self.triangle.store());
+        std::array::from_fn(|i| Hit { t: t[i], triangle: triangle[i].to_bits() })
+    }
+}
+
+/// Eight rays or fewer through the items that are left.
+#[inline(always)]
+fn group<L: Lanes>(
+    wide: &Wide,
+    rays: &[Ray],
+    hits: &mut [Hit],
+    axes: &Axes,
+    planes: &Planes<L>,
+    items: &[Item],
+    stack: &mut [(u32, f32); STACK],
+) {
+    let mut spare = [rays[0]; GROUP];
+    let mut group = Group::<L>::new(eight(rays, &mut spare), axes);
+    let mut until = f32::INFINITY;
+    for item in items {
+        let mut only = item.children;
+        stack[0] = (item.node, 0.0);
+        let mut height = 1;
+        while height > 0 {
+            height -= 1;
+            let (at, near) = stack[height];
+            if near > until {
+                continue;
+            }
+            if at & LEAF == 0 {
+                let node = &wide.nodes[at as usize];
+                let (met, near) = planes.boxes(node, until);
+                let met = met & only;
+                only = !0;
+                if met != 0 {
+                    push::<L>(wide, stack, &mut height, met, &node.children, &near.store());
+                }
+            } else {
+                let (block, count) = leaf(at);
+                let block = &wide.blocks[block];
+                let lanes = if count > 1 { planes.triangles(block) } else { 1 };
+                if group.block(block, lanes) {
+                    until = group.deepest() + axes.widening;
+                }
+            }
+        }
+    }
+    hits.copy_from_slice(&group.hits()[..rays.len()]);
+}

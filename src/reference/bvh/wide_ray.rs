@@ -1,0 +1,216 @@
+//! One ray through the wide tree: eight boxes or eight triangles at a time.
+
+use super::lanes::{Lanes, Portable};
+use super::ray::{Hit, Ray, Slabs, widening};
+use super::triangle::Shear;
+use super::wide::{Block, LEAF, NOBODY, STACK, Wide, leaf};
+
+/// What a traversal keeps from ray to ray, so that it need not be cleared for each.
+pub(super) type Stack = [(u32, f32); STACK];
+
+impl Wide {
+    /// The nearest triangle that each ray meets, ray by ray. `hits` is as long as `rays`.
+    ///
+    /// # Panics
+    /// When the lengths differ.
+    pub fn closest_each(&self, rays: &[Ray], hits: &mut [Hit]) {
+        assert_eq!(rays.len(), hits.len(), "one hit a ray");
+        let mut stack = [(0, 0.0); STACK];
+        self.each::<false>(rays, hits, &mut stack);
+    }
+
+    /// The nearest triangle that a ray meets.
+    pub fn closest(&self, ray: &Ray) -> Hit {
+        let mut hit = [Hit::MISS];
+        self.closest_each(std::slice::from_ref(ray), &mut hit);
+        hit[0]
+    }
+
+    /// Whether each ray meets anything before its end; the hit is any that was found.
+    ///
+    /// # Panics
+    /// When the lengths differ.
+    pub fn any_each(&self, rays: &[Ray], hits: &mut [Hit]) {
+        assert_eq!(rays.len(), hits.len(), "one hit a ray");
+        let mut stack = [(0, 0.0); STACK];
+        self.each::<true>(rays, hits, &mut stack);
+    }
+
+    /// Asks for the memory of a child.
+    #[inline(always)]
+    pub(super) fn fetch<L: Lanes>(&self, child: u32) {
+        if child & LEAF == 0 {
+            L::prefetch(&self.nodes[child as usize]);
+        } else {
+            L::prefetch(&self.blocks[leaf(child).0]);
+        }
+    }
+
+    pub(super) fn each<const ANY: bool>(&self, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
+        #[cfg(target_arch = "x86_64")]
+        if self.fast {
+            #[allow(unsafe_code)]
+            // SAFETY: `fast` is set only where AVX2 was detected.
+            return unsafe { each_avx::<ANY>(self, rays, hits, stack) };
+        }
+        each::<Portable, ANY>(self, rays, hits, stack);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
+fn each_avx<const ANY: bool>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
+    each::<super::lanes::Avx, ANY>(wide, rays, hits, stack);
+}
+
+#[inline(always)]
+fn each<L: Lanes, const ANY: bool>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
+    for (ray, hit) in rays.iter().zip(hits) {
+        *hit = descend::<L, ANY>(wide, ray, stack);
+    }
+}
+
+#[inline(always)]
+fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack) -> Hit {
+    let mut best = Hit::MISS;
+    if wide.nodes.is_empty() {
+        return best;
+    }
+    let slabs = Slabs::new(ray, widening(&wide.root, ray.origin));
+    let shear = Shear::new(ray);
+    let inverse = slabs.inverse.map(L::splat);
+    let enter = slabs.enter.map(L::splat);
+    let leave = slabs.leave.map(L::splat);
+    let first = slabs.inverse.map(|i| usize::from(i.is_sign_negative()));
+    let mut until = ray.until;
+    stack[0] = (0, 0.0);
+    let mut height = 1;
+    while height > 0 {
+        height -= 1;
+        let (mut at, near) = stack[height];
+        if near > until {
+            continue;
+        }
+        while at & LEAF == 0 {
+            let node = &wide.nodes[at as usize];
+            let (mut near, mut far) = (L::splat(0.0), L::splat(until));
+            for axis in 0..3 {
+                let [low, high] = [first[axis], 1 - first[axis]].map(|side| L::load(&node.bounds[axis][side]));
+                // As in `Slabs::enter`: what is not a number loses against the second operand.
+                near = low.sub(enter[axis]).mul(inverse[axis]).max(near);
+                far = high.sub(leave[axis]).mul(inverse[axis]).min(far);
+            }
+            let mut met = near.at_most(far).bits();
+            if met == 0 {
+                at = NOBODY;
+                break;
+            }
+            let nears = near.store();
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            at = node.children[lane];
+            if met == 0 {
+                continue;
+            }
+            // The nearest goes on; the others wait, nearer ones above.
+            let mut nearest = nears[lane];
+            let ground = height;
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize;
+                met &= met - 1;
+                let mut waits = (node.children[lane], nears[lane]);
+                wide.fetch::<L>(waits.0);
+                if waits.1 < nearest {
+                    std::mem::swap(&mut waits.0, &mut at);
+                    std::mem::swap(&mut waits.1, &mut nearest);
+                }
+                let mut place = height;
+                while place > ground && stack[place - 1].1 < waits.1 {
+                    stack[place] = stack[place - 1];
+                    place -= 1;
+                }
+                stack[place] = waits;
+                height += 1;
+            }
+        }
+        if at != NOBODY {
+            block::<L>(&wide.blocks[leaf(at).0], &shear, ray.until, &mut best);
+            until = until.min(best.t);
+            if ANY && best.is_hit() {
+                break;
+            }
+        }
+    }
+    best
+}
+
+/// Tests the triangles of one block: `Shear::meet`, operation by operation.
+#[inline(always)]
+fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
+    let axes = [(shear.axis + 1) % 3, (shear.axis + 2) % 3, shear.axis];
+    let slopes = shear.slopes.map(L::splat);
+    let origin = axes.map(|axis| L::splat(shear.origin[axis]));
+    let corner = |i: usize| {
+        let [x, y, z] = std::array::from_fn(|k| L::load(&block.corners[i][axes[k]]).sub(origin[k]));
+        [x.sub(slopes[0].mul(z)), y.sub(slopes[1].mul(z)), slopes[2].mul(z)]
+    };
+    let [a, b, c] = [corner(0), corner(1), corner(2)];
+    let met = meet(a, b, c);
+    let mut inside = met.inside.bits();
+    if inside == 0 {
+        return;
+    }
+    let (exact, ts) = (met.exact().bits(), met.t().store());
+    while inside != 0 {
+        let lane = inside.trailing_zeros() as usize;
+        inside &= inside - 1;
+        let hit = Hit { t: ts[lane], triangle: block.triangles[lane] };
+        if exact >> lane & 1 == 1 {
+            shear.update(&block.lane(lane), hit.triangle, until, best);
+        } else if hit.t >= 0.0 && hit.t <= until && hit.before(best) {
+            *best = hit;
+        }
+    }
+}
+
+/// Eight pairs of a ray and a triangle that may meet.
+#[derive(Clone, Copy)]
+pub(super) struct Met<L> {
+    edges: [L; 3],
+    depths: [L; 3],
+    least: L,
+    most: L,
+    /// Mask: the edges are of one sign.
+    pub inside: L,
+}
+
+/// `Shear::meet` for eight pairs, given their sheared corners.
+#[inline(always)]
+pub(super) fn meet<L: Lanes>(a: [L; 3], b: [L; 3], c: [L; 3]) -> Met<L> {
+    let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
+    let v = a[0].mul(c[1]).sub(a[1].mul(c[0]));
+    let w = b[0].mul(a[1]).sub(b[1].mul(a[0]));
+    let zero = L::splat(0.0);
+    let (least, most) = (u.min(v).min(w), u.max(v).max(w));
+    let inside = zero.at_most(least).or(most.at_most(zero));
+    Met { edges: [u, v, w], depths: [a[2], b[2], c[2]], least, most, inside }
+}
+
+impl<L: Lanes> Met<L> {
+    /// Mask: pairs inside that have an edge function of 0, whose sign only f64 can tell. (Beside edges of both signs it does not matter.)
+    #[inline(always)]
+    pub fn exact(&self) -> L {
+        let zero = L::splat(0.0);
+        // One sign: either the least is 0 and none is below, or the most is 0 and none is above.
+        let touches = zero.at_most(self.least).and(self.least.at_most(zero)).or(zero.at_most(self.most).and(self.most.at_most(zero)));
+        touches.and(self.inside)
+    }
+
+    /// t of each pair.
+    #[inline(always)]
+    pub fn t(&self) -> L {
+        let [u, v, w] = self.edges;
+        let whole = u.add(v).add(w);
+        u.mul(self.depths[0]).add(v.mul(self.depths[1])).add(w.mul(self.depths[2])).div(whole)
+    }
+}

@@ -1,0 +1,67 @@
+//! The gas of the disk where a ray crosses its plane: `disk_light` of `shaders/disk/place.wgsl`, point by point and without arcs.
+
+use glam::{DVec3, Vec3};
+
+use super::shade::Shift;
+use crate::scene::blackbody;
+use crate::scene::disk::{DISK_UNIT, Gas};
+use crate::spacetime::matter::gamma;
+
+/// A ray on its way through the plane of the disk.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Where, in r_s; z = 0.
+    pub position: DVec3,
+    /// Rain-frame momentum of the light there, in units of the frequency that a rain observer at the camera sees.
+    pub momentum: DVec3,
+    /// T_camera − T, r_s/c.
+    pub delay: f64,
+}
+
+/// Ends of the table of black bodies, in K, as in functions/colour.wgsl.
+const COLDEST: f32 = 200.0;
+const HOTTEST: f32 = 2.0e6;
+
+/// The disk with the colours of its light.
+#[derive(Clone, Debug)]
+pub struct Disk {
+    gas: Gas,
+    colours: Vec<[f32; 4]>,
+}
+
+impl Disk {
+    /// The disk of this gas.
+    pub fn new(gas: Gas) -> Disk {
+        // Steps of 0.2 % in T: linear interpolation of logarithms is right to 1e-5.
+        Disk { gas, colours: blackbody::table(4096, COLDEST, HOTTEST) }
+    }
+
+    /// What a crossing adds to the light of a ray at camera time `time`, and the part that it stops of what comes from behind. `blue` is
+    /// ν_camera over the frequency that a rain observer at the camera sees.
+    pub fn light(&self, crossing: &Crossing, blue: f64, time: f64, shift: Shift) -> (Vec3, f32) {
+        let position = crossing.position;
+        let r = position.truncate().length();
+        let [inner, outer] = self.gas.extent();
+        if !(r > inner && r < outer) {
+            return (Vec3::ZERO, 0.0);
+        }
+        let momentum = self.gas.momentum(position);
+        let k = crossing.momentum;
+        let g = blue / (gamma(momentum) * k.length() - momentum.dot(k));
+        let emission = self.gas.emission(r, position.y.atan2(position.x), time - crossing.delay);
+        let opacity = emission.opacity(Gas::cosine(momentum, k), crossing.delay);
+        (self.colour(emission.temperature, g, shift) * (DISK_UNIT * opacity) as f32, opacity as f32)
+    }
+
+    fn colour(&self, temperature: f64, g: f64, shift: Shift) -> Vec3 {
+        let black_body = |t: f64| Vec3::from(blackbody::lookup(&self.colours, COLDEST, HOTTEST, t as f32));
+        let luminance = |rgb: Vec3| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722)).max(1e-30);
+        let (rest, shifted) = (black_body(temperature), black_body(temperature * g));
+        match (shift.doppler, shift.beaming) {
+            (true, true) => shifted,
+            (false, false) => rest,
+            (true, false) => shifted * (luminance(rest) / luminance(shifted)),
+            (false, true) => rest * (luminance(shifted) / luminance(rest)),
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! The aurora: electrons on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), splats are added up
+//! line by line, and the spectrum becomes a colour at the end.
+//!
+//! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes.
+
+mod pass;
+mod show;
+
+pub use pass::Aurora;
+pub use show::{AuroraFrame, Show, planet_history};
+
+use bytemuck::{Pod, Zeroable};
+
+/// `AuroraSettings` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
+pub struct AuroraSettings {
+    pub counts: [u32; 4],
+    pub history: [u32; 4],
+    pub clock: [f32; 4],
+    pub electrons: [f32; 4],
+}
+
+/// `Segment` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/aurora/streaks.wgsl")]
+pub struct Segment {
+    pub range: [u32; 4],
+    pub light: [f32; 4],
+}
+
+/// The walk of the paper; as in shaders/aurora/streaks.wgsl.
+pub const LINEAR: u32 = 1;
+/// Every second streak in the south; as in shaders/aurora/streaks.wgsl.
+pub const BOTH_POLES: u32 = 2;

@@ -1,0 +1,238 @@
+//! What the aurora looks like now: the simulation of its curtains, and how many electrons are drawn where.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment};
+use crate::render::frame::Camera;
+use crate::render::models::ModelRange;
+use crate::render::placements::{Motion as Movement, Object, View, emission_time, light_path, place};
+use crate::render::types::Placement;
+use crate::scene::aurora::curtains::curtains;
+use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
+use crate::scene::aurora::lines::kilorayleigh_xyz;
+use crate::scene::aurora::motion::{Motion, Plan, STEP};
+use crate::scene::config::AuroraConfig;
+use crate::scene::lighting::Surroundings;
+use crate::scene::planet::{AuroraShape, Planet};
+use crate::sim::History;
+use crate::sim::flight::Command;
+use crate::spacetime::light::{Branch, Order};
+use crate::spacetime::matter::{ShipState, gamma, velocity};
+
+/// Rows of the history that red light waits in, and seconds between two.
+const ROWS: usize = 128;
+const ROW: f64 = 1.0;
+/// Nodes of all curtains together.
+const NODES: usize = 1024;
+/// Auroras higher than this above the planet's centre are not drawn, in planet radii.
+const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
+/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that.
+const LEAST_PIXELS: f64 = 6.0;
+/// Streaks per pixel of a curtain's length.
+const PER_PIXEL: f64 = 10.0;
+/// Room for splats: more are not drawn in one order.
+pub const MOST_SPLATS: usize = 1 << 20;
+
+/// What a frame shows of the aurora.
+#[derive(Clone, Debug)]
+pub struct AuroraFrame {
+    /// Counts and numbers for the shaders.
+    pub settings: AuroraSettings,
+    /// The planet in each order it is seen in, body axes those of the dipole in km.
+    pub placements: Vec<Placement>,
+    /// CIE XYZ of a kilorayleigh of each line in each of those orders.
+    pub colours: Vec<[[f32; 4]; 4]>,
+    /// Parts of the curtains with their electrons.
+    pub segments: Vec<Segment>,
+    /// Rows of nodes, newest first.
+    pub nodes: Arc<Vec<[f32; 4]>>,
+}
+
+/// The curtains of a planet, as they move.
+#[derive(Clone, Debug)]
+pub struct Show {
+    planet: Planet,
+    config: AuroraConfig,
+    plan: Plan,
+    motion: Option<Motion>,
+    /// Rows of nodes, newest first, and when the newest was.
+    rows: VecDeque<Vec<[f32; 4]>>,
+    newest: f64,
+    /// The rows laid out for the GPU, until they change.
+    laid_out: Option<Arc<Vec<[f32; 4]>>>,
+}
+
+/// The worldline of a planet about T = `time`, as far back as light may come from, with the axes of its model turned by `turn`.
+pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Option<History> {
+    let state = |t: f64| planet.state(t).map(|state| ShipState { attitude: state.attitude * turn, ..state });
+    // Attitudes are interpolated between nodes: a fiftieth of a turn is a straight line to 0.2 %.
+    let step = (planet.day / 50.0).clamp(back / 400.0, 2.0);
+    let first = time - back;
+    let mut history = History::new(first, &state(first)?);
+    for k in 1..=(back / step).ceil() as u32 + 1 {
+        let t = first + f64::from(k) * step;
+        history.push(t, &state(t)?, &Command::default());
+    }
+    Some(history)
+}
+
+impl Show {
+    /// The aurora of a planet; None if it has none.
+    pub fn new(planet: &Planet, config: &AuroraConfig) -> Option<Show> {
+        if !config.enabled || planet.aurora == AuroraShape::None {
+            return None;
+        }
+        let plan = Plan {
+            curves: curtains(planet.aurora, config.seed),
+            nodes: NODES,
+            field: config.field,
+            renewal: config.renewal,
+            contrast: config.contrast,
+            seed: config.seed,
+        };
+        let config = config.clone();
+        Some(Show { planet: *planet, config, plan, motion: None, rows: VecDeque::new(), newest: 0.0, laid_out: None })
+    }
+
+    /// What the frame at T = `time` shows; None while the aurora is out of sight or too small to see, and then nothing is simulated. `back` is
+    /// how far back light comes from, in r_s/c.
+    pub fn frame(&mut self, view: &View, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
+        let history = planet_history(&self.planet, time, back, self.planet.dipole())?;
+        let scale = self.planet.radius / PLANET_RADIUS;
+        let nothing = ModelRange::default();
+        let object = Object {
+            model: nothing,
+            coarse: nothing,
+            motion: Movement::Flying(&history),
+            reach: self.planet.radius * REACH,
+            scale: DVec3::splat(scale),
+            id: 0,
+            two_sided: false,
+            light: Surroundings::default(),
+        };
+        let placements: Vec<Placement> = place(view, time, &object, orders).into_iter().map(|placed| placed.placement).collect();
+        let now = history.at(time);
+        let distance = (now.position - view.camera.position).length();
+        let pixels = 2.0 * self.planet.radius / distance.max(1e-6) / view.pixel;
+        if placements.is_empty() || pixels < LEAST_PIXELS {
+            return None;
+        }
+        let colours = placements.iter().map(|placement| self.colours(view.camera, time, &history, placement.ids[0])).collect();
+        let ahead = self.advance(time * self.config.pace);
+        let segments = self.segments(view, now.position, now.attitude, scale);
+        let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
+        let nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
+        let row = self.rows.front().map_or(0, Vec::len);
+        let chords = if pixels > 200.0 { 4 } else { 2 };
+        let room = (streaks as usize * self.config.splats as usize).min(MOST_SPLATS);
+        let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
+        if self.planet.aurora == AuroraShape::Oval {
+            flags |= BOTH_POLES;
+        }
+        let settings = AuroraSettings {
+            counts: [streaks, chords, self.config.splats, row as u32],
+            history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
+            clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(4096.0) as f32, self.config.contrast as f32],
+            electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, 0.0],
+        };
+        (streaks > 0 && self.rows.len() > 1).then_some(AuroraFrame { settings, placements, colours, segments, nodes })
+    }
+
+    /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.
+    fn advance(&mut self, now: f64) -> f64 {
+        let warm_up = ROWS as f64 * ROW;
+        let stale = self.motion.as_ref().is_none_or(|motion| !(motion.time() - warm_up..=motion.time() + warm_up).contains(&now));
+        if stale {
+            self.rows.clear();
+            self.motion = Some(Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW));
+        }
+        let Some(motion) = &mut self.motion else { return 0.0 };
+        while self.rows.is_empty() || self.newest < now {
+            if !self.rows.is_empty() {
+                for _ in 0..(ROW / STEP).round() as u32 {
+                    motion.step();
+                }
+            }
+            let row = motion.nodes().iter().map(|node| [node.place.x as f32, node.place.y as f32, node.flux as f32, 0.0]).collect();
+            self.newest = motion.time();
+            self.rows.push_front(row);
+            self.rows.truncate(ROWS);
+            self.laid_out = None;
+        }
+        self.newest - now
+    }
+
+    /// Parts of the curtains, each with as many electrons as its length on the screen asks for.
+    fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, scale: f64) -> Vec<Segment> {
+        let Some((motion, row)) = self.motion.as_ref().zip(self.rows.front()) else { return Vec::new() };
+        let both = self.planet.aurora == AuroraShape::Oval;
+        let poles = if both { 2.0 } else { 1.0 };
+        // Length on the screen of each pair of nodes, in pixels, as if space were flat; no nearer than the top of the aurora.
+        let mut weights = vec![0.0; row.len()];
+        let mut total = 0.0;
+        for window in motion.starts().windows(2) {
+            for k in window[0]..window[1].saturating_sub(1) {
+                let place = |k: usize| DVec2::new(f64::from(row[k][0]), f64::from(row[k][1]));
+                let here = centre + attitude * (on_field_line(place(k), REFERENCE_HEIGHT) * scale);
+                let length = place(k).distance(place(k + 1)) * scale;
+                weights[k] = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
+                total += poles * weights[k];
+            }
+        }
+        let wanted = (PER_PIXEL * total).min(f64::from(self.config.streaks));
+        // Four electrons make a part; on the small, several pairs of nodes make one.
+        let least = if both { 8 } else { 4 };
+        let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
+        let mut segments = Vec::new();
+        let mut first = 0;
+        for (window, curve) in motion.starts().windows(2).zip(&self.plan.curves) {
+            let pairs = window[1] - window[0] - 1;
+            let length: f64 = motion.rest_length(curve) / pairs as f64;
+            let mut k = 0;
+            while k < pairs {
+                let span = stride.min(pairs - k);
+                let weight: f64 = weights[window[0] + k..window[0] + k + span].iter().sum();
+                let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
+                // erg cm⁻² s⁻¹ → collisions of 35 eV in kR km²: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
+                let energy = self.config.flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
+                segments.push(Segment {
+                    range: [first, (window[0] + k) as u32, count, span as u32],
+                    light: [energy as f32, curve.width as f32, 0.0, 0.0],
+                });
+                first += count;
+                k += span;
+            }
+        }
+        segments
+    }
+
+    /// The lines' colours, shifted as the planet's centre is.
+    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32) -> [[f32; 4]; 4] {
+        let g = frequency_ratio(camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
+        // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it.
+        let unit = self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
+        kilorayleigh_xyz(g).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
+    }
+}
+
+/// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives along
+/// both worldlines.
+fn frequency_ratio(camera: &Camera, time: f64, history: &History, order: u32) -> Option<f64> {
+    let order = Order::new(order as u8)?;
+    let emitted = history.at(emission_time(camera, time, history, order)?);
+    let (_, gradient) = light_path(camera, emitted.position, order, Branch::Plus)?;
+    let moving = velocity(&ShipState::new(camera.position, camera.momentum));
+    // A millionth of the radius: the light path is good to 1e-12 of it.
+    let h = 1e-6 * camera.radius();
+    let path = |s: f64| {
+        light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order, Branch::Plus).map(|path| path.0)
+    };
+    let along = (path(h)? - path(-h)?) / (2.0 * h);
+    let received = 1.0 - along;
+    let sent = 1.0 + gradient.dot(emitted.velocity);
+    let g = gamma(camera.momentum) / gamma(emitted.momentum) * received / sent;
+    (g.is_finite() && g > 0.0).then_some(g)
+}

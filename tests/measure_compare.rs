@@ -1,0 +1,222 @@
+//! The verdict: each metric on pictures whose faults are known, and pictures broken on purpose.
+
+use std::path::Path;
+
+use glam::DVec3;
+use lensrunner::measure::compare::Frame;
+use lensrunner::measure::compare::command::{case, difference};
+use lensrunner::measure::compare::metrics::{Limits, Verdict, compare};
+use lensrunner::measure::trace::Case;
+use lensrunner::reference::picture::{Picture, Pose, Quality, Worldline};
+use lensrunner::scene::{GameConfig, Scene};
+
+const SIZE: [u32; 2] = [160, 90];
+
+/// The chequered ball half behind the hole, seen in two orders.
+const BALL: &str = "
+[camera]
+position = [0.0, 0.0, 15.0]
+[[prop]]
+name = \"ball\"
+model = \"sphere\"
+position = [4.0, 0.0, -12.0]
+size = 8.0
+triangles = 400
+texture = \"checker\"
+";
+
+fn scene(text: &str) -> Case {
+    let scene = Scene::from_toml(Path::new("test.toml"), text).unwrap();
+    case(Case::new(scene, GameConfig::default(), 0.0, SIZE))
+}
+
+fn trace(case: &Case) -> Picture {
+    case.trace(&Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ())
+}
+
+fn verdict(case: &Case, judge: &Picture, frame: &Frame) -> Verdict {
+    let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
+    compare(judge, frame, &names, &difference(judge, frame))
+}
+
+fn faults(case: &Case, judge: &Picture, frame: &Frame) -> Vec<String> {
+    verdict(case, judge, frame).faults(&Limits::default())
+}
+
+/// The picture moved to the right by whole pixels.
+fn moved(frame: &Frame, by: usize) -> Frame {
+    let width = frame.size[0] as usize;
+    let mut moved = frame.clone();
+    for i in 0..frame.shown.len() {
+        let from = if i % width >= by { i - by } else { i };
+        moved.shown[i] = frame.shown[from];
+        moved.light[i] = frame.light[from];
+        moved.bare[i] = frame.bare[from];
+    }
+    moved
+}
+
+#[test]
+fn a_perfect_picture_passes_and_its_faults_are_measured() {
+    let case = scene(BALL);
+    let judge = trace(&case);
+    let perfect = Frame::of(&judge);
+    let good = verdict(&case, &judge, &perfect);
+    assert_eq!(good.faults(&Limits::default()), Vec::<String>::new());
+    assert_eq!((good.groups[0].displacement.max, good.groups[0].mismatched, good.flip), (0.0, 0, 0.0));
+    assert!(good.groups[0].pixels > 500 && good.groups[1].order == 2 && good.groups[1].pixels > 30, "{:?}", good.groups);
+
+    // A pixel to the right: the displacement is one pixel, and edges differ.
+    let one = verdict(&case, &judge, &moved(&perfect, 1));
+    let d = one.groups[0].displacement;
+    assert!((0.85..1.15).contains(&d.mean) && d.pixels > 400, "{d:?}");
+    assert!(one.groups[0].mismatched > 20 && one.groups[0].beyond_rim == 0 && one.flip > 0.0);
+    // Two pixels: mismatches reach beyond the rim.
+    assert!(verdict(&case, &judge, &moved(&perfect, 2)).groups[0].beyond_rim > 5);
+
+    // A third of a pixel, as a renderer would show it: coordinates of a place between the pixels.
+    let mut shifted = perfect.clone();
+    for i in 1..judge.layers.len() {
+        let (a, b) = (&judge.layers[i - 1], &judge.layers[i]);
+        if (a.object, a.order) == (b.object, b.order) && a.object > 0 && (a.uv[0] - b.uv[0]).abs() < 0.5 {
+            shifted.shown[i].uv = [0, 1].map(|k| b.uv[k] + (a.uv[k] - b.uv[k]) / 3.0);
+        }
+    }
+    let d = verdict(&case, &judge, &shifted).groups[0].displacement;
+    assert!((0.28..0.38).contains(&d.mean), "{d:?}");
+
+    // The brightness alone: no displacement, but colour.
+    let mut bright = perfect.clone();
+    bright.light.iter_mut().for_each(|rgb| *rgb = rgb.map(|c| 0.5 * c));
+    let bright = verdict(&case, &judge, &bright);
+    assert!(bright.flip > 0.02 && bright.groups[0].flip > 0.1 && bright.groups[0].displacement.max == 0.0, "{}", bright.flip);
+
+    // Light in the shadow, one pixel of it.
+    let dark = (0..judge.dark.len()).find(|&i| {
+        let near = [i.wrapping_sub(161), i.wrapping_sub(1), i + 1, i + 161, i.wrapping_sub(159), i + 159, i.wrapping_sub(160), i + 160];
+        near.iter().all(|&j| judge.dark.get(j) == Some(&true)) && judge.dark[i]
+    });
+    let mut lit = perfect.clone();
+    lit.bare[dark.unwrap()] = [0.1; 3];
+    assert_eq!(verdict(&case, &judge, &lit).lit, 1);
+}
+
+#[test]
+fn dropped_triangles_are_holes() {
+    // Paper 1's remedy: triangles that the axis meets are left out.
+    let case = scene(&BALL.replace("4.0, 0.0, -12.0", "1.0, 0.0, -12.0"));
+    let judge = trace(&case);
+    let mut broken = Frame::of(&judge);
+    let (axis, model) = (case.camera.position.normalize(), &case.assembly.models[0]);
+    let position = DVec3::new(1.0, 0.0, -12.0);
+    let mut dropped = 0;
+    for (layer, (shown, bare)) in judge.layers.iter().zip(broken.shown.iter_mut().zip(&mut broken.bare)) {
+        if layer.object == 0 {
+            continue;
+        }
+        let corners = model.triangles[layer.triangle as usize].map(|i| {
+            let v = position + 8.0 * DVec3::from(model.vertices[i as usize].position.map(f64::from));
+            v - axis * v.dot(axis)
+        });
+        // The axis goes through where the corners lie around it.
+        let turns = [0, 1, 2].map(|k| corners[k].cross(corners[(k + 1) % 3]).dot(axis));
+        if turns.iter().all(|t| *t > 0.0) || turns.iter().all(|t| *t < 0.0) {
+            (*shown, *bare) = (Default::default(), [0.0; 3]);
+            dropped += 1;
+        }
+    }
+    assert!(dropped > 20, "{dropped}");
+    let found = faults(&case, &judge, &broken);
+    assert!(found.iter().any(|fault| fault.contains("holes")), "{found:?}");
+}
+
+#[test]
+fn a_missing_or_wrong_order_is_found() {
+    let case = scene(BALL);
+    let judge = trace(&case);
+    let mut none = Frame::of(&judge);
+    for shown in none.shown.iter_mut().filter(|shown| shown.order == 2) {
+        *shown = Default::default();
+    }
+    let found = faults(&case, &judge, &none);
+    assert!(found.iter().any(|fault| fault.contains("order 2") && fault.contains("pixels differ")), "{found:?}");
+    let mut wrong = Frame::of(&judge);
+    for shown in wrong.shown.iter_mut().filter(|shown| shown.order == 2) {
+        shown.order = 1;
+    }
+    let found = faults(&case, &judge, &wrong);
+    assert!(found.iter().any(|fault| fault.contains("wrong order")), "{found:?}");
+}
+
+#[test]
+fn coarse_triangles_are_found() {
+    // Tessellation off: every coarse triangle of the ball is drawn with straight sides between its seen corners. The contestant shows, at
+    // each pixel, what straight interpolation over the triangle gives.
+    let case = scene(BALL);
+    let judge = trace(&case);
+    let mut flat = Frame::of(&judge);
+    let model = &case.assembly.models[0];
+    let position = DVec3::new(4.0, 0.0, -12.0);
+    let width = SIZE[0] as usize;
+    let mut changed = 0;
+    for i in 0..judge.layers.len() {
+        let layer = &judge.layers[i];
+        if layer.object == 0 || layer.order != 1 {
+            continue;
+        }
+        let triangle = model.triangles[layer.triangle as usize].map(|k| &model.vertices[k as usize]);
+        let corners = triangle.map(|v| seen(&case, position + 8.0 * DVec3::from(v.position.map(f64::from))));
+        let [Some(a), Some(b), Some(c)] = corners else { continue };
+        let p = [(i % width) as f64 + 0.5, (i / width) as f64 + 0.5];
+        let cross = |o: [f64; 2], p: [f64; 2], q: [f64; 2]| (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+        let area = cross(a, b, c);
+        let w = [cross(p, b, c) / area, cross(p, c, a) / area, cross(p, a, b) / area];
+        flat.shown[i].uv = [0, 1].map(|k| (0..3).map(|j| w[j] as f32 * triangle[j].uv[k]).sum());
+        changed += 1;
+    }
+    assert!(changed > 300, "{changed}");
+    let found = faults(&case, &judge, &flat);
+    assert!(found.iter().any(|fault| fault.contains("order 1") && fault.contains("displacement")), "{found:?}");
+}
+
+/// Where, in pixels, the camera sees a point outside the hole in order 1, by shooting.
+fn seen(case: &Case, point: DVec3) -> Option<[f64; 2]> {
+    use lensrunner::reference::{Branch, shoot};
+    let n = case.camera.position.normalize();
+    let across = point - n * point.dot(n);
+    let sight = shoot(point.length(), across.length().atan2(point.dot(n)), case.camera.position.length(), 1, Branch::Plus, 1e-12)?;
+    let look = n * sight.psi_rain.cos() + across.normalize() * sight.psi_rain.sin();
+    Some(case.camera.seen_at(look)?.0)
+}
+
+#[test]
+fn delay_off_is_found() {
+    let text = "
+[camera]
+position = [0.0, 0.0, 14.0]
+[[ship]]
+name = \"quarry\"
+model = \"quarry.glb\"
+orbit = { radius = 6.0, phase = 1.0 }
+[sky]
+stars = false
+milky_way = false
+";
+    let mut case = scene(text);
+    case.assembly.objects[0].scale = 2.0;
+    let judge = trace(&case);
+    assert!(judge.layers.iter().filter(|layer| layer.object == 1).count() > 40);
+    assert_eq!(faults(&case, &judge, &Frame::of(&judge)), Vec::<String>::new());
+    // Seen where it is now, as if light took no time: a body that stands still at its place of T = 0.
+    struct Still(Pose);
+    impl Worldline for Still {
+        fn at(&self, _: f64) -> Pose {
+            self.0
+        }
+    }
+    let now = Worldline::at(&case.histories[0], 0.0);
+    let still = Still(now);
+    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ());
+    let found = faults(&case, &judge, &Frame::of(&broken));
+    assert!(found.iter().any(|fault| fault.contains("quarry order 1")), "{found:?}");
+}

@@ -1,0 +1,205 @@
+//! The renderer when something is wrong, and what each of its settings does.
+
+use glam::{DQuat, DVec3};
+use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::placements::{Motion, Placed};
+use lensrunner::render::readback::PictureError;
+use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::stage::static_camera;
+use lensrunner::render::{Gpu, frame::Camera};
+use lensrunner::scene::{Material, shapes};
+use lensrunner::spacetime::light;
+
+use crate::render_lookup::{Bench, bench};
+
+fn camera() -> Camera {
+    static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())
+}
+
+fn ball(bench: &Bench, position: DVec3, size: f64, settings: &Settings) -> Vec<Placed> {
+    bench.place(&camera(), 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, size, 1), settings)
+}
+
+fn frame(placed: Vec<Placed>, settings: Settings) -> FrameInput {
+    FrameInput { camera: camera(), time: 0.0, placed, aurora: None, settings }
+}
+
+fn quiet() -> Settings {
+    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
+}
+
+/// A device that is lost: an error in words, then and afterwards, and no panic.
+#[test]
+fn a_lost_device_is_an_error_in_words() {
+    let gpu = Gpu::headless().expect("a driver");
+    let surroundings = Surroundings { table: bench().renderer.table().clone(), stars: Vec::new(), milky_way: vec![(1, 1, vec![[0.0; 3]])] };
+    let mut renderer = Renderer::new(&gpu, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [16, 16]);
+    gpu.device.destroy();
+    let _ = gpu.device.poll(wgpu::PollType::Poll);
+    for _ in 0..2 {
+        match renderer.picture(&frame(Vec::new(), quiet()), false) {
+            Err(PictureError::Device(what)) => assert!(what.contains("lost") || what.contains("destroyed"), "{what}"),
+            other => panic!("{:?}", other.map(|picture| picture.size)),
+        }
+    }
+    assert!(renderer.counters().is_err());
+    assert!(!renderer.prepare(&frame(Vec::new(), quiet())));
+}
+
+/// A window without a size: nothing is drawn until it has one again.
+#[test]
+fn a_picture_without_a_size_waits() {
+    let mut bench = bench();
+    let size = bench.renderer.size();
+    for none in [[0, 0], [0, 9], [9, 0]] {
+        bench.renderer.resize(none);
+        assert!(!bench.renderer.prepare(&frame(Vec::new(), quiet())));
+        assert!(matches!(bench.renderer.picture(&frame(Vec::new(), quiet()), false), Err(PictureError::Nothing)));
+    }
+    bench.renderer.resize(size);
+    assert!(bench.renderer.picture(&frame(Vec::new(), quiet()), false).is_ok());
+}
+
+/// Numbers that are not finite are caught at the door, counted, and not drawn; what is beside them is.
+#[test]
+fn what_is_not_finite_is_counted_and_not_drawn() {
+    let mut bench = bench();
+    let settings = Settings { orders: 1, ..quiet() };
+    let good = ball(&bench, DVec3::new(3.0, 0.0, 4.0), 1.0, &settings);
+    let picture = bench.renderer.picture(&frame(good.clone(), settings), true).unwrap();
+    assert!(picture.layers.iter().any(|texel| texel[0] == 1.0));
+    assert_eq!(bench.renderer.counters().unwrap().caught, 0);
+    for wrong in [f32::NAN, f32::INFINITY] {
+        let mut bad = good.clone();
+        bad[0].placement.ids[1] = 2;
+        bad[0].placement.shape[1][2] = wrong;
+        let both = bad.iter().chain(&good).copied().collect();
+        let picture = bench.renderer.picture(&frame(both, settings), true).unwrap();
+        assert!(picture.layers.iter().all(|texel| texel[0] != 2.0), "it was drawn");
+        assert!(picture.layers.iter().any(|texel| texel[0] == 1.0), "its neighbour was not");
+        assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
+        let counters = bench.renderer.counters().unwrap();
+        assert_eq!(counters.caught, 1);
+        assert!(counters.complaint().unwrap().contains("not finite"));
+    }
+    // Finite, but past what f32 can square: caught where it arises.
+    let mut huge = good.clone();
+    huge[0].placement.shape[0][0] = 3e38;
+    let picture = bench.renderer.picture(&frame(huge, settings), true).unwrap();
+    assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
+    assert!(bench.renderer.counters().unwrap().caught > 0);
+    // A camera that is nowhere draws nothing.
+    let mut lost = frame(good, settings);
+    lost.camera.position.x = f64::NAN;
+    assert!(matches!(bench.renderer.picture(&lost, false), Err(PictureError::Nothing)));
+}
+
+/// A full vertex buffer: patches are drawn coarsely, the counters say so, and the picture keeps its shape.
+#[test]
+fn a_full_vertex_buffer_is_said_and_nothing_vanishes() {
+    let mut bench = bench();
+    let size = bench.renderer.size();
+    bench.renderer.resize([160, 90]);
+    // A galaxy's square exactly behind the hole: fans and splitting on every side.
+    let square = bench.renderer.add_model(&shapes::square(200, shapes::Anchor::Inside, Material::default()));
+    let mut lit = Vec::new();
+    for vertex_budget in [600_000, 1_000] {
+        let settings = Settings { orders: 2, vertex_budget, ..quiet() };
+        let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
+        let mut object = bench.object(motion, 8.0, 1);
+        (object.model, object.coarse, object.two_sided) = (square, square, true);
+        let placed = bench.place(&camera(), 0.0, &object, &settings);
+        let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
+        let counters = bench.renderer.counters().unwrap();
+        println!("{vertex_budget}: {counters:?}");
+        assert_eq!(counters.coarse > 0, vertex_budget == 1_000, "{counters:?}");
+        assert_eq!(counters.complaint().is_some(), vertex_budget == 1_000);
+        lit.push(picture.layers.iter().map(|texel| texel[0] == 1.0).collect::<Vec<bool>>());
+    }
+    bench.renderer.resize(size);
+    let all = lit[0].iter().filter(|&&on| on).count();
+    let kept = lit[0].iter().zip(&lit[1]).filter(|&(&a, &b)| a && b).count();
+    assert!(all > 1000 && kept * 10 > all * 8, "{kept} of {all} pixels are left");
+}
+
+/// Settings of tessellation and of narrow images reach the shaders.
+#[test]
+fn the_settings_of_geometry_do_what_they_say() {
+    let mut bench = bench();
+    let far = DVec3::new(0.0, 0.3, -12.0);
+    let counters = |bench: &mut Bench, settings: Settings, size: f64, pixel: bool| {
+        let settings = Settings { orders: 2, ..settings };
+        let mut placed = ball(bench, far, size, &settings);
+        if pixel {
+            // The bench places by tiny pixels; here the image is thin.
+            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::placements::THIN);
+        }
+        bench.renderer.picture(&frame(placed, settings), false).unwrap();
+        bench.renderer.counters().unwrap()
+    };
+    let fine = counters(&mut bench, quiet(), 2.0, false);
+    let coarse = counters(&mut bench, Settings { halvings: 1, ..quiet() }, 2.0, false);
+    let made = |c: lensrunner::render::types::Counters| c.vertices - c.model_vertices;
+    assert!(made(fine) > 2 * made(coarse) && made(coarse) > 0, "{} and {} vertices", made(fine), made(coarse));
+    let thin = counters(&mut bench, quiet(), 0.02, true);
+    assert!(thin.thin > 0);
+    let none = counters(&mut bench, Settings { min_width: 0.0, ..quiet() }, 0.02, true);
+    assert_eq!(none.thin, 0);
+
+    // Thresholds of the placements, by a pixel of 0.01 rad.
+    use lensrunner::lensing::Slice;
+    use lensrunner::render::placements::{THIN, View, place};
+    let eye = camera();
+    let slice = Slice::new(bench.renderer.table(), 15.0);
+    let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
+    let mut object = bench.object(Motion::Held { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
+    object.coarse = stand_in;
+    let images = |settings: Settings| place(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3);
+    let count = |settings: Settings| images(settings).len();
+    // The ball is 2.3 pixels wide in the first order.
+    let first = |settings: Settings| images(settings)[0];
+    assert_eq!(count(Settings { least_width: 0.0, ..quiet() }), 3);
+    assert_eq!(count(Settings { least_width: 10.0, ..quiet() }), 1);
+    assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);
+    assert_ne!(first(Settings { coarse_below: 1.0, ..quiet() }).model.triangles, stand_in.triangles);
+    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).placement.triangles[3] & THIN, THIN);
+    assert_eq!(first(Settings { thin_below: 1.0, ..quiet() }).placement.triangles[3] & THIN, 0);
+}
+
+/// The rings of orders 2 and 3 of a ball before the hole, a twentieth of a pixel wide, are unbroken lines.
+#[test]
+fn rings_of_orders_two_and_three_are_unbroken() {
+    let mut bench = bench();
+    let old = bench.renderer.size();
+    let size = [320, 180];
+    bench.renderer.resize(size);
+    for (order, position, radius) in [(2, DVec3::new(0.0, 0.0, 9.0), 1.0), (3, DVec3::new(0.0, 0.0, -12.0), 4.0)] {
+        let settings = Settings { orders: 3, least_width: 0.0, ..quiet() };
+        let eye = camera();
+        let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
+        let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
+        let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
+        use lensrunner::render::placements::{View, place};
+        let placed = place(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
+        assert_eq!(placed.len(), 3);
+        let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
+        // Seen on the axis: Φ = 2π or 3π.
+        let swept = std::f64::consts::PI * f64::from(order);
+        let ray = light::connect(1.0 / position.length(), swept, 1.0 / 15.0, light::Branch::Plus).unwrap();
+        let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / 15.0);
+        let mut gaps = 0;
+        for k in 0..720 {
+            let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 720.0).sin_cos();
+            let look = DVec3::Z * psi.cos() + DVec3::new(cosine, sine, 0.0) * psi.sin();
+            let [x, y] = eye.pixel(eye.seen_direction(look), size).unwrap();
+            let near = (-1i32..=1).flat_map(|dx| (-1i32..=1).map(move |dy| (dx, dy))).any(|(dx, dy)| {
+                let at = (y as i32 + dy) * 320 + x as i32 + dx;
+                let (layers, light) = (picture.layers[at as usize], picture.linear[at as usize]);
+                layers[0] == 1.0 && layers[1] >= 2.0 && light[0] + light[1] + light[2] > 0.0
+            });
+            gaps += usize::from(!near);
+        }
+        assert_eq!(gaps, 0, "the ring at Φ = {order}π has {gaps} gaps of 720");
+    }
+    bench.renderer.resize(old);
+}
