@@ -2,7 +2,7 @@
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 /// The lensing table sliced at this frame's camera radius (functions/lensing.wgsl says how it is laid out).
-@group(0) @binding(1) var lens_slice: texture_2d<f32>;
+@group(0) @binding(1) var<storage, read> lens_slice: array<vec4<f32>>;
 /// The deflection of light from infinity (functions/sky.wgsl).
 @group(0) @binding(2) var<storage, read> sky_slice: array<vec4<f32>>;
 /// Linear sRGB of a black body over ln T (functions/colour.wgsl).

@@ -28,8 +28,7 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
         compilation_options: Default::default(),
         cache: None,
     });
-    let mut slice = layout::Numbers::new(device, "slice", tables[0].len());
-    slice.write(&GPU, "slice", tables[0]);
+    let slice = layout::storage(&GPU, "slice", if tables[0].is_empty() { &[[0.0; 4]] } else { tables[0] });
     let sky = layout::storage(&GPU, "sky", if tables[1].is_empty() { &[[0.0; 4]] } else { tables[1] });
     let rows = layout::storage(&GPU, "rows", input);
     let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
@@ -40,7 +39,7 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
         entries: &[if tables[0].is_empty() {
             wgpu::BindGroupEntry { binding: 2, resource: sky.as_entire_binding() }
         } else {
-            wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&slice.view) }
+            wgpu::BindGroupEntry { binding: 1, resource: slice.as_entire_binding() }
         }],
     });
     let group3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);

@@ -88,55 +88,6 @@ pub fn storage<T: bytemuck::Pod>(gpu: &super::Gpu, label: &str, data: &[T]) -> B
     result
 }
 
-/// Width of a texture of numbers, in texels; as in shaders/functions/lensing_camera.wgsl.
-const NUMBERS_WIDTH: u32 = 256;
-
-/// Rows of four numbers in a texture, for shaders to fetch.
-#[derive(Debug)]
-pub struct Numbers {
-    texture: wgpu::Texture,
-    /// What is bound; replaced when it grows.
-    pub view: wgpu::TextureView,
-}
-
-impl Numbers {
-    /// Room for `count` rows.
-    pub fn new(device: &wgpu::Device, label: &str, count: usize) -> Self {
-        let height = (count as u32).div_ceil(NUMBERS_WIDTH).max(1);
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(label),
-            size: wgpu::Extent3d { width: NUMBERS_WIDTH, height, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let view = texture.create_view(&Default::default());
-        Numbers { texture, view }
-    }
-
-    /// Writes the rows, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
-    pub fn write(&mut self, gpu: &super::Gpu, label: &str, rows: &[[f32; 4]]) -> bool {
-        let room = (self.texture.height() * NUMBERS_WIDTH) as usize;
-        let replaced = rows.len() > room;
-        if replaced {
-            *self = Numbers::new(&gpu.device, label, rows.len());
-        }
-        let height = (rows.len() as u32).div_ceil(NUMBERS_WIDTH);
-        let mut padded = rows.to_vec();
-        padded.resize((height * NUMBERS_WIDTH) as usize, [0.0; 4]);
-        gpu.queue.write_texture(
-            self.texture.as_image_copy(),
-            bytemuck::cast_slice(&padded),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * NUMBERS_WIDTH), rows_per_image: None },
-            wgpu::Extent3d { width: NUMBERS_WIDTH, height, depth_or_array_layers: 1 },
-        );
-        replaced
-    }
-}
-
 /// A storage buffer that grows when more is written to it than it holds.
 #[derive(Debug)]
 pub struct Growing {

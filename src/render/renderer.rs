@@ -14,7 +14,7 @@ use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Numbers, Slot, bind, buffer, layout, storage};
+use super::layout::{Growing, Slot, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
@@ -43,7 +43,7 @@ pub struct Renderer {
     /// Paper 1's tables, once they are asked for.
     paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
-    lens_slice: Numbers,
+    lens_slice: Growing,
     sky_slice: wgpu::Buffer,
     /// The table of the sky for the radius that the slices are for.
     sky: Vec<[f32; 4]>,
@@ -78,10 +78,10 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Numbers::new(device, "lens slice", 0);
+        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
         let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
         let blackbody = storage(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
@@ -89,7 +89,7 @@ impl Renderer {
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, &frame, &lens_slice.view, [&sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
@@ -218,9 +218,9 @@ impl Renderer {
                 }
                 Method::Table | Method::Flat => slice.texels().to_vec(),
             };
-            if self.lens_slice.write(&self.gpu, "lens slice", &texels) {
-                let buffers = [&self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, &self.lens_slice.view, buffers);
+            if self.lens_slice.write(&self.gpu, &texels) {
+                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
             }
             self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
@@ -396,16 +396,8 @@ fn paper_table() -> Table {
     lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
-fn frame_bindings(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    frame: &wgpu::Buffer,
-    lens_slice: &wgpu::TextureView,
-    buffers: [&wgpu::Buffer; 3],
-) -> wgpu::BindGroup {
-    let [sky_slice, blackbody, adaptation] = buffers.map(|buffer| buffer.as_entire_binding());
-    let slice = wgpu::BindingResource::TextureView(lens_slice);
-    bind(device, "frame", layout, &[frame.as_entire_binding(), slice, sky_slice, blackbody, adaptation])
+fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
+    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {
