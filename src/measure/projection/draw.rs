@@ -6,8 +6,8 @@ use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
 
 /// Half a pixel at 3840 pixels over 60°, degrees.
 pub const HALF_PIXEL: f64 = 0.008;
-/// Smaller errors are drawn here, degrees: a thousandth of a pixel and less.
-const LEAST_ERROR: f64 = 1e-5;
+/// Smaller errors are drawn here, degrees: less than a hundred-thousandth of a pixel.
+const LEAST_ERROR: f64 = 1e-7;
 /// A method that leaves more than this share of the rows with a ray unanswered, or invents as many, has failed.
 const MOST_WRONG: f64 = 0.01;
 
