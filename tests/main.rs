@@ -10,6 +10,7 @@ mod measure_charts;
 mod measure_compare;
 mod measure_project;
 mod measure_projection;
+mod measure_thin_disk;
 mod reference_bvh_build;
 mod reference_bvh_rays;
 mod reference_bvh_robust;

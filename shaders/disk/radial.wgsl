@@ -19,14 +19,18 @@ fn radial_gas(r: f32) -> RadialGas {
 }
 
 /// ν_observed/ν_emitted (x) and |cos| to the normal in the gas's frame (y) for gas at r seen in the direction `apparent` (camera axes), from what a
-/// photon conserves: energy and angular momentum. The infall of gas inside the last stable orbit is left out.
-fn gas_ratio(apparent: vec3<f32>, r: f32, gas: RadialGas) -> vec2<f32> {
+/// photon conserves, energy and angular momentum, and whether it left outward.
+fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2<f32> {
     let past = (frame.rain_from_camera * vec4<f32>(normalize(apparent), -1.0)).xyz;
     let k = -past;
     let n = frame.radial.xyz;
     let energy = length(past) - frame.side_b.w * dot(n, k);
-    let spin = cross(n * frame.radial.w, k);
+    let spin = cross(n * frame.radial.w, k) / r;
+    let beta = inverseSqrt(r);
+    let root = sqrt(max(energy * energy - (1.0 - 1.0 / r) * dot(spin, spin), 0.0));
+    let inward = (dot(spin, spin) - energy * energy) / max(beta * energy + root, 1e-9);
+    let radial = select(inward, (beta * energy + root) / max(1.0 - 1.0 / r, 1e-6), outward);
     let gamma = sqrt(1.0 + gas.a.z * gas.a.z + gas.a.w * gas.a.w);
-    let emitted = max(gamma * energy - gas.a.w / r * spin.z, 1e-6);
-    return vec2<f32>(clamp(1.0 / emitted, 1e-3, 1e3), length(spin.xy) / r / emitted);
+    let emitted = max(gamma * (energy + beta * radial) - gas.a.z * radial - gas.a.w * spin.z, 1e-6);
+    return vec2<f32>(clamp(1.0 / emitted, 1e-3, 1e3), length(spin.xy) / emitted);
 }

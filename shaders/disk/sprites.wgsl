@@ -54,10 +54,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if any(abs(ndc.xy) > vec2<f32>(1.1)) {
         return;
     }
-    let ratio = gas_ratio(apparent, r, gas);
-    let shown = select(gas.a.x, gas.a.x + log(ratio.x), (frame.switches.x & FLAG_DOPPLER) != 0u);
+    let ratio = gas_ratio(apparent, r, ray.emission_slope > 0.0, gas);
     let alpha = 1.0 - exp(-gas.a.y * disk_slant(ratio.y, path, gas.b.y));
-    let light = blackbody_rgb(exp(shown)) * disk.sprites.y;
+    let light = gas_light(gas.a.x, ratio.x).rgb;
     // Spots that together cover the disk about once, face on.
     let radius = clamp(disk.sprites.x / path / frame.size.z, 0.5, 32.0);
     let slot = atomicAdd(&sprite_draw.instances, 1u);

@@ -24,6 +24,7 @@ const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
 const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
 const DISK_RADIAL: &str = include_str!("../../shaders/disk/radial.wgsl");
 const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.wgsl");
+const DISK_LIGHT: &str = include_str!("../../shaders/disk/light.wgsl");
 const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
@@ -172,13 +173,13 @@ impl Pass {
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices | Pass::DiskMesh => {
-                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_LIGHT, DISK_PLACE]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
-            Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_RADIAL],
+            Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
             Pass::DiskSprites => {
-                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_SPRITES_TYPES, DISK_RADIAL]
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_SPRITES_TYPES, DISK_LIGHT, DISK_RADIAL]
             }
             Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
         };

@@ -25,6 +25,7 @@ pub struct ArcPass {
     before_mesh: wgpu::ComputePipeline,
     before_draw: wgpu::ComputePipeline,
     far: wgpu::RenderPipeline,
+    thin: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
     circles: Growing,
     cuts: Growing,
@@ -74,6 +75,7 @@ impl ArcPass {
             before_mesh: argument("before_mesh"),
             before_draw: argument("before_draw"),
             far: draw("disk far", "far_fragment"),
+            thin: draw("disk thin", "thin_fragment"),
             near: draw("disk near", "near_fragment"),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
@@ -160,10 +162,14 @@ impl ArcPass {
     /// The draws: the farthest order first.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
         let Some((_, group)) = &self.groups else { return };
-        pass.set_pipeline(if self.close { &self.near } else { &self.far });
         pass.set_bind_group(1, group, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for order in (0..3).rev() {
+            pass.set_pipeline(match (self.close, order) {
+                (true, _) => &self.near,
+                (false, 0) => &self.far,
+                (false, _) => &self.thin,
+            });
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + order * types::ARGUMENTS_DRAW_STEP);
         }
     }

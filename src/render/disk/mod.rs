@@ -1,10 +1,10 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
 //! [`view`] says in f64 what a frame needs to know (which circles, seen from where, which generations of streaks); [`arcs`] runs the stages of
-//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of paper 2; [`textures`] holds the pattern of the gas and the
-//! colours of black bodies.
+//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of paper 2; [`textures`] holds the pattern of the gas.
 
 pub mod arcs;
+pub mod bench;
 pub mod polygons;
 pub mod sprites;
 pub mod textures;
@@ -106,10 +106,10 @@ impl DiskPasses {
         let frame = buffer(&gpu.device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM);
         let resources = [
             frame.as_entire_binding(),
-            TextureView(&textures.pattern),
-            Sampler(&textures.pattern_sampler),
-            TextureView(&textures.colours),
-            Sampler(&textures.colours_sampler),
+            TextureView(&textures.far),
+            Sampler(&textures.far_sampler),
+            TextureView(&textures.near),
+            Sampler(&textures.near_sampler),
         ];
         let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
         let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);

@@ -40,7 +40,10 @@ pub struct Circle {
 pub struct DiskVertex {
     pub apparent: [f32; 4],
     pub gas: [f32; 4],
-    pub look: [f32; 4],
+    pub light: [f32; 4],
+    pub slope: [f32; 4],
+    pub thin: [f32; 2],
+    pub unused: [f32; 2],
 }
 
 /// `Counters` in WGSL.
