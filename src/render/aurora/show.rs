@@ -174,12 +174,13 @@ impl Show {
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
         for window in motion.starts().windows(2) {
-            for k in window[0]..window[1].saturating_sub(1) {
+            let last = window[1].saturating_sub(1);
+            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(window[0]) {
                 let place = |k: usize| DVec2::new(f64::from(row[k][0]), f64::from(row[k][1]));
                 let here = centre + attitude * (on_field_line(place(k), REFERENCE_HEIGHT) * scale);
                 let length = place(k).distance(place(k + 1)) * scale;
-                weights[k] = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
-                total += poles * weights[k];
+                *weight = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
+                total += poles * *weight;
             }
         }
         let wanted = (PER_PIXEL * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
