@@ -174,15 +174,16 @@ impl Show {
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
         for window in motion.starts().windows(2) {
-            for k in window[0]..window[1].saturating_sub(1) {
+            let last = window[1].saturating_sub(1);
+            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(window[0]) {
                 let place = |k: usize| DVec2::new(f64::from(row[k][0]), f64::from(row[k][1]));
                 let here = centre + attitude * (on_field_line(place(k), REFERENCE_HEIGHT) * scale);
                 let length = place(k).distance(place(k + 1)) * scale;
-                weights[k] = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
-                total += poles * weights[k];
+                *weight = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
+                total += poles * *weight;
             }
         }
-        let wanted = (PER_PIXEL * total).min(f64::from(self.config.streaks));
+        let wanted = (PER_PIXEL * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
         // Four electrons make a part; on the small, several pairs of nodes make one.
         let least = if both { 8 } else { 4 };
         let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
@@ -216,6 +217,21 @@ impl Show {
         let unit = self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
         kilorayleigh_xyz(g).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
+}
+
+/// How much longer the hole's lensing makes the image of a planet behind it: the point lens of weak fields, μ = (u² + 2)/(u √(u² + 4)) with u the
+/// angle from the axis over Einstein's angle. Only for how many electrons are drawn.
+fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
+    let (l, r) = (view.camera.radius(), centre.length());
+    let behind = -centre.dot(view.camera.position) / l;
+    if behind <= 0.0 {
+        return 1.0;
+    }
+    let einstein = (2.0 * behind / (l * (l + behind))).sqrt();
+    // The planet moves while its light comes: its distance from the axis is not known better than a few radii.
+    let off = ((r * r - behind * behind).max(0.0).sqrt() - 4.0 * radius).max(0.5 * radius) / (l + behind);
+    let u = off / einstein;
+    (u * u + 2.0) / (u * (u * u + 4.0).sqrt())
 }
 
 /// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives along

@@ -20,9 +20,9 @@ pub fn curtains(shape: AuroraShape, seed: u32) -> Vec<Curve> {
     match shape {
         AuroraShape::None => Vec::new(),
         AuroraShape::Oval => {
-            let mut curves = ring(OVAL, 10.0, [70.0, 7.0], seed);
+            let mut curves = ring(OVAL, 12.0, [26.0, 5.0], seed);
             // A second curtain poleward, on the night side of it only.
-            curves.extend(ring(0.83 * OVAL, 6.0, [45.0, 5.0], seed.wrapping_add(50)).into_iter().take(2));
+            curves.extend(ring(0.83 * OVAL, 8.0, [18.0, 4.0], seed.wrapping_add(50)).into_iter().take(2));
             curves
         }
         AuroraShape::Arcs => [(-75.0, 2.0, 380.0), (0.0, 3.0, 520.0), (55.0, 1.5, 300.0)].map(|arc| self::arc(arc, seed)).to_vec(),

@@ -55,6 +55,8 @@ pub struct Motion {
     rest: Vec<(usize, f64)>,
     /// First node of each curve, and their number after the last.
     starts: Vec<usize>,
+    /// Whether a curve goes on in another before its start and after its end.
+    joined: Vec<[bool; 2]>,
     nodes: Vec<Node>,
     /// Speeds of the last step, for Adams and Bashforth's second-order step.
     speeds: Vec<DVec2>,
@@ -89,6 +91,7 @@ impl Motion {
             speeds: vec![DVec2::ZERO; nodes.len()],
             rest,
             starts,
+            joined: joints(&plan.curves),
             nodes,
             time,
             centre: 0.5 * (low + high),
@@ -208,13 +211,16 @@ impl Motion {
     /// Brightness that travels along the curtains: two octaves of smooth noise, going at different speeds.
     fn shine(&mut self) {
         for k in 0..self.nodes.len() {
-            let (curve, _) = self.rest[k];
+            let (curve, t) = self.rest[k];
+            // A curtain that ends fades out over the last tenth of it.
+            let end = |joined: bool, t: f64| if joined { 1.0 } else { smooth((t / 0.12).min(1.0)) };
+            let fade = end(self.joined[curve][0], t) * end(self.joined[curve][1], 1.0 - t);
             let along = (k - self.starts[curve]) as f64;
             let channel = self.plan.seed.wrapping_mul(7919).wrapping_add(curve as u32 * 2);
             // Patterns a few dozen nodes long, passing a node in ten seconds or so.
             let wave = 0.65 * smooth_noise(channel, along / 41.0 - self.time / 23.0)
                 + 0.35 * smooth_noise(channel + 1, along / 13.0 + self.time / 9.0);
-            self.nodes[k].flux = 1.0 + self.plan.contrast.clamp(0.0, 1.0) * (2.0 * wave - 1.0);
+            self.nodes[k].flux = fade * (1.0 + self.plan.contrast.clamp(0.0, 1.0) * (2.0 * wave - 1.0));
         }
     }
 }
@@ -224,8 +230,21 @@ fn smooth_noise(channel: u32, x: f64) -> f64 {
     let cell = x.floor();
     let s = x - cell;
     let at = |k: f64| f64::from(uniform(channel, k as i64 as u32, 77));
-    let s = s * s * (3.0 - 2.0 * s);
-    at(cell) + (at(cell + 1.0) - at(cell)) * s
+    at(cell) + (at(cell + 1.0) - at(cell)) * smooth(s)
+}
+
+/// From 0 to 1 with level ends.
+fn smooth(s: f64) -> f64 {
+    s * s * (3.0 - 2.0 * s)
+}
+
+/// For each curve whether another begins or ends where it starts, and where it ends.
+fn joints(curves: &[Curve]) -> Vec<[bool; 2]> {
+    let meets = |own: usize, place: DVec2| {
+        let mut others = curves.iter().enumerate().filter(|(index, _)| *index != own);
+        others.any(|(_, curve)| [0.0, 1.0].iter().any(|&t| curve.point(t).distance(place) < 1.0))
+    };
+    curves.iter().enumerate().map(|(index, curve)| [0.0, 1.0].map(|t| meets(index, curve.point(t)))).collect()
 }
 
 /// Length of a curve, km, by 256 chords.
