@@ -51,6 +51,8 @@ enum ChartCommand {
     Bvh(ChartBvhArgs),
     #[cfg(feature = "game")]
     Frame(ChartFrameArgs),
+    #[cfg(feature = "game")]
+    Disk(ChartDiskArgs),
 }
 
 /// Where a chart goes.
@@ -153,6 +155,29 @@ struct ChartFrameArgs {
     /// The time T, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
+    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+}
+
+/// The accretion disk as polygons, sprites and arcs: time and error of each alone, and along a scripted chase.
+#[cfg(feature = "game")]
+#[derive(Args)]
+struct ChartDiskArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Width and height of the frames that are timed.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Width and height of the pictures that are compared with the exact one.
+    #[arg(long, value_name = "WxH", default_value = "480x270", value_parser = lensrunner::render::shot::size)]
+    error_size: [u32; 2],
+    /// Rounds in which all ways take turns.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: u16,
+    /// Places along the chase.
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(2..=1000))]
+    steps: u16,
     /// The game's configuration [default: built in, as the game.toml that comes with the game].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -370,8 +395,42 @@ fn main() -> ExitCode {
             ChartCommand::Bvh(args) => run_chart_bvh(args),
             #[cfg(feature = "game")]
             ChartCommand::Frame(args) => run_chart_frame(args),
+            #[cfg(feature = "game")]
+            ChartCommand::Disk(args) => run_chart_disk(args),
         },
     }
+}
+
+#[cfg(feature = "game")]
+fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
+    use lensrunner::measure::disk::chart::{Request, Shown, contestants, run};
+    use lensrunner::render::disk::bench::Bench;
+    use lensrunner::render::frame::Camera;
+    use lensrunner::render::{Gpu, shot};
+    let config = match args.config.as_deref().map(scene::config::load).transpose() {
+        Ok(config) => config.unwrap_or_default(),
+        Err(error) => return fail(&error, 2),
+    };
+    let request = Request {
+        output: args.chart.into(),
+        size: args.size,
+        error_size: args.error_size,
+        rounds: usize::from(args.rounds),
+        steps: usize::from(args.steps),
+    };
+    let gpu = match Gpu::headless() {
+        Ok(gpu) => gpu,
+        Err(error) => return fail(&error, 1),
+    };
+    let adapter = gpu.adapter.name.clone();
+    let mut bench = None;
+    finish_chart(run(&request, &config, &adapter, &mut |number, eye, time, picture| {
+        let configs = || contestants(&config).into_iter().map(|contestant| contestant.config);
+        let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
+        let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
+        let (whole, passes, picture) = bench.frame(number, camera, time, picture).map_err(|error| error.to_string())?;
+        Ok(Shown { whole, passes, picture })
+    }))
 }
 
 #[cfg(feature = "game")]

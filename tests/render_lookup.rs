@@ -63,7 +63,7 @@ impl Bench {
 
     /// The model's vertices as the GPU sees them, placement by placement.
     pub fn seen(&mut self, camera: Camera, time: f64, placed: Vec<Placed>, settings: Settings) -> Vec<SeenVertex> {
-        let frame = FrameInput { camera, time, placed, settings };
+        let frame = FrameInput { camera, time, placed, aurora: None, settings };
         self.renderer.picture(&frame, false).unwrap();
         let bytes = readback::buffer(&GPU, self.renderer.geometry().seen()).unwrap();
         bytemuck::cast_slice(&bytes[..bytes.len() / size_of::<SeenVertex>() * size_of::<SeenVertex>()]).to_vec()
@@ -344,7 +344,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
         (object.model, object.coarse, object.two_sided) = (square, square, true);
         let eye = static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 1.0);
         let placed = bench.place(&eye, 0.0, &object, &settings);
-        let frame = FrameInput { camera: eye, time: 0.0, placed, settings };
+        let frame = FrameInput { camera: eye, time: 0.0, placed, aurora: None, settings };
         let picture = bench.renderer.picture(&frame, true).unwrap();
         (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), bench.renderer.counters().unwrap().indices / 3)
     };

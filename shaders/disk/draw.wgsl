@@ -1,9 +1,12 @@
 // The rasteriser's part of the disk of arcs. One draw per image order, the farthest first; each is laid over what is behind it.
 
+@group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
-    return Gas(clip_position(seen.apparent.xyz), seen.gas, seen.look, seen.apparent.w);
+    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.xyw, seen.light.w), vec4<f32>(seen.light.rgb, seen.apparent.w),
+        seen.slope.xyz, seen.thin);
 }
 
 /// The part of a pixel that a thin image covers: a box of the least width, `d` pixels from its middle.
@@ -12,18 +15,21 @@ fn coverage(d: f32, half_width: f32) -> f32 {
     return clamp((min(half_width, d + reach) - max(-half_width, d - reach)) / (2.0 * reach), 0.0, 1.0);
 }
 
-/// From far: the slant is in the vertices, the finest octaves are smaller than a pixel.
+/// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in.gas, in.path);
-    let turbulence = at.shares.x * textureSampleLevel(pattern, pattern_sampler, at.young, at.level).x
-        + at.shares.y * textureSampleLevel(pattern, pattern_sampler, at.old, at.level).x;
-    return gas_light(in.gas, in.look.x, in.gas.w, turbulence) * coverage(in.look.y, in.look.z);
+    return gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, false));
+}
+
+/// Orders 2 and 3, from far.
+@fragment
+fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
+    return gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, true)) * coverage(in.thin.x, in.thin.y);
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
 fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
-    let size = vec2<f32>(textureDimensions(pattern));
+    let size = vec2<f32>(textureDimensions(near_pattern));
     let place = uv * size - 0.5;
     let whole = floor(place);
     let t = place - whole;
@@ -32,18 +38,18 @@ fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
 
 fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
     // A texel that is smaller than a pixel is filtered as it is.
-    let coarse = textureSampleLevel(pattern, pattern_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
+    let coarse = textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
     let fine = 8.0 * uv;
-    return coarse + 0.35 * textureSampleLevel(pattern, pattern_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+    return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
 }
 
 /// From near: slant and the finest octaves in each pixel.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in.gas, in.path);
+    let at = streaks_of(in.gas, in.light.w, in.thin.y < 1e5);
     let turbulence = at.shares.x * close_pattern(at.young, at.level) + at.shares.y * close_pattern(at.old, at.level);
-    let depth = in.gas.w * disk_slant(in.look.w, in.path, near_half_height(in.gas.y));
-    return gas_light(in.gas, in.look.x, depth, turbulence) * coverage(in.look.y, in.look.z);
+    let depth = in.gas.z * disk_slant(in.gas.w, in.light.w, near_half_height(in.gas.y));
+    return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
 }
 
 /// Half height of the disk at a height in the pattern: thickness times radius.

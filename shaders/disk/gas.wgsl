@@ -1,18 +1,21 @@
-// The gas in a pixel: streaks from the pattern, light from the black-body texture.
+// The gas in a pixel: streaks from the pattern, light from that of the vertices.
 
 @group(2) @binding(0) var<uniform> disk: DiskFrame;
-@group(2) @binding(1) var<storage, read> disk_vertices: array<DiskVertex>;
-@group(2) @binding(2) var pattern: texture_2d<f32>;
-@group(2) @binding(3) var pattern_sampler: sampler;
-@group(2) @binding(4) var black_body: texture_2d<f32>;
-@group(2) @binding(5) var black_body_sampler: sampler;
+/// The pattern in 8 bits, (value + 3)/6, which is enough from far and fast.
+@group(2) @binding(1) var far_pattern: texture_2d<f32>;
+@group(2) @binding(2) var far_sampler: sampler;
+/// The pattern itself.
+@group(2) @binding(3) var near_pattern: texture_2d<f32>;
+@group(2) @binding(4) var near_sampler: sampler;
 
 struct Gas {
     @builtin(position) position: vec4<f32>,
-    /// As DiskVertex has it.
+    /// Place in the pattern, optical depth, |cos|: as DiskVertex has them.
     @location(0) gas: vec4<f32>,
-    @location(1) look: vec4<f32>,
-    @location(2) path: f32,
+    /// Light; w: light path.
+    @location(1) light: vec4<f32>,
+    @location(2) slope: vec3<f32>,
+    @location(3) thin: vec2<f32>,
 }
 
 struct Streaks {
@@ -22,13 +25,15 @@ struct Streaks {
     level: f32,
 }
 
-/// Where in the pattern a place is, in both generations that are seen there.
-fn streaks_of(gas: vec4<f32>, path: f32) -> Streaks {
+/// Where in the pattern a place is, in both generations that are seen there. A thin image shows the mean of all it holds: there the level of the
+/// pattern is that of the longer side of what a pixel covers.
+fn streaks_of(gas: vec4<f32>, path: f32, thin: bool) -> Streaks {
     // Pattern per pixel: shear moves it along but does not change the area a pixel covers.
     let dx = dpdx(gas.xy);
     let dy = dpdy(gas.xy);
-    let size = vec2<f32>(textureDimensions(pattern));
+    let size = vec2<f32>(textureDimensions(far_pattern));
     let area = abs(dx.x * dy.y - dx.y * dy.x) * size.x * size.y;
+    let longest = max(dot(dx * size, dx * size), dot(dy * size, dy * size));
     let time = disk.renewal.x - path * disk.renewal.y;
     let number = floor(time);
     let grown = time - number;
@@ -40,16 +45,25 @@ fn streaks_of(gas: vec4<f32>, path: f32) -> Streaks {
     result.young = vec2<f32>(moved, gas.y) + disk.offsets[index].xy;
     result.old = vec2<f32>(moved - rate * disk.renewal.z, gas.y) + disk.offsets[index - 1u].xy;
     result.shares = disk_shares(grown);
-    result.level = 0.5 * log2(max(area, 1e-12));
+    result.level = 0.5 * log2(max(select(area, longest, thin), 1e-12));
     return result;
 }
 
-/// Light and opacity of the gas: premultiplied.
-fn gas_light(gas: vec4<f32>, gain: f32, depth: f32, turbulence: f32) -> vec4<f32> {
-    let ln_density = disk.gas.x * turbulence;
-    let alpha = 1.0 - exp(-depth * exp(ln_density));
-    let heat = gas.z + 0.25 * ln_density * disk.gas.y;
-    let width = f32(textureDimensions(black_body).x);
-    let light = textureSampleLevel(black_body, black_body_sampler, vec2<f32>((heat * (width - 1.0) + 0.5) / width, 0.5), 0.0).rgb;
-    return vec4<f32>(light * (gain * alpha), alpha);
+fn far_value(uv: vec2<f32>, level: f32) -> f32 {
+    return 6.0 * textureSampleLevel(far_pattern, far_sampler, uv, level).x - 3.0;
+}
+
+/// The streaks of both generations, from far: the finest octaves are smaller than a pixel.
+fn far_turbulence(gas: vec4<f32>, path: f32, thin: bool) -> f32 {
+    let at = streaks_of(gas, path, thin);
+    return at.shares.x * far_value(at.young, at.level) + at.shares.y * far_value(at.old, at.level);
+}
+
+/// Light and opacity of gas whose density is exp(deviation·turbulence) times the mean: premultiplied. Its temperature goes as the fourth root of
+/// the density, and light as exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's.
+fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, turbulence: f32) -> vec4<f32> {
+    let cooler = exp2(-0.36067376 * disk.gas.x * turbulence);
+    let twice = cooler * cooler;
+    let alpha = 1.0 - exp2(-1.44269504 * depth / (twice * twice));
+    return vec4<f32>(light * exp2(slope * (1.44269504 * (1.0 - cooler))) * alpha, alpha);
 }

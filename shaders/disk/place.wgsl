@@ -104,10 +104,12 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let g = clamp(observed / emitted, 1e-3, 1e3);
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
-    let light = disk_light(circle.gas.z, g);
+    let light = gas_light(circle.gas.z, g);
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
-    vertex.gas = vec4<f32>(turns, circle.motion.w, light.x, circle.gas.w);
-    vertex.look = vec4<f32>(light.y, thin, cosine);
+    vertex.gas = vec4<f32>(turns, circle.motion.w, light.ln_temperature, circle.gas.w);
+    vertex.light = vec4<f32>(light.rgb, cosine);
+    vertex.slope = vec4<f32>(light.slope, 0.0);
+    vertex.thin = thin;
     if disk.room.y == 0u {
         vertex.gas.w *= disk_slant(cosine, ray.delay, circle.motion.z);
     }
@@ -128,19 +130,4 @@ fn cuts_origin() -> f32 {
 fn camera_doppler_of(look: vec3<f32>) -> f32 {
     let m = frame.camera_from_rain;
     return 1.0 / max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
-}
-
-/// Heat (the place in the black-body texture) and factor on its light, for gas of this ln T seen at g.
-fn disk_light(ln_temperature: f32, g: f32) -> vec2<f32> {
-    let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
-    let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
-    let shifted = ln_temperature + log(g);
-    let shown = select(ln_temperature, shifted, doppler);
-    var gain = 1.0;
-    if doppler != beaming {
-        let rest_light = luminance(blackbody_rgb(exp(ln_temperature)));
-        let shifted_light = luminance(blackbody_rgb(exp(shifted)));
-        gain = select(rest_light / max(shifted_light, 1e-30), shifted_light / max(rest_light, 1e-30), beaming);
-    }
-    return vec2<f32>((shown - log(BLACKBODY_COLDEST)) * disk.gas.y, gain);
 }

@@ -10,7 +10,7 @@ struct DiskFrame {
     upwards: vec4<f32>,
     /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of a new-born.
     renewal: vec4<f32>,
-    /// x: deviation of ln density; y: heat (0 to 1 over the black-body texture) for one of ln T; z: error budget of an arc in rad;
+    /// x: deviation of ln density; y: unused; z: error budget of an arc in rad;
     /// w: least width of thin images in pixels.
     gas: vec4<f32>,
     /// x: columns of a row; y: arcs round the hole; z: rows; w: rings over all orders.
@@ -20,6 +20,8 @@ struct DiskFrame {
     /// x: vertices that there is room for; y: 1 for a close look (finest octaves, slant in each pixel); z: half height over radius
     /// (bits of an f32); w unused.
     room: vec4<u32>,
+    /// x: radius of a sprite in r_s; y: the scene's unit of light over the black body's; z, w unused.
+    sprites: vec4<f32>,
     /// xy: where in the pattern each generation begins.
     offsets: array<vec4<f32>, 16>,
 }
@@ -38,11 +40,16 @@ struct Circle {
 struct DiskVertex {
     /// Direction from the camera times light path, camera axes; w: the light path.
     apparent: vec4<f32>,
-    /// x: azimuth less lead, in turns; y: height in the pattern; z: heat; w: optical depth along the ray (close look: straight through).
+    /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the ray
+    /// (close look: straight through).
     gas: vec4<f32>,
-    /// x: factor on the light; y: distance from the middle of a thin image, z: its half width, both in pixels; w: |cos| to the normal,
-    /// in the frame of the gas.
-    look: vec4<f32>,
+    /// x, y, z: light of gas of mean density, linear; w: |cos| to the normal, in the frame of the gas.
+    light: vec4<f32>,
+    /// x, y, z: d ln light/d ln T.
+    slope: vec4<f32>,
+    /// x: distance from the middle of a thin image, y: its half width, both in pixels.
+    thin: vec2<f32>,
+    unused: vec2<f32>,
 }
 
 struct Counters {

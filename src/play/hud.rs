@@ -6,6 +6,7 @@ use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Shape,
 use glam::DVec3;
 
 use crate::render::frame::Camera;
+use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
 use super::camera::View;
@@ -50,6 +51,9 @@ pub fn draw(
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
+    if let Some(words) = left_out(&session.config) {
+        text(&painter, pos2(rect.center().x, rect.bottom() - 24.0), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
+    }
     if real.elapsed_secs_f64() < notice.until {
         plate(&painter, pos2(rect.center().x, rect.top() + 70.0), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
     }
@@ -64,6 +68,16 @@ pub fn draw(
     }
     dials(&painter, rect, &session, &player, &panel);
     Ok(())
+}
+
+/// What is left out of the picture's physics, for the player to know.
+fn left_out(config: &GameConfig) -> Option<&'static str> {
+    match (config.render.doppler, config.render.beaming) {
+        (true, true) => None,
+        (false, false) => Some("as in the film: without the Doppler shift of colour and brightness"),
+        (false, true) => Some("without the Doppler shift of colour"),
+        (true, false) => Some("without the Doppler shift of brightness"),
+    }
 }
 
 fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {

@@ -150,7 +150,7 @@ impl Renderer {
     pub fn set_disk(&mut self, disk: Option<Disk>) {
         self.has_disk = disk.is_some();
         match (disk, &mut self.disk) {
-            (Some(disk), Some(passes)) => passes.set(disk),
+            (Some(disk), Some(passes)) => passes.set(&self.gpu, &self.frame_layout, disk),
             (Some(disk), None) => self.disk = Some(DiskPasses::new(&self.gpu, &self.frame_layout, disk)),
             (None, _) => {}
         }

@@ -22,6 +22,9 @@ const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
 const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
 const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
+const DISK_RADIAL: &str = include_str!("../../shaders/disk/radial.wgsl");
+const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.wgsl");
+const DISK_LIGHT: &str = include_str!("../../shaders/disk/light.wgsl");
 const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
@@ -78,11 +81,17 @@ pub enum Pass {
     DiskArguments,
     /// Rasterises the disk.
     DiskDraw,
+    /// Rasterises the disk of polygons.
+    DiskPolygons,
+    /// Projects the disk's sprites.
+    DiskSprites,
+    /// Draws the disk's sprites.
+    DiskSpritesDraw,
 }
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 25] = [
+    pub const ALL: [Pass; 28] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -108,6 +117,9 @@ impl Pass {
         Pass::DiskStrips,
         Pass::DiskArguments,
         Pass::DiskDraw,
+        Pass::DiskPolygons,
+        Pass::DiskSprites,
+        Pass::DiskSpritesDraw,
     ];
 
     /// The whole WGSL source of the pass.
@@ -144,6 +156,9 @@ impl Pass {
             Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
             Pass::DiskArguments => include_str!("../../shaders/disk/arguments.wgsl"),
             Pass::DiskDraw => include_str!("../../shaders/disk/draw.wgsl"),
+            Pass::DiskPolygons => include_str!("../../shaders/disk/polygons.wgsl"),
+            Pass::DiskSprites => include_str!("../../shaders/disk/sprites.wgsl"),
+            Pass::DiskSpritesDraw => include_str!("../../shaders/disk/sprites_draw.wgsl"),
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
@@ -158,10 +173,15 @@ impl Pass {
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices | Pass::DiskMesh => {
-                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_LIGHT, DISK_PLACE]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
+            Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
+            Pass::DiskSprites => {
+                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_SPRITES_TYPES, DISK_LIGHT, DISK_RADIAL]
+            }
+            Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
     }

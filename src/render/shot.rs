@@ -107,7 +107,7 @@ pub fn with_and_without_sky(
     let with = settings(config);
     let without = Settings { stars: false, milky_way: false, ..with };
     let mut draw = |settings| {
-        let frame = stage.frame(camera, size[0], moment.time(), &moment.histories(), None, &settings);
+        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, &settings);
         renderer.picture(&frame, true)
     };
     Ok([draw(with)?, draw(without)?])

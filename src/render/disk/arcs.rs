@@ -2,15 +2,11 @@
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::Slice;
 use crate::render::Gpu;
-use crate::render::frame::FrameInput;
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use crate::render::shaders::Pass;
 
-use super::Disk;
-use super::textures::Textures;
-use super::types::{self, DiskCounters, DiskFrame, DiskVertex};
+use super::types::{self, DiskCounters, DiskVertex};
 use super::view::DiskView;
 
 /// Room for vertices that halving makes.
@@ -22,7 +18,6 @@ const INDICES: [u32; 3] = [1_500_000, 600_000, 600_000];
 #[derive(Debug)]
 pub struct ArcPass {
     group_layout: wgpu::BindGroupLayout,
-    draw_layout: wgpu::BindGroupLayout,
     vertices: wgpu::ComputePipeline,
     segments: wgpu::ComputePipeline,
     mesh: wgpu::ComputePipeline,
@@ -30,9 +25,8 @@ pub struct ArcPass {
     before_mesh: wgpu::ComputePipeline,
     before_draw: wgpu::ComputePipeline,
     far: wgpu::RenderPipeline,
+    thin: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
-    textures: Textures,
-    frame: wgpu::Buffer,
     circles: Growing,
     cuts: Growing,
     rings: Growing,
@@ -43,6 +37,7 @@ pub struct ArcPass {
     counters: wgpu::Buffer,
     arguments: wgpu::Buffer,
     arguments_group: wgpu::BindGroup,
+    draw_layout: wgpu::BindGroupLayout,
     groups: Option<(wgpu::BindGroup, wgpu::BindGroup)>,
     /// Threads of the stages over grid, segments, arcs.
     threads: [u32; 3],
@@ -51,17 +46,12 @@ pub struct ArcPass {
 
 impl ArcPass {
     /// Compiles the stages.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, textures: Textures) -> ArcPass {
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, gas_layout: &wgpu::BindGroupLayout) -> ArcPass {
         use Slot::{Read, Write};
         let device = &gpu.device;
         let group_layout =
             layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Write, Write, Write, Write, Write]);
-        let draw_layout = layout(
-            device,
-            "disk draw",
-            ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Read, Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Sampler],
-        );
+        let draw_layout = layout(device, "disk draw", ShaderStages::VERTEX, &[Read]);
         let arguments_layout = layout(device, "disk arguments", ShaderStages::COMPUTE, &[Write]);
         let stage = |label, pass| compute(device, label, pass, "main", &[Some(frame_layout), Some(&group_layout)]);
         let argument = |entry| {
@@ -72,7 +62,7 @@ impl ArcPass {
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let draw = |label, fragment| {
             let stage = Raster { vertex: "vertex", fragment, targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
-            raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&draw_layout)])
+            raster(device, label, &shader, stage, &[Some(frame_layout), Some(&draw_layout), Some(gas_layout)])
         };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "disk arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
@@ -85,9 +75,8 @@ impl ArcPass {
             before_mesh: argument("before_mesh"),
             before_draw: argument("before_draw"),
             far: draw("disk far", "far_fragment"),
+            thin: draw("disk thin", "thin_fragment"),
             near: draw("disk near", "near_fragment"),
-            textures,
-            frame: buffer(device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
             rings: Growing::new(device, "disk rings", storage),
@@ -98,41 +87,37 @@ impl ArcPass {
             counters: buffer(device, "disk counters", size_of::<DiskCounters>() as u64, storage),
             arguments_group: bind(device, "disk arguments", &arguments_layout, &[arguments.as_entire_binding()]),
             arguments,
+            draw_layout,
             groups: None,
             threads: [0; 3],
             close: false,
             group_layout,
-            draw_layout,
         }
     }
 
-    /// Uploads what the frame needs.
-    pub fn prepare(&mut self, gpu: &Gpu, disk: &Disk, input: &FrameInput, slice: &Slice, width: u32) {
-        let view = DiskView::new(disk, input, slice, width);
-        let mut frame = view.frame;
-        let [columns, arcs, rows, rings] = frame.sizes;
+    /// Uploads what the frame needs; fills in where in the buffers things are. `frame` holds it for the shaders.
+    pub fn prepare(&mut self, gpu: &Gpu, view: &mut DiskView, frame: &wgpu::Buffer) {
+        let [columns, arcs, rows, rings] = view.frame.sizes;
         let grid = columns * rows;
-        frame.room[0] = grid + EXTRA;
-        frame.regions = [0, INDICES[0], INDICES[0] + INDICES[1], INDICES.iter().sum()];
+        view.frame.room[0] = grid + EXTRA;
+        view.frame.regions = [0, INDICES[0], INDICES[0] + INDICES[1], INDICES.iter().sum()];
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.close;
         let device = &gpu.device;
         let mut replaced = self.circles.write(gpu, &view.circles);
         replaced |= self.cuts.write(gpu, &view.cuts);
         replaced |= self.rings.write(gpu, &view.rings);
-        replaced |= self.seen.reserve(device, u64::from(frame.room[0]) * size_of::<DiskVertex>() as u64);
+        replaced |= self.seen.reserve(device, u64::from(view.frame.room[0]) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
-        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&frame));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
         if replaced || self.groups.is_none() {
-            self.groups = Some(self.bind(device));
+            self.groups = Some(self.bind(device, frame));
         }
     }
 
-    fn bind(&self, device: &wgpu::Device) -> (wgpu::BindGroup, wgpu::BindGroup) {
-        use wgpu::BindingResource::{Sampler, TextureView};
+    fn bind(&self, device: &wgpu::Device, frame: &wgpu::Buffer) -> (wgpu::BindGroup, wgpu::BindGroup) {
         let buffers = [
-            &self.frame,
+            frame,
             &self.circles.buffer,
             &self.cuts.buffer,
             &self.rings.buffer,
@@ -143,15 +128,8 @@ impl ArcPass {
             &self.counters,
         ];
         let resources = buffers.map(|buffer| buffer.as_entire_binding());
-        let draw = [
-            self.frame.as_entire_binding(),
-            self.seen.buffer.as_entire_binding(),
-            TextureView(&self.textures.pattern),
-            Sampler(&self.textures.pattern_sampler),
-            TextureView(&self.textures.colours),
-            Sampler(&self.textures.colours_sampler),
-        ];
-        (bind(device, "disk", &self.group_layout, &resources), bind(device, "disk draw", &self.draw_layout, &draw))
+        let draw = bind(device, "disk draw", &self.draw_layout, &[self.seen.buffer.as_entire_binding()]);
+        (bind(device, "disk", &self.group_layout, &resources), draw)
     }
 
     /// The stages.
@@ -184,10 +162,14 @@ impl ArcPass {
     /// The draws: the farthest order first.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
         let Some((_, group)) = &self.groups else { return };
-        pass.set_pipeline(if self.close { &self.near } else { &self.far });
-        pass.set_bind_group(2, group, &[]);
+        pass.set_bind_group(1, group, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for order in (0..3).rev() {
+            pass.set_pipeline(match (self.close, order) {
+                (true, _) => &self.near,
+                (false, 0) => &self.far,
+                (false, _) => &self.thin,
+            });
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + order * types::ARGUMENTS_DRAW_STEP);
         }
     }

@@ -1,23 +1,36 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
 //! [`view`] says in f64 what a frame needs to know (which circles, seen from where, which generations of streaks); [`arcs`] runs the stages of
-//! `shaders/disk/` over it; [`textures`] holds the pattern of the gas and the colours of black bodies.
+//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of paper 2; [`textures`] holds the pattern of the gas.
 
 pub mod arcs;
+pub mod bench;
+pub mod polygons;
+pub mod sprites;
 pub mod textures;
 pub mod types;
 pub mod view;
 
+use wgpu::{BufferUsages, ShaderStages};
+
 use crate::lensing::Slice;
 use crate::scene::GameConfig;
 use crate::scene::config;
-use crate::scene::disk::Gas;
 use crate::scene::disk::arcs::Arcs;
+use crate::scene::disk::{Gas, PATTERN_HEIGHT};
 
 use super::Gpu;
 use super::frame::FrameInput;
+use super::layout::{Slot, bind, buffer, layout, storage};
 use arcs::ArcPass;
+use polygons::PolygonPass;
+use sprites::SpritePass;
 use textures::Textures;
+use types::DiskFrame;
+use view::DiskView;
+
+/// Radii in the table that sprites and polygons look their gas up in.
+const RADII: usize = 512;
 
 /// A disk ready to be drawn.
 #[derive(Clone, Debug)]
@@ -39,24 +52,80 @@ impl Disk {
         let arcs = Arcs::new(&disk, &gas.radial);
         Disk { gas, arcs, config: disk, min_width: config.render.min_width }
     }
+
+    /// The radius, in r_s, with which the sprites together have the area of the disk.
+    pub fn sprite_radius(&self) -> f64 {
+        let [start, end] = self.gas.extent();
+        ((end * end - start * start) / f64::from(self.config.sprites)).sqrt()
+    }
+
+    /// Two rows for each radius, as `shaders/disk/radial.wgsl` reads them.
+    fn radial_table(&self) -> Vec<[f32; 4]> {
+        let radial = &self.gas.radial;
+        let [start, end] = self.gas.extent();
+        (0..RADII)
+            .flat_map(|k| {
+                let r = start + (end - start) * k as f64 / (RADII - 1) as f64;
+                let [outward, along] = radial.momentum(r);
+                let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
+                [
+                    [radial.temperature(r).ln(), radial.depth(r), outward, along].map(|value| value as f32),
+                    [radial.lag(r), self.gas.half_height(r), pattern, r].map(|value| value as f32),
+                ]
+            })
+            .collect()
+    }
+}
+
+/// How the disk is drawn.
+#[derive(Debug)]
+enum Representation {
+    Arcs,
+    Polygons(Box<PolygonPass>),
+    Sprites(SpritePass),
 }
 
 /// The passes of the disk, made when a scene first has one.
 #[derive(Debug)]
 pub struct DiskPasses {
     disk: Disk,
+    frame: wgpu::Buffer,
+    gas_layout: wgpu::BindGroupLayout,
+    gas_group: wgpu::BindGroup,
     arcs: ArcPass,
+    representation: Representation,
 }
 
 impl DiskPasses {
     /// Compiles the passes.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) -> DiskPasses {
+        use wgpu::BindingResource::{Sampler, TextureView};
         let textures = Textures::new(gpu);
-        DiskPasses { arcs: ArcPass::new(gpu, frame_layout, textures), disk }
+        let slots = [Slot::Uniform, Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Sampler];
+        let gas_layout = layout(&gpu.device, "gas", ShaderStages::VERTEX_FRAGMENT, &slots);
+        let frame = buffer(&gpu.device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM);
+        let resources = [
+            frame.as_entire_binding(),
+            TextureView(&textures.far),
+            Sampler(&textures.far_sampler),
+            TextureView(&textures.near),
+            Sampler(&textures.near_sampler),
+        ];
+        let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
+        let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);
+        let mut passes = DiskPasses { disk: disk.clone(), frame, gas_layout, gas_group, arcs, representation: Representation::Arcs };
+        passes.set(gpu, frame_layout, disk);
+        passes
     }
 
-    /// Takes up another disk.
-    pub fn set(&mut self, disk: Disk) {
+    /// Takes up another disk, and the way it is to be drawn.
+    pub fn set(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) {
+        let radial = || storage(gpu, "radial", &disk.radial_table());
+        self.representation = match disk.config.representation.as_str() {
+            "polygons" => Representation::Polygons(Box::new(PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial(), &disk))),
+            "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.frame, &radial(), &disk)),
+            _ => Representation::Arcs,
+        };
         self.disk = disk;
     }
 
@@ -72,21 +141,40 @@ impl DiskPasses {
 
     /// Uploads what the frame needs.
     pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, slice: &Slice, width: u32) {
-        self.arcs.prepare(gpu, &self.disk, input, slice, width);
+        let mut view = DiskView::new(&self.disk, input, slice, width);
+        match &mut self.representation {
+            Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
+            Representation::Polygons(polygons) => polygons.prepare(gpu, input),
+            Representation::Sprites(sprites) => sprites.prepare(gpu),
+        }
+        gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));
     }
 
     /// The stages of compute.
     pub fn compute(&self, pass: &mut wgpu::ComputePass) {
-        self.arcs.compute(pass);
+        match &self.representation {
+            Representation::Arcs => self.arcs.compute(pass),
+            Representation::Polygons(polygons) => polygons.compute(pass),
+            Representation::Sprites(sprites) => sprites.compute(pass),
+        }
     }
 
     /// The stages whose size the first ones decide; in a pass of their own.
     pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
-        self.arcs.compute_rest(pass);
+        match &self.representation {
+            Representation::Arcs => self.arcs.compute_rest(pass),
+            Representation::Polygons(polygons) => polygons.compute_rest(pass),
+            Representation::Sprites(_) => {}
+        }
     }
 
     /// The draws.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
-        self.arcs.draw(pass);
+        pass.set_bind_group(2, &self.gas_group, &[]);
+        match &self.representation {
+            Representation::Arcs => self.arcs.draw(pass),
+            Representation::Polygons(polygons) => polygons.draw(pass),
+            Representation::Sprites(sprites) => sprites.draw(pass),
+        }
     }
 }

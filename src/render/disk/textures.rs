@@ -1,63 +1,55 @@
-//! The two pictures that the gas is drawn with.
+//! The pattern of the gas as textures.
 
 use crate::render::Gpu;
-use crate::scene::blackbody::blackbody_rgb;
-use crate::scene::disk::DISK_UNIT;
 use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH};
 
-/// Temperatures of the ends of the table of black bodies, in K, as in functions/colour.wgsl.
-pub const TEMPERATURES: (f64, f64) = (200.0, 2.0e6);
-/// Texels of the table: neighbours differ by 0.9 % in T.
-const COLOURS: usize = 1024;
+/// The greatest value of the pattern, either way.
+const GREATEST: f32 = 3.0;
 
-/// Pattern and colours with their samplers.
+/// The pattern with all its halvings, twice.
 #[derive(Debug)]
 pub struct Textures {
-    /// The pattern with all its halvings.
-    pub pattern: wgpu::TextureView,
-    /// Repeats both ways.
-    pub pattern_sampler: wgpu::Sampler,
-    /// Linear light of a black body over ln T.
-    pub colours: wgpu::TextureView,
-    /// Held at the ends.
-    pub colours_sampler: wgpu::Sampler,
+    /// In 8 bits, (value + 3)/6 in all channels: the format that software rasterisers are fastest with.
+    pub far: wgpu::TextureView,
+    /// One halving at a time.
+    pub far_sampler: wgpu::Sampler,
+    /// In 16-bit floats, for close looks.
+    pub near: wgpu::TextureView,
+    /// Between halvings too.
+    pub near_sampler: wgpu::Sampler,
 }
 
 impl Textures {
     /// Uploads them.
     pub fn new(gpu: &Gpu) -> Textures {
         let levels = halvings();
-        let pattern = texture(gpu, "gas", wgpu::TextureFormat::R16Float, &levels, 1);
-        let ratio = TEMPERATURES.1 / TEMPERATURES.0;
-        let colours: Vec<f32> = (0..COLOURS)
-            .flat_map(|k| {
-                let [r, g, b] = blackbody_rgb(TEMPERATURES.0 * ratio.powf(k as f64 / (COLOURS - 1) as f64));
-                [r, g, b, 1.0].map(|light| (light * DISK_UNIT).min(6e4) as f32)
-            })
-            .collect();
-        let colours = texture(gpu, "black bodies", wgpu::TextureFormat::Rgba16Float, &[(COLOURS as u32, 1, colours)], 4);
-        let sampler = |label, mode| {
+        let bytes = |value: f32| [((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8; 4].to_vec();
+        let halves = |value: f32| half::f16::from_f32(value).to_le_bytes().to_vec();
+        let sampler = |label, mipmap_filter| {
             gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(label),
-                address_mode_u: mode,
-                address_mode_v: mode,
+                address_mode_u: wgpu::AddressMode::Repeat,
+                address_mode_v: wgpu::AddressMode::Repeat,
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
-                mipmap_filter: wgpu::MipmapFilterMode::Linear,
+                mipmap_filter,
                 ..Default::default()
             })
         };
         Textures {
-            pattern,
-            pattern_sampler: sampler("gas", wgpu::AddressMode::Repeat),
-            colours,
-            colours_sampler: sampler("black bodies", wgpu::AddressMode::ClampToEdge),
+            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &levels, &bytes),
+            far_sampler: sampler("gas from far", wgpu::MipmapFilterMode::Nearest),
+            near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
+            near_sampler: sampler("gas from near", wgpu::MipmapFilterMode::Linear),
         }
     }
 }
 
-/// The lattice, halved again and again: each level's width, height and values.
-fn halvings() -> Vec<(u32, u32, Vec<f32>)> {
+/// One level: width, height, values.
+type Level = (u32, u32, Vec<f32>);
+
+/// The lattice, halved again and again.
+fn halvings() -> Vec<Level> {
     let mut levels = vec![(WIDTH as u32, HEIGHT as u32, LATTICE.clone())];
     while let Some((width, height, values)) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
         let (w, h) = (*width as usize, *height as usize);
@@ -71,7 +63,7 @@ fn halvings() -> Vec<(u32, u32, Vec<f32>)> {
     levels
 }
 
-fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[(u32, u32, Vec<f32>)], channels: u32) -> wgpu::TextureView {
+fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level], encode: &dyn Fn(f32) -> Vec<u8>) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: levels[0].0, height: levels[0].1, depth_or_array_layers: 1 },
@@ -83,7 +75,7 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[(u32, 
         view_formats: &[],
     });
     for (mip, (width, height, values)) in levels.iter().enumerate() {
-        let halves: Vec<u16> = values.iter().map(|&value| half::f16::from_f32(value).to_bits()).collect();
+        let bytes: Vec<u8> = values.iter().flat_map(|&value| encode(value)).collect();
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,
@@ -91,8 +83,8 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[(u32, 
                 origin: wgpu::Origin3d::ZERO,
                 aspect: wgpu::TextureAspect::All,
             },
-            bytemuck::cast_slice(&halves),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(2 * channels * width), rows_per_image: None },
+            &bytes,
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None },
             wgpu::Extent3d { width: *width, height: *height, depth_or_array_layers: 1 },
         );
     }

@@ -18,6 +18,7 @@ pub struct DiskFrame {
     pub sizes: [u32; 4],
     pub regions: [u32; 4],
     pub room: [u32; 4],
+    pub sprites: [f32; 4],
     pub offsets: [[f32; 4]; GENERATIONS],
 }
 
@@ -39,7 +40,10 @@ pub struct Circle {
 pub struct DiskVertex {
     pub apparent: [f32; 4],
     pub gas: [f32; 4],
-    pub look: [f32; 4],
+    pub light: [f32; 4],
+    pub slope: [f32; 4],
+    pub thin: [f32; 2],
+    pub unused: [f32; 2],
 }
 
 /// `Counters` in WGSL.
@@ -61,3 +65,5 @@ pub const ARGUMENTS_BYTES: u64 = 112;
 pub const ARGUMENTS_DRAW: u64 = 16;
 /// Bytes between the draws of two orders.
 pub const ARGUMENTS_DRAW_STEP: u64 = 32;
+/// Bytes of `SeenSprite` in WGSL.
+pub const SEEN_SPRITE_BYTES: u64 = 32;

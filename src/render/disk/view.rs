@@ -7,20 +7,19 @@ use glam::DVec3;
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
-use crate::scene::disk::{RENEWAL, SHEARED};
+use crate::scene::disk::{DISK_UNIT, RENEWAL, SHEARED};
 
 use super::Disk;
-use super::textures::TEMPERATURES;
 use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
 /// Rings whose images are narrower than this where they are widest, in pixels, are drawn together: between two circles the place in the gas goes
-/// straight, which is off by an eighth of the square of a ring's share of the radius, a hundredth of a pixel for such rings. A rasteriser works in
+/// straight, which is off by an eighth of the square of a ring's share of the radius, under half a pixel for such rings. A rasteriser works in
 /// squares of pixels, and narrower triangles leave most of each empty.
-const LEAST_RING: f64 = 10.0;
+const LEAST_RING: f64 = 12.0;
 /// The same for the length of an arc, on the outermost circle: halving finds what is lost.
-const LEAST_ARC: f64 = 24.0;
+const LEAST_ARC: f64 = 32.0;
 /// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide.
 const CLOSE: f64 = 4.0;
 /// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
@@ -82,15 +81,11 @@ impl DiskView {
                 sideways: row(sideways, level),
                 upwards: row(upwards, height.abs()),
                 renewal: [(input.time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-                gas: [
-                    disk.gas.contrast as f32,
-                    (1.0 / (TEMPERATURES.1 / TEMPERATURES.0).ln()) as f32,
-                    disk.config.error_budget as f32,
-                    disk.min_width as f32,
-                ],
+                gas: [disk.gas.contrast as f32, 0.0, disk.config.error_budget as f32, disk.min_width as f32],
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
                 room: [0, u32::from(close), (disk.gas.thickness as f32).to_bits(), 0],
+                sprites: [(0.7 * disk.sprite_radius()) as f32, DISK_UNIT as f32, 0.0, 0.0],
                 offsets,
             },
             circles,

@@ -379,6 +379,11 @@ impl Geometry {
         &self.seen.buffer
     }
 
+    /// Indirect arguments, laid out as `types::ARGUMENTS_*` say.
+    pub fn arguments(&self) -> &wgpu::Buffer {
+        &self.arguments
+    }
+
     /// Indices of opaque triangles.
     pub fn indices(&self) -> &wgpu::Buffer {
         &self.indices.buffer

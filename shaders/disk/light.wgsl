@@ -1,0 +1,29 @@
+// The light of the gas at a vertex, and how it changes with temperature.
+
+struct GasLight {
+    /// ln of the temperature that is seen, in K.
+    ln_temperature: f32,
+    /// Linear light in the scene's unit.
+    rgb: vec3<f32>,
+    /// d ln rgb/d ln T.
+    slope: vec3<f32>,
+}
+
+/// Gas of this ln T seen at g: the black body at gT. With the shift of colour or of brightness switched off the other stays as it is.
+fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
+    let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
+    let shifted = ln_temperature + log(g);
+    let shown = select(ln_temperature, shifted, doppler);
+    let rgb = blackbody_rgb(exp(shown));
+    var gain = disk.sprites.y;
+    if doppler != beaming {
+        let bright = luminance(blackbody_rgb(exp(select(ln_temperature, shifted, beaming))));
+        gain *= bright / max(luminance(rgb), 1e-30);
+    }
+    // Over a tenth of T: where light falls off fast, the mean slope over what streaks do to the temperature.
+    let above = blackbody_rgb(exp(shown + 0.1));
+    // Cold gas is black, whatever its slope; 45 is that of blue light at 700 K.
+    let slope = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
+    return GasLight(shown, min(rgb * gain, vec3<f32>(6e4)), slope);
+}

@@ -1,0 +1,22 @@
+// The disk of polygons, drawn: triangles that the stages of geometry have tessellated, opaque, nearest first by depth.
+
+@group(1) @binding(0) var<storage, read> seen: array<SeenVertex>;
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Gas {
+    let found = seen[index];
+    let r = max(found.surface.y, 1.0);
+    let gas = radial_gas(r);
+    let turn = 6.28318531 * found.surface.x;
+    let outward = dot(found.leaving.xyz, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
+    let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
+    let light = gas_light(gas.a.x, ratio.x);
+    let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
+    let place = vec4<f32>(found.surface.x - gas.b.x / 6.28318531, gas.b.z, depth, ratio.y);
+    return Gas(clip_position(found.apparent.xyz), place, vec4<f32>(light.rgb, found.apparent.w), light.slope, vec2<f32>(0.0, 1e6));
+}
+
+@fragment
+fn fragment(in: Gas) -> @location(0) vec4<f32> {
+    return vec4<f32>(gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, false)).rgb, 1.0);
+}

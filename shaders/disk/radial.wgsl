@@ -1,0 +1,36 @@
+// Functions of the radius for sprites and polygons, which have points at any: a table of src/scene/disk/radial.rs, linear in r.
+
+/// Two rows for each radius: (ln T, depth, momentum outward, along), (lead, half height, ln r over the pattern's height, radius).
+@group(1) @binding(1) var<storage, read> radial_table: array<vec4<f32>>;
+
+struct RadialGas {
+    a: vec4<f32>,
+    b: vec4<f32>,
+}
+
+fn radial_gas(r: f32) -> RadialGas {
+    let last = arrayLength(&radial_table) / 2u - 1u;
+    let first = radial_table[1].w;
+    let end = radial_table[2u * last + 1u].w;
+    let place = clamp((r - first) / (end - first), 0.0, 1.0) * f32(last);
+    let i = min(u32(place), last - 1u);
+    let t = vec4<f32>(place - f32(i));
+    return RadialGas(mix(radial_table[2u * i], radial_table[2u * i + 2u], t), mix(radial_table[2u * i + 1u], radial_table[2u * i + 3u], t));
+}
+
+/// ν_observed/ν_emitted (x) and |cos| to the normal in the gas's frame (y) for gas at r seen in the direction `apparent` (camera axes), from what a
+/// photon conserves, energy and angular momentum, and whether it left outward.
+fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2<f32> {
+    let past = (frame.rain_from_camera * vec4<f32>(normalize(apparent), -1.0)).xyz;
+    let k = -past;
+    let n = frame.radial.xyz;
+    let energy = length(past) - frame.side_b.w * dot(n, k);
+    let spin = cross(n * frame.radial.w, k) / r;
+    let beta = inverseSqrt(r);
+    let root = sqrt(max(energy * energy - (1.0 - 1.0 / r) * dot(spin, spin), 0.0));
+    let inward = (dot(spin, spin) - energy * energy) / max(beta * energy + root, 1e-9);
+    let radial = select(inward, (beta * energy + root) / max(1.0 - 1.0 / r, 1e-6), outward);
+    let gamma = sqrt(1.0 + gas.a.z * gas.a.z + gas.a.w * gas.a.w);
+    let emitted = max(gamma * (energy + beta * radial) - gas.a.z * radial - gas.a.w * spin.z, 1e-6);
+    return vec2<f32>(clamp(1.0 / emitted, 1e-3, 1e3), length(spin.xy) / emitted);
+}
