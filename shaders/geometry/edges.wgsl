@@ -65,9 +65,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             }
             let found = answer(placement, query, order).ray;
             points[k] = found.apparent;
-            whole = whole && found.valid;
+            whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
         }
-        // Where a part of the edge is not seen its image ends; no splitting finds more of it.
+        // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
     edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement), 1.0)), bitcast<f32>(0u), 0.0, error);

@@ -111,7 +111,7 @@ fn query_body(body: vec3<f32>) -> Query {
 
 /// Steps of Newton on the emission time: each squares the error, which starts as the part of c at which the object turns or accelerates
 /// while light crosses it. Inside the horizon a vertex may have no ray at the time of its centre, and must be found further back.
-const EMISSION_STEPS: u32 = 3u;
+const EMISSION_STEPS: u32 = 4u;
 const EMISSION_STEPS_INSIDE: u32 = 10u;
 
 /// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s for light of E > 0
@@ -146,10 +146,10 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         // What moves is seen by light of one age; what is held, by light of any: its placement says which is meant.
         let elapsed = select(select(YOUNG, OLD, (placement.triangles.w & PLACEMENT_MINUS) != 0u), placement.offset.w - s, moves);
         result.ray = sight(along, across, height, side, order, elapsed);
-        if query.fixed || !moves || i == steps {
+        if query.fixed || !moves {
             break;
         }
-        if !result.ray.valid {
+        if !result.ray.valid && i < steps {
             // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
             back = select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0);
             s = select(s - back, 0.5 * (s + known), known < s);
@@ -163,7 +163,13 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
         let energy = result.ray.energy;
-        s += missing * clamp(energy / (energy - dot(placement.velocity.xyz, result.ray.leaving.xyz)), -20.0, 20.0);
+        let step = missing * clamp(energy / (energy - dot(placement.velocity.xyz, result.ray.leaving.xyz)), -20.0, 20.0);
+        if i == steps {
+            // A point whose time was not found within the size of the object (next to the horizon, or where its image ends) is not drawn.
+            let size = distance(result.position - placement.velocity.xyz * s, placement.position.xyz);
+            result.ray.valid = result.ray.valid && abs(step) * length(placement.velocity.xyz) <= 0.5 * size;
+        }
+        s += step;
     }
     return result;
 }

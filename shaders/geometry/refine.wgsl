@@ -15,7 +15,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     measure(piece, placement, triangle);
     model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
         bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
-    if unseen {
+    if unseen && (frame.switches.x & FLAG_INSIDE) != 0u {
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
         return;
