@@ -154,7 +154,8 @@ fn the_settings_of_geometry_do_what_they_say() {
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
     let mut object = bench.object(Motion::Held { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
     object.coarse = stand_in;
-    let images = |settings: Settings| place(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3);
+    let images =
+        |settings: Settings| place(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3);
     let count = |settings: Settings| images(settings).len();
     // The ball is 2.3 pixels wide in the first order.
     let first = |settings: Settings| images(settings)[0];

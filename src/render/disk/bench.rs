@@ -48,12 +48,12 @@ impl Bench {
             settings.stars = false;
             settings.milky_way = false;
             renderer.resize(size);
-            let drawn = renderer.picture(&FrameInput { camera, time, placed: Vec::new(), settings }, false);
+            let drawn = renderer.picture(&FrameInput { camera, time, placed: Vec::new(), aurora: None, settings }, false);
             renderer.resize(self.size);
             return Ok((0.0, Vec::new(), drawn?.linear.iter().map(|p| [p[0], p[1], p[2]]).collect()));
         }
         let begin = Instant::now();
-        renderer.prepare(&FrameInput { camera, time, placed: Vec::new(), settings });
+        renderer.prepare(&FrameInput { camera, time, placed: Vec::new(), aurora: None, settings });
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &self.output);
         self.gpu.queue.submit([encoder.finish()]);
