@@ -10,12 +10,15 @@ mod measure_charts;
 mod measure_compare;
 mod measure_project;
 mod measure_projection;
+mod measure_thin_disk;
 mod reference_bvh_build;
 mod reference_bvh_rays;
 mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
+#[cfg(feature = "game")]
+mod render_aurora;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]

@@ -272,3 +272,45 @@ fn a_camera_sees_where_it_looks() {
         assert!(camera.seen_at(-look).is_none_or(|(place, _)| (place[0] - x).hypot(place[1] - y) > 1.0));
     }
 }
+
+#[test]
+fn stars_are_seen_where_shooting_sees_them() {
+    use glam::Vec3;
+    use lensrunner::reference::picture::shade::Shift;
+    use lensrunner::reference::picture::sky::stars;
+    use lensrunner::reference::shoot_sky;
+    use lensrunner::scene::stars::Star;
+    let mut rng = StdRng::seed_from_u64(17);
+    let mut seen = [0; 3];
+    for radius in [0.6, 1.2, 8.0] {
+        let camera = Camera {
+            position: DVec3::Z * radius,
+            momentum: DVec3::ZERO,
+            attitude: DQuat::IDENTITY,
+            field_of_view: 2.4,
+            size: [1000, 1000],
+        };
+        for _ in 0..30 {
+            let direction = any_direction(&mut rng);
+            let star = Star { direction: direction.as_vec3().normalize(), flux: 1.0, temperature: 6000.0 };
+            let spots = stars(&[star], &camera, true, 1e-14, 1.0, Shift { doppler: true, beaming: true });
+            let direction = star.direction.as_dvec3().normalize();
+            let across = DVec3::new(direction.x, direction.y, 0.0);
+            let phi = across.length().atan2(direction.z);
+            for order in 1..=2u32 {
+                let Some(sighting) = shoot_sky(phi, radius, order, 1e-15) else { continue };
+                let side = across.normalize() * if order == 2 { -1.0 } else { 1.0 };
+                let look = DVec3::Z * sighting.psi_rain.cos() + side * sighting.psi_rain.sin();
+                let Some((place, _)) = camera.seen_at(look) else { continue };
+                let near =
+                    spots.iter().map(|spot| (spot.place[0] - place[0]).hypot(spot.place[1] - place[1])).fold(f64::INFINITY, f64::min);
+                if (0.0..1000.0).contains(&place[0]) && (0.0..1000.0).contains(&place[1]) {
+                    assert!(near < 1e-5, "radius {radius}, order {order}, Φ {phi}: {near} px off");
+                    seen[order as usize] += 1;
+                }
+            }
+            assert!(spots.iter().all(|spot| spot.light.min_element() >= 0.0 && spot.light != Vec3::ZERO));
+        }
+    }
+    assert!(seen[1] > 10 && seen[2] > 10, "{seen:?}");
+}

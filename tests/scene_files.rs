@@ -131,3 +131,16 @@ fn a_camera_without_momentum_is_at_rest() {
     let Mount::Falling(state) = inside.camera.mount else { panic!() };
     assert_eq!(state.momentum.length(), 0.0);
 }
+
+/// Every example of docs/scenes.md is a scene.
+#[test]
+fn the_documented_examples_are_scenes() {
+    let text = include_str!("../docs/scenes.md");
+    let examples: Vec<&str> = text.split("```toml").skip(1).filter_map(|rest| rest.split("```").next()).collect();
+    assert!(examples.len() >= 5);
+    for example in examples {
+        if let Err(wrong) = lensrunner::scene::Scene::from_toml(std::path::Path::new("docs/scenes.md"), example) {
+            panic!("{wrong}");
+        }
+    }
+}

@@ -287,6 +287,7 @@ fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
 }
 
 const INSIDE_STEPS: u32 = 6u;
+const INSIDE_CLOSE: f32 = 3e-7;
 const INSIDE_ROOT: f32 = 0.12;
 /// Nodes and weights of Gauss's rule of twelve, one half.
 const INSIDE_NODES = array<vec2<f32>, 6>(
@@ -354,8 +355,11 @@ fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
     var path = Path(0.0, 0.0, 0.0);
     for (var i = 0u; i <= INSIDE_STEPS; i++) {
         path = inside_path(q, l, r, zl, zr, dr);
+        let turn = path.sweep / sweep;
+        if abs(turn - 1.0) < INSIDE_CLOSE {
+            break;
+        }
         if i < INSIDE_STEPS {
-            let turn = path.sweep / sweep;
             q = max(q - 0.5 * (turn * turn - 1.0) * path.sweep / path.by_square, 0.0);
         }
     }

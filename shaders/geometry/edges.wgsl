@@ -38,6 +38,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
+    var whole = true;
     // A short edge needs no measuring. Away from the axis it bends for two reasons: aberration and delay are not linear, by θ²/8 at most for an
     // edge seen under θ; and light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both are
     // held under a quarter of the budget, the tide with another factor of 3 for the shear of images near the ring.
@@ -62,9 +63,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             if radial {
                 query = query_fan(apex, outer, t);
             }
-            points[k] = answer(placement, query, order).ray.apparent;
+            let found = answer(placement, query, order).ray;
+            points[k] = found.apparent;
+            whole = whole && found.valid;
         }
-        error = chord_error(points[0], points[1], points[2], points[3], points[4]);
+        // Where a part of the edge is not seen its image ends; no splitting finds more of it.
+        error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
     edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement), 1.0)), bitcast<f32>(0u), 0.0, error);
 }

@@ -15,6 +15,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     measure(piece, placement, triangle);
     model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
         bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
+    if unseen {
+        // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
+        emit_work(piece, vec4<u32>(1u), 1u, 1u);
+        return;
+    }
     if piece.what.z == PIECE_FAN {
         refine_fan(piece, 1u - queue);
     } else {
@@ -25,6 +30,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
 /// What was measured of a piece: its points as they are seen, and for a fan their offsets.
 var<private> points: array<vec3<f32>, 17>;
 var<private> offsets: array<vec3<f32>, 6>;
+/// Whether one of them is not seen.
+var<private> unseen: bool;
 
 /// `strictness` of the placement.
 var<private> strict: f32;
@@ -69,6 +76,7 @@ fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
         }
         let found = answer(placement, query, placement.ids.x);
         points[k] = found.ray.apparent;
+        unseen = unseen || !found.ray.valid;
         if k < 6u {
             offsets[k] = found.offset;
         }

@@ -207,7 +207,8 @@ pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mu
         let eye = view.eye(request.size, table);
         for &radius in &request.radii {
             let splat = Splat { radius, table: true };
-            let truths: Vec<Picture> = sheets.iter().map(|sheet| truth(view, &eye, sheet, &falls, splat, &gaussian)).collect();
+            let judge = request.counts.iter().max().map_or(JUDGE[0], |&count| (10u32.saturating_mul(count)).clamp(JUDGE[0], JUDGE[1]));
+            let truths: Vec<Picture> = sheets.iter().map(|sheet| truth(view, &eye, sheet, &falls, splat, judge, &gaussian)).collect();
             for &count in &request.counts {
                 report(&format!("{name}, {count} electrons, splats of {radius} km"));
                 rows.extend(case((view, name), &eye, (sheets, &truths), &falls, count, splat, &gaussian, request.repeats, runners));
@@ -217,13 +218,16 @@ pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mu
     rows
 }
 
-/// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: 150,000 electrons of
+/// Electrons of the judge through bent light, at least and at most.
+const JUDGE: [u32; 2] = [10_000, 150_000];
+
+/// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge` electrons of
 /// another seed.
-fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, gaussian: &Gaussian) -> Picture {
+fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, judge: u32, gaussian: &Gaussian) -> Picture {
     if view != View::Bent {
         return Emission::new(sheet, falls, splat).picture(eye, 0.5 * f64::from(splat.radius).min(1.5));
     }
-    let streaks = Sheet { seed: sheet.seed + 7000, ..sheet.clone() }.streaks(150_000);
+    let streaks = Sheet { seed: sheet.seed + 7000, ..sheet.clone() }.streaks(judge);
     let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed + 7000, splat };
     draw(VARIANTS[4], &job, gaussian).picture
 }

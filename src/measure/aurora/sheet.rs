@@ -80,7 +80,7 @@ pub fn row_reach(row: usize) -> f64 {
 }
 
 /// The row nearest to a reach.
-fn reach_row(reach: f64) -> usize {
+pub(super) fn reach_row(reach: f64) -> usize {
     let s = (reach / REACHES[0]).ln() / (REACHES[1] / REACHES[0]).ln();
     (s * (FALLS - 1) as f64).round().clamp(0.0, (FALLS - 1) as f64) as usize
 }

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::eye::Eye;
-use super::sheet::{BOTTOM, FALLS, Falls, LEVELS, Sheet, TOP, field_direction, level_height};
+use super::sheet::{BOTTOM, FALLS, Falls, LEVELS, Sheet, TOP, field_direction, level_height, reach_row};
 use super::splat::{Picture, Splat};
 use crate::scene::aurora::dipole::REFERENCE_HEIGHT;
 use crate::scene::aurora::{fall, lines};
@@ -13,7 +13,7 @@ use crate::scene::aurora::{fall, lines};
 /// Spacing of the map of the flux, km.
 const CELL: f64 = 0.5;
 /// Points laid on the map for each curve.
-const SEEDS: u32 = 400_000;
+const SEEDS: u32 = 150_000;
 /// Spacing of the profile of the light, km.
 const LAYER: f64 = 0.25;
 
@@ -125,7 +125,7 @@ fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 
         let [u, v, w, mu] = [0.856_674_883_854_502_8, 0.733_891_856_627_126, 0.628_706_721_037_75, 0.538_597_257_252_6].map(at);
         let energy = sheet.spectrum.energy(1.0 - u, 1.0 - v, w);
         let reach = fall::slope(mu) * fall::range(energy);
-        let row = (0..FALLS).collect::<Vec<_>>().partition_point(|&row| super::sheet::row_reach(row) < reach).min(FALLS - 1);
+        let row = reach_row(reach);
         weights[row] += energy / crate::scene::aurora::deposition::PAIR_ENERGY / f64::from(draws);
     }
     let count = ((TOP + 10.0 - bottom) / LAYER) as usize;

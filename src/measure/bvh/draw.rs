@@ -91,7 +91,8 @@ fn against_obvhs(sheet: &Sheet, scenes: &[&str], title: &str, methods: &[(&str, 
     let series = methods.iter().map(|&(method, kind, packet)| {
         let values: Vec<_> = scenes.iter().map(|scene| Some(speed(sheet, scene, method, kind, packet, "times_obvhs"))).collect();
         let size = if packet > 1 { format!(" {packet} × {packet}") } else { String::new() };
-        let name = if kind == "primary" { format!("{method}{}", if method == "ours" { &size } else { "" }) } else { format!("{kind}, {method}") };
+        let name =
+            if kind == "primary" { format!("{method}{}", if method == "ours" { &size } else { "" }) } else { format!("{kind}, {method}") };
         Series { name, values }
     });
     let series = series.filter(|s: &Series| s.values.iter().flatten().any(|v| v.is_finite())).collect();

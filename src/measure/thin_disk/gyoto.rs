@@ -55,7 +55,7 @@ fn scenery(screen: &Screen, ring: &Ring, tolerance: f64) -> String {
   <AbsTol>{tolerance:e}</AbsTol>
   <RelTol>{tolerance:e}</RelTol>
   <MinimumTime>-1000.</MinimumTime>
-  <Quantities>User4 Redshift ImpactCoords</Quantities>
+  <Quantities>Redshift ImpactCoords</Quantities>
 </Scenery>
 ",
         2.0 * screen.radius,
@@ -70,9 +70,9 @@ fn scenery(screen: &Screen, ring: &Ring, tolerance: f64) -> String {
 /// Radius and redshift of each pixel from the FITS file.
 fn impacts(fits: &[u8], screen: &Screen) -> Result<Vec<Impact>, String> {
     let count = screen.pixels * screen.pixels;
-    let shift = plane(fits, "Gyoto Redshift", count)?;
-    // Eight coordinates of the disk's matter, then eight of the light: t, r, θ, φ and their rates.
-    let coordinates = plane(fits, "Gyoto ImpactCoords", 16 * count)?;
+    // The first array has the redshift alone. Eight coordinates of the disk's matter, then eight of the light: t, r, θ, φ and their rates.
+    let shift = plane(fits, "SIMPLE", count)?;
+    let coordinates = plane(fits, "Gyoto Impact Coordinates", 16 * count)?;
     Ok((0..count)
         .map(|i| {
             let (radius, g) = (0.5 * coordinates[16 * i + 1], shift[i]);
@@ -85,7 +85,7 @@ fn impacts(fits: &[u8], screen: &Screen) -> Result<Vec<Impact>, String> {
         .collect())
 }
 
-/// The numbers of one plane: image extensions have the plane's name in a keyword of their header (FITS standard 4.0, sections 3 and 7.1).
+/// The numbers of the array whose header has `name` (the first has SIMPLE, extensions a name of their own; FITS standard 4.0, sections 3 and 7.1).
 fn plane(fits: &[u8], name: &str, count: usize) -> Result<Vec<f64>, String> {
     let mut at = 0;
     while at + 2880 <= fits.len() {

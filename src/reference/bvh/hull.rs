@@ -30,6 +30,12 @@ impl Hull {
         Hull { offsets: join(self.offsets, other.offsets), slopes: join(self.slopes, other.slopes) }
     }
 
+    /// Whether the slopes differ by less than `spread` along x and along y.
+    #[inline(always)]
+    pub fn is_narrow(&self, spread: f32) -> bool {
+        self.slopes.iter().all(|[least, greatest]| greatest - least < spread)
+    }
+
     /// Whether the slopes are finite and gentle.
     #[inline(always)]
     pub fn is_gentle(&self) -> bool {
