@@ -4,7 +4,6 @@ use glam::{DVec2, DVec3};
 use lensrunner::lensing;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
-use lensrunner::render::sky::Panorama;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::render::{Renderer, layout, readback};
 use lensrunner::scene::aurora::dipole::on_field_line;
