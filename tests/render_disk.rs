@@ -245,7 +245,7 @@ fn the_picture_is_the_exact_one() {
         let eye =
             Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
         let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 2);
-        let error = disk::compare(&got, &truth);
+        let error = disk::compare(&got, &truth, size);
         println!("L = {l}, {degrees}°: {error:?}");
         assert!(error.psnr > least, "L = {l}, {degrees}°: PSNR is {} dB", error.psnr);
     }

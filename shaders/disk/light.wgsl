@@ -23,7 +23,9 @@ fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
     }
     // Over a tenth of T: where light falls off fast, the mean slope over what streaks do to the temperature.
     let above = blackbody_rgb(exp(shown + 0.1));
-    // Cold gas is black, whatever its slope; 45 is that of blue light at 700 K.
-    let slope = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
+    // Cold gas is black, whatever its slope: 45 is that of blue light at 700 K. By Wien's law slopes are as the inverse wavelengths of the channels;
+    // the table's blue, held above zero where there is hardly any, would be steeper.
+    let steep = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
+    let slope = min(steep, steep.x * vec3<f32>(1.0, 1.12, 1.33));
     return GasLight(shown, min(rgb * gain, vec3<f32>(6e4)), slope);
 }

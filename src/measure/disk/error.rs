@@ -1,5 +1,7 @@
 //! How far a picture is from the truth, in linear light.
 
+use crate::measure::flip::flip;
+
 /// The error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureError {
@@ -7,10 +9,12 @@ pub struct PictureError {
     pub psnr: f64,
     /// Mean of |difference| over mean of the truth.
     pub relative: f64,
+    /// Mean ꟻLIP, 0 to 1, of both pictures exposed so that the peak is white.
+    pub flip: f64,
 }
 
-/// Compares linear pictures of one size.
-pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]]) -> PictureError {
+/// Compares linear pictures of `size` pixels.
+pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2]) -> PictureError {
     let mut brightness: Vec<f32> = truth.iter().map(|p| 0.2127 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).collect();
     brightness.sort_by(f32::total_cmp);
     let peak = brightness.get((brightness.len() as f64 * 0.999) as usize).copied().unwrap_or(1.0).max(1e-20);
@@ -22,5 +26,8 @@ pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]]) -> PictureError {
         whole += f64::from(b.min(peak));
     }
     let mean = square / (3 * truth.len().max(1)) as f64;
-    PictureError { psnr: 10.0 * (f64::from(peak).powi(2) / mean.max(1e-30)).log10(), relative: off / whole.max(1e-30) }
+    let exposed = |picture: &[[f32; 3]]| -> Vec<[f32; 3]> { picture.iter().map(|p| p.map(|light| light / peak)).collect() };
+    let differences = flip(&exposed(truth), &exposed(got), size);
+    let flip = differences.iter().map(|&d| f64::from(d)).sum::<f64>() / differences.len().max(1) as f64;
+    PictureError { flip, psnr: 10.0 * (f64::from(peak).powi(2) / mean.max(1e-30)).log10(), relative: off / whole.max(1e-30) }
 }
