@@ -25,7 +25,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             .into(),
         panels,
         columns: 3,
-        size: [1650, 1720],
+        size: [1400, 1460],
         footer: Provenance::footer(&sheet.notes),
     }
 }
