@@ -12,12 +12,12 @@ pub fn draw(sheet: &Sheet) -> Figure {
     panels.push(one_method(sheet, &scenes, "split 4", "Split in 4 (figure 4.8)"));
     panels.push(one_method(sheet, &scenes, "ours", "Ours: packet and tree descended together"));
     let singles: Vec<_> = ["bvh", "obvhs", "Embree", "tree of two", "tree of eight"].map(|m| (m, "primary", 1)).to_vec();
-    panels.push(against_obvhs(sheet, &scenes, "Single rays, in obvhs' speed", &singles));
+    panels.extend(against_obvhs(sheet, &scenes, "Single rays, in obvhs' speed", &singles));
     let packets = [("obvhs", "primary", 1), ("Embree 8", "primary", 8), ("Embree 16", "primary", 16)];
     let packets: Vec<_> = packets.into_iter().chain([8, 16, 32, 64].map(|size| ("ours", "primary", size))).collect();
-    panels.push(against_obvhs(sheet, &scenes, "Packets, in the speed of obvhs' single rays", &packets));
+    panels.extend(against_obvhs(sheet, &scenes, "Packets, in the speed of obvhs' single rays", &packets));
     let kinds = [("ours", "shadow", 32), ("ours", "mirrored", 32), ("ours", "scattered", 32), ("tree of eight", "scattered", 1)];
-    panels.push(against_obvhs(sheet, &scenes, "Secondary rays, in obvhs' speed", &kinds));
+    panels.extend(against_obvhs(sheet, &scenes, "Secondary rays, in obvhs' speed", &kinds));
     Figure {
         title: "Straight rays: paper 4 reproduced and beaten".into(),
         subtitle: "One thread, 1024 × 768 rays, closest hit, all in one process, medians of interleaved runs; ray set-up and planes are in the time.\n\
@@ -25,7 +25,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             .into(),
         panels,
         columns: 3,
-        size: [1650, 1720],
+        size: [1400, 1460],
         footer: Provenance::footer(&sheet.notes),
     }
 }
@@ -87,7 +87,8 @@ fn one_method(sheet: &Sheet, scenes: &[&str], method: &str, title: &str) -> Pane
     Panel::Lines(Lines { title: title.into(), x: sizes(), y: Axis::log("ms for a million rays"), lines, ..Lines::default() })
 }
 
-fn against_obvhs(sheet: &Sheet, scenes: &[&str], title: &str, methods: &[(&str, &str, usize)]) -> Panel {
+/// None where nothing of it was measured.
+fn against_obvhs(sheet: &Sheet, scenes: &[&str], title: &str, methods: &[(&str, &str, usize)]) -> Option<Panel> {
     let series = methods.iter().map(|&(method, kind, packet)| {
         let values: Vec<_> = scenes.iter().map(|scene| Some(speed(sheet, scene, method, kind, packet, "times_obvhs"))).collect();
         let size = if packet > 1 { format!(" {packet} × {packet}") } else { String::new() };
@@ -95,13 +96,15 @@ fn against_obvhs(sheet: &Sheet, scenes: &[&str], title: &str, methods: &[(&str, 
             if kind == "primary" { format!("{method}{}", if method == "ours" { &size } else { "" }) } else { format!("{kind}, {method}") };
         Series { name, values }
     });
-    let series = series.filter(|s: &Series| s.values.iter().flatten().any(|v| v.is_finite())).collect();
-    Panel::Bars(Bars {
-        title: title.into(),
-        y: Axis::linear("times obvhs"),
-        groups: scenes.iter().map(|s| (*s).to_owned()).collect(),
-        series,
-        guides: vec![Guide { at: 1.0, label: "obvhs".into() }],
-        values: true,
+    let series: Vec<_> = series.filter(|s: &Series| s.values.iter().flatten().any(|v| v.is_finite())).collect();
+    (!series.is_empty()).then(|| {
+        Panel::Bars(Bars {
+            title: title.into(),
+            y: Axis::linear("times obvhs"),
+            groups: scenes.iter().map(|s| (*s).to_owned()).collect(),
+            series,
+            guides: vec![Guide { at: 1.0, label: "obvhs".into() }],
+            values: true,
+        })
     })
 }

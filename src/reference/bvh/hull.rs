@@ -17,17 +17,23 @@ pub(super) struct Hull {
     pub offsets: [[f32; 2]; 2],
     /// [x, y]: least and largest slope.
     pub slopes: [[f32; 2]; 2],
+    /// Where the first ray starts and where the last one ends, along z.
+    pub depth: [f32; 2],
 }
 
 impl Hull {
     /// Holds nothing.
-    pub const EMPTY: Hull = Hull { offsets: [[f32::INFINITY, f32::NEG_INFINITY]; 2], slopes: [[f32::INFINITY, f32::NEG_INFINITY]; 2] };
+    pub const EMPTY: Hull = {
+        let nothing = [f32::INFINITY, f32::NEG_INFINITY];
+        Hull { offsets: [nothing; 2], slopes: [nothing; 2], depth: nothing }
+    };
 
     /// The hull of both.
     #[inline(always)]
     pub fn union(&self, other: &Hull) -> Hull {
-        let join = |a: [[f32; 2]; 2], b: [[f32; 2]; 2]| std::array::from_fn(|i| [a[i][0].min(b[i][0]), a[i][1].max(b[i][1])]);
-        Hull { offsets: join(self.offsets, other.offsets), slopes: join(self.slopes, other.slopes) }
+        let join = |a: [f32; 2], b: [f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
+        let both = |a: [[f32; 2]; 2], b: [[f32; 2]; 2]| [join(a[0], b[0]), join(a[1], b[1])];
+        Hull { offsets: both(self.offsets, other.offsets), slopes: both(self.slopes, other.slopes), depth: join(self.depth, other.depth) }
     }
 
     /// Whether the slopes differ by less than `spread` along x and along y.
@@ -66,6 +72,8 @@ pub(super) struct Planes<L> {
     enter: L,
     leave: L,
     front: L,
+    start: L,
+    end: f32,
 }
 
 impl<L: Lanes> Planes<L> {
@@ -82,6 +90,8 @@ impl<L: Lanes> Planes<L> {
             enter: L::splat(axes.front + shift),
             leave: L::splat(axes.front - shift),
             front: L::splat(axes.front),
+            start: L::splat((hull.depth[0] - axes.widening).max(0.0)),
+            end: hull.depth[1] + axes.widening,
         }
     }
 
@@ -90,10 +100,10 @@ impl<L: Lanes> Planes<L> {
     pub fn boxes(&self, node: &Wide8, until: f32) -> (u32, L) {
         let [x, y, z] = self.axes.axes;
         let first = usize::from(self.axes.sign < 0.0);
-        let zero = L::splat(0.0);
-        let near = L::load(&node.bounds[z][first]).sub(self.enter).mul(self.sign).max(zero);
+        // Nothing is met before the first ray starts.
+        let near = L::load(&node.bounds[z][first]).sub(self.enter).mul(self.sign).max(self.start);
         let far = L::load(&node.bounds[z][1 - first]).sub(self.leave).mul(self.sign);
-        let mut met = near.at_most(far).and(near.at_most(L::splat(until)));
+        let mut met = near.at_most(far).and(near.at_most(L::splat(until.min(self.end))));
         for (k, axis) in [x, y].into_iter().enumerate() {
             let [[a, b], [s, r]] = [self.offsets[k], self.slopes[k]];
             let low = a.add(s.mul(near).min(s.mul(far)));

@@ -18,6 +18,10 @@ const GROUP: usize = 8;
 /// A node is kept closed while a packet reaches at least this many of its children: its parts will throw away more.
 const CLOSED: u32 = 4;
 
+/// Eight rays that have looked at this many nodes and blocks together share too little (rays from an eye look at about ten), and go on one by one.
+/// That costs at most twice the time of single rays.
+const PATIENCE: u32 = 40;
+
 /// Packets whose slopes differ by more do not sift: they reach almost everything.
 const SIFTED: f32 = 0.5;
 
@@ -180,7 +184,8 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
         let eight = eight(rays, &mut spare);
         let along = lanes::<L>(eight, |r| r.direction[z]).mul(L::splat(sign));
         let depth = lanes::<L>(eight, |r| r.origin[z]).sub(L::splat(front)).mul(L::splat(sign));
-        let mut hull = Hull::EMPTY;
+        let end = depth.add(along.mul(lanes::<L>(eight, |r| r.until)));
+        let mut hull = Hull { depth: [depth.least(), end.greatest()], ..Hull::EMPTY };
         for k in 0..2 {
             let axis = axes.axes[k];
             let slope = lanes::<L>(eight, |r| r.direction[axis]).div(along);
@@ -378,7 +383,8 @@ fn group<L: Lanes>(
 ) {
     let mut spare = [rays[0]; GROUP];
     let mut group = Group::<L>::new(eight(rays, &mut spare), axes);
-    let mut until = f32::INFINITY;
+    let mut until = group.deepest() + axes.widening;
+    let mut looks = 0;
     for item in items {
         let mut only = item.children;
         stack[0] = (item.node, 0.0);
@@ -388,6 +394,10 @@ fn group<L: Lanes>(
             let (at, near) = stack[height];
             if near > until {
                 continue;
+            }
+            looks += 1;
+            if looks > PATIENCE {
+                return wide.each::<false>(rays, hits, stack);
             }
             if at & LEAF == 0 {
                 let node = &wide.nodes[at as usize];
