@@ -91,25 +91,6 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement) {
     indices[slot + 2u] = i2;
 }
 
-/// Hands a tame piece to the mesh stage, or where the buffers are full (but for the fifth that is kept back) draws it as coarse as can be.
-fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) {
-    let most = frame.capacity - frame.capacity / 5u;
-    if !emit_blocks(piece, levels, rows, columns, most) {
-        emit_coarse(piece);
-    }
-}
-
-/// A piece without any subdivision, from what is kept back; if that is used up too, the triangle of the model that it is a part of.
-fn emit_coarse(piece: Piece) {
-    atomicAdd(&counters.coarse, 1u);
-    let placement = placements[piece.what.x];
-    let corners = model_triangles[piece.what.y].vertices.xyz + vec3<u32>(placement.ids.z);
-    let whole = piece.what.z == PIECE_TRIANGLE && piece.what.w == 0u;
-    if whole || !emit_blocks(piece, vec4<u32>(1u), 1u, 1u, frame.capacity) {
-        emit_triangle(corners.x, corners.y, corners.z, placement);
-    }
-}
-
 /// Room for the blocks of a piece is taken here, so that a full buffer is noticed while a coarser way is left. False if there is less than
 /// `most` allows.
 fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: vec4<u32>) -> bool {
@@ -153,16 +134,87 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
     return true;
 }
 
-/// Puts a piece into the queue that the next pass of splitting reads.
-fn emit_piece(queue: u32, placement: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
+/// What a thread hands on. It is first collected, then handed over in one loop: compilers copy functions into every call, and with a call for
+/// each piece two passes took half a minute to compile.
+struct Handed {
+    piece: Piece,
+    levels: vec4<u32>,
+    /// Rows and columns of the grid; z: HANDED_*.
+    grid: vec4<u32>,
+}
+
+/// To be split further.
+const HANDED_PIECE: u32 = 0u;
+/// To the mesh stage.
+const HANDED_WORK: u32 = 1u;
+/// The triangle of the model, as it is.
+const HANDED_TRIANGLE: u32 = 2u;
+
+var<private> handed: array<Handed, 4>;
+var<private> handed_count: u32 = 0u;
+
+fn hand(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, kind: u32) {
+    handed[min(handed_count, 3u)] = Handed(piece, levels, vec4<u32>(rows, columns, kind, 0u));
+    handed_count += 1u;
+}
+
+/// For the queue that the next pass of splitting reads.
+fn emit_piece(placement: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
     let piece = Piece(vec4<u32>(placement, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
-    let slot = atomicAdd(&counters.pieces[queue], 1u);
-    if slot >= frame.capacity.z {
-        atomicSub(&counters.pieces[queue], 1u);
-        emit_coarse(piece);
-        return;
+    hand(piece, vec4<u32>(1u), 1u, 1u, HANDED_PIECE);
+}
+
+/// For the mesh stage.
+fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) {
+    hand(piece, levels, rows, columns, HANDED_WORK);
+}
+
+/// The triangle of the model as it is.
+fn emit_whole(placement: u32, triangle: u32) {
+    let none = vec4<f32>(0.0);
+    hand(Piece(vec4<u32>(placement, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
+}
+
+/// Hands over what was collected; pieces go to `queue`. Where the buffers are full, but for the fifth that is kept back, a piece is drawn
+/// without any subdivision; if that is used up too, the triangle of the model that it is a part of.
+fn hand_over(queue: u32) {
+    for (var k = 0u; k < min(handed_count, 4u); k++) {
+        let item = handed[k];
+        let piece = item.piece;
+        let kind = item.grid.z;
+        var done = false;
+        if kind == HANDED_PIECE {
+            let slot = atomicAdd(&counters.pieces[queue], 1u);
+            if slot < frame.capacity.z {
+                pieces[queue * frame.capacity.z + slot] = piece;
+                done = true;
+            } else {
+                atomicSub(&counters.pieces[queue], 1u);
+            }
+        }
+        let whole = piece.what.z == PIECE_TRIANGLE && piece.what.w == 0u;
+        // First as asked, then as coarse as can be.
+        for (var attempt = select(1u, 0u, kind == HANDED_WORK); attempt < 2u; attempt++) {
+            if done || kind == HANDED_TRIANGLE {
+                break;
+            }
+            let coarse = attempt == 1u;
+            if coarse {
+                atomicAdd(&counters.coarse, 1u);
+                if whole {
+                    break;
+                }
+            }
+            let room = select(frame.capacity - frame.capacity / 5u, frame.capacity, coarse);
+            let size = select(item.grid.xy, vec2<u32>(1u), coarse);
+            done = emit_blocks(piece, select(item.levels, vec4<u32>(1u), coarse), size.x, size.y, room);
+        }
+        if !done {
+            let placement = placements[piece.what.x];
+            let corners = model_triangles[piece.what.y].vertices.xyz + vec3<u32>(placement.ids.z);
+            emit_triangle(corners.x, corners.y, corners.z, placement);
+        }
     }
-    pieces[queue * frame.capacity.z + slot] = piece;
 }
 
 /// Whether a patch with these corners is off the screen for sure: all beyond one side by more than its sag.

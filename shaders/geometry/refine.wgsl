@@ -18,13 +18,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     if unseen && (frame.switches.x & FLAG_INSIDE) != 0u {
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
-        return;
-    }
-    if piece.what.z == PIECE_FAN {
-        refine_fan(piece, 1u - queue);
+    } else if piece.what.z == PIECE_FAN {
+        refine_fan(piece);
     } else {
-        refine_triangle(piece, 1u - queue);
+        refine_triangle(piece);
     }
+    hand_over(1u - queue);
 }
 
 /// What was measured of a piece: its points as they are seen, and for a fan their offsets.
@@ -94,7 +93,7 @@ fn side_error(side: u32) -> f32 {
     return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
 }
 
-fn refine_triangle(piece: Piece, queue: u32) {
+fn refine_triangle(piece: Piece) {
     let c0 = piece.corner_0.xyz;
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
@@ -125,36 +124,36 @@ fn refine_triangle(piece: Piece, queue: u32) {
     let k = PIECE_TRIANGLE;
     let count = u32(split_0) + u32(split_1) + u32(split_2);
     if count == 3u {
-        emit_piece(queue, p, t, k, d, c0, m2, m1);
-        emit_piece(queue, p, t, k, d, m2, c1, m0);
-        emit_piece(queue, p, t, k, d, m1, m0, c2);
-        emit_piece(queue, p, t, k, d, m0, m1, m2);
+        emit_piece(p, t, k, d, c0, m2, m1);
+        emit_piece(p, t, k, d, m2, c1, m0);
+        emit_piece(p, t, k, d, m1, m0, c2);
+        emit_piece(p, t, k, d, m0, m1, m2);
     } else if count == 2u {
         // Turned so that the whole edge is a–b, opposite to c.
         var a = c0; var b = c1; var c = c2; var ma = m0; var mb = m1;
         if !split_0 { a = c1; b = c2; c = c0; ma = m1; mb = m2; }
         else if !split_1 { a = c2; b = c0; c = c1; ma = m2; mb = m0; }
-        emit_piece(queue, p, t, k, d, c, mb, ma);
-        emit_piece(queue, p, t, k, d, mb, a, ma);
-        emit_piece(queue, p, t, k, d, a, b, ma);
+        emit_piece(p, t, k, d, c, mb, ma);
+        emit_piece(p, t, k, d, mb, a, ma);
+        emit_piece(p, t, k, d, a, b, ma);
     } else {
         var a = c0; var b = c1; var c = c2; var m = m0;
         if split_1 { a = c1; b = c2; c = c0; m = m1; }
         else if split_2 { a = c2; b = c0; c = c1; m = m2; }
-        emit_piece(queue, p, t, k, d, a, b, m);
-        emit_piece(queue, p, t, k, d, a, m, c);
+        emit_piece(p, t, k, d, a, b, m);
+        emit_piece(p, t, k, d, a, m, c);
     }
 }
 
-fn refine_fan(piece: Piece, queue: u32) {
+fn refine_fan(piece: Piece) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
     let outer = level_between(c1, c2, chord_error(points[1], points[3], points[4], points[5], points[2]));
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {
         let m = edge_point(c1, c2, 0.5);
-        emit_piece(queue, piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, c1, m);
-        emit_piece(queue, piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, c1, m);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;
     }
     let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);

@@ -8,12 +8,15 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let placement = placements[chunk.placement];
-    let local = chunk.first + lane;
-    if local >= placement.triangles.y {
-        return;
+    if chunk.first + lane < placements[chunk.placement].triangles.y {
+        decide(chunk, lane);
+        hand_over(0u);
     }
-    let number = placement.triangles.x + local;
+}
+
+fn decide(chunk: Chunk, lane: u32) {
+    let placement = placements[chunk.placement];
+    let number = placement.triangles.x + chunk.first + lane;
     let triangle = model_triangles[number];
     let order = placement.ids.x;
     let base = placement.ids.z;
@@ -29,7 +32,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     if METHOD_FILTERS {
         if area_ratio(slots, o0.xyz, o1.xyz, o2.xyz) <= LARGEST_AREA_RATIO {
-            emit_triangle(slots.x, slots.y, slots.z, placement);
+            emit_whole(chunk.placement, number);
         }
         return;
     }
@@ -88,7 +91,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     if most <= 1u {
-        emit_triangle(slots.x, slots.y, slots.z, placement);
+        emit_whole(chunk.placement, number);
         return;
     }
     if most <= BLOCK {
@@ -96,7 +99,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
-    emit_piece(0u, chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+    emit_piece(chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
 }
 
 /// Paper 1: a triangle larger than this times its size without the hole is not drawn.
@@ -141,12 +144,12 @@ fn cut(placement: u32, number: u32, apex: vec3<f32>, first: vec3<f32>, second: v
     atomicAdd(&counters.cut, 1u);
     let third = vec3<f32>(1.0) - first - second;
     if one {
-        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, first, second);
+        emit_piece(placement, number, PIECE_FAN, 0u, apex, first, second);
     }
     if two {
-        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, second, third);
+        emit_piece(placement, number, PIECE_FAN, 0u, apex, second, third);
     }
     if three {
-        emit_piece(0u, placement, number, PIECE_FAN, 0u, apex, third, first);
+        emit_piece(placement, number, PIECE_FAN, 0u, apex, third, first);
     }
 }

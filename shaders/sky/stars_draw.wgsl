@@ -9,11 +9,11 @@ struct Spot {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32) -> Spot {
-    let star = seen_stars[instance];
+fn vertex(@builtin(vertex_index) i: u32) -> Spot {
+    let star = seen_stars[i / 6u];
     let corners = array<vec2<f32>, 6>(vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, -1.0), vec2<f32>(1.0, 1.0),
         vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, 1.0), vec2<f32>(-1.0, 1.0));
-    let corner = corners[i] * star.place.z;
+    let corner = corners[i % 6u] * star.place.z;
     // A depth just nearer than the sky's: everything solid hides it.
     return Spot(vec4<f32>(star.place.xy + corner * 2.0 / frame.size.xy, 1e-12, 1.0), corner, star.colour.rgb);
 }

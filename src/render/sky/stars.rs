@@ -165,7 +165,7 @@ impl Stars {
             let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
             self.project_group = project_bindings(&gpu.device, &self.project_layout, buffers);
         }
-        gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+        gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[0u32, 1, 0, 0]));
     }
 
     /// Projects the stars that may be seen.
