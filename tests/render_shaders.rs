@@ -155,3 +155,26 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         }
     }
 }
+
+/// The Milky Way lies among the stars as its file says: neither mirrored nor turned.
+#[test]
+fn the_panorama_is_the_same_in_both_languages() {
+    let tail = format!(
+        "{ROWS}
+@compute @workgroup_size(64)
+fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if id.x >= arrayLength(&twin_rows) {{ return; }}
+    twin_out[id.x] = vec4<f32>(panorama_place(twin_rows[id.x].xyz), 0.0 * sky_slice[0].xy);
+}}"
+    );
+    let mut random = StdRng::seed_from_u64(5);
+    let directions: Vec<glam::Vec3> =
+        (0..300).map(|_| glam::Vec3::from_array(std::array::from_fn(|_| random.random_range(-1.0..1.0))).normalize()).collect();
+    let rows: Vec<[f32; 4]> = directions.iter().map(|d| d.extend(0.0).to_array()).collect();
+    let out = run(Pass::Background, &tail, [&[], &[[1.0; 4]]], &rows, 1);
+    for (direction, got) in directions.iter().zip(out) {
+        let want = lensrunner::scene::milky_way::direction_to_uv(*direction);
+        let across = (got[0] - want.x).rem_euclid(1.0);
+        assert!(across.min(1.0 - across) < 1e-5 && (got[1] - want.y).abs() < 1e-4, "{direction}: {got:?}, not {want}");
+    }
+}

@@ -12,6 +12,11 @@ struct SkyView {
     lit: bool,
 }
 
+/// Where a direction (ICRS) lies on the panorama: right ascension grows to the right, the north pole is above.
+fn panorama_place(icrs: vec3<f32>) -> vec2<f32> {
+    return vec2<f32>(fract(atan2(icrs.y, icrs.x) / (2.0 * PI)), acos(clamp(icrs.z, -1.0, 1.0)) / PI);
+}
+
 /// The sky at a place of the screen (normalised device coordinates).
 fn sky_view(ndc: vec2<f32>) -> SkyView {
     let pixel = normalize(vec3<f32>(ndc / frame.projection.xy, -1.0));
@@ -39,8 +44,7 @@ fn sky_view(ndc: vec2<f32>) -> SkyView {
     let size = frame.size.z * max(along, max(sideways, 1e-3)) * doppler;
 
     let icrs = frame.sky_x.xyz * direction.x + frame.sky_y.xyz * direction.y + frame.sky_z.xyz * direction.z;
-    let uv = vec2<f32>(fract(0.5 - atan2(icrs.y, icrs.x) / (2.0 * PI)), acos(clamp(icrs.z, -1.0, 1.0)) / PI);
-    return SkyView(uv, size, sky_ratio(cos_psi, doppler), true);
+    return SkyView(panorama_place(icrs), size, sky_ratio(cos_psi, doppler), true);
 }
 
 /// The level of the panorama, `height` texels high, whose texels are as large as the pixel.
