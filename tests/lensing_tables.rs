@@ -262,6 +262,7 @@ fn the_shader_is_valid() {
     let source = format!(
         "{}\n@group(0) @binding(0) var<storage, read> slice: array<vec4<f32>>;\n\
          @group(0) @binding(1) var<storage, read_write> out: array<vec4<f32>>;\n\
+         const SEES_INSIDE: bool = true;\n\
          fn lens_texel(index: u32) -> vec4<f32> {{ return slice[index]; }}\n\
          @compute @workgroup_size(1) fn main() {{ let ray = lens_lookup(1.0, 2.0, 1u); out[0] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.slope); }}",
         include_str!("../shaders/functions/lensing.wgsl")

@@ -71,7 +71,7 @@ fn every_pass_compiles_by_every_method() {
     for method in Method::ALL {
         for pass in Pass::ALL {
             let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
-            let source = wgpu::ShaderSource::Wgsl(pass.source_by(method).into());
+            let source = wgpu::ShaderSource::Wgsl(pass.source_by(method, true).into());
             let _ = GPU.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
             let error = lensrunner::render::device::wait(scope.pop());
             assert!(error.is_none(), "{method:?} {pass:?}: {}", error.unwrap());

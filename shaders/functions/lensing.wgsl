@@ -10,6 +10,7 @@
 //
 // The twin of src/lensing/formulas.rs, inside.rs and lookup.rs, function for function. No bindings here: the shader that includes
 // this file supplies
+//   const SEES_INSIDE: bool, false in passes that never look from inside the horizon at what is inside: they compile in half the time
 //   fn lens_texel(index: u32) -> vec4<f32>
 // the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
 // delay, turn of w_e, unused), r fastest.
@@ -423,7 +424,7 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         w_e = ray.z;
         let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
         delay = parts.x + parts.z * (parts.y + table.y);
-    } else if cam.room < 0.0 {
+    } else if SEES_INSIDE && cam.room < 0.0 {
         let ray = inside(cam, at, swept, elapsed);
         w = ray.x;
         e = ray.y;

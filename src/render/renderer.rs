@@ -205,8 +205,9 @@ impl Renderer {
         // The slices depend on radius and method alone.
         let method = input.settings.method;
         if self.sliced != (l, method) {
-            if self.sliced.1 != method {
-                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method);
+            let (was_inside, is_inside) = (self.sliced.0 < 1.0, l < 1.0);
+            if self.sliced.1 != method || was_inside != is_inside {
+                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method, is_inside);
                 self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);

@@ -7,6 +7,8 @@ use super::method::Method;
 
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
+const SEES_INSIDE: &str = include_str!("../../shaders/functions/sees_inside.wgsl");
+const SEES_OUTSIDE: &str = include_str!("../../shaders/functions/sees_outside.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
@@ -124,12 +126,14 @@ impl Pass {
 
     /// The whole WGSL source of the pass.
     pub fn source(self) -> String {
-        self.source_by(Method::default())
+        self.source_by(Method::default(), true)
     }
 
     /// The same with another method of projection, where the pass looks rays up.
-    pub fn source_by(self, method: Method) -> String {
-        let geometry = [TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+    /// `inside` is whether the camera may be inside the horizon.
+    pub fn source_by(self, method: Method, inside: bool) -> String {
+        let side = if inside { SEES_INSIDE } else { SEES_OUTSIDE };
+        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -167,19 +171,45 @@ impl Pass {
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
-            Pass::AuroraProject => vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
             Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices | Pass::DiskMesh => {
-                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_BINDINGS, DISK_LIGHT, DISK_PLACE]
+                vec![
+                    TYPES,
+                    BINDINGS,
+                    SEES_OUTSIDE,
+                    LENSING,
+                    LENSING_CAMERA,
+                    CLIP,
+                    COLOUR,
+                    DISK,
+                    DISK_TYPES,
+                    DISK_BINDINGS,
+                    DISK_LIGHT,
+                    DISK_PLACE,
+                ]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
             Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
             Pass::DiskSprites => {
-                vec![TYPES, BINDINGS, LENSING, LENSING_CAMERA, CLIP, COLOUR, DISK, DISK_TYPES, DISK_SPRITES_TYPES, DISK_LIGHT, DISK_RADIAL]
+                vec![
+                    TYPES,
+                    BINDINGS,
+                    SEES_OUTSIDE,
+                    LENSING,
+                    LENSING_CAMERA,
+                    CLIP,
+                    COLOUR,
+                    DISK,
+                    DISK_TYPES,
+                    DISK_SPRITES_TYPES,
+                    DISK_LIGHT,
+                    DISK_RADIAL,
+                ]
             }
             Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
         };

@@ -108,7 +108,7 @@ impl Aurora {
     /// Projects by another method from now on.
     pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
         let groups = [Some(frame_layout), Some(&self.walk_layout)];
-        self.project = compute_of(device, "aurora project", &Pass::AuroraProject.source_by(method), "main", &groups);
+        self.project = compute_of(device, "aurora project", &Pass::AuroraProject.source_by(method, false), "main", &groups);
     }
 
     /// Uploads what the frame needs; None draws nothing.

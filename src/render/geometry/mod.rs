@@ -85,11 +85,12 @@ impl Stages {
         geometry: &wgpu::BindGroupLayout,
         arguments: &wgpu::BindGroupLayout,
         method: Method,
+        inside: bool,
     ) -> Self {
         let groups = [Some(frame), Some(geometry)];
-        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_by(method), entry, &groups);
+        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_by(method, inside), entry, &groups);
         let with_arguments = [Some(frame), Some(geometry), Some(arguments)];
-        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_by(method), entry, &with_arguments);
+        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_by(method, inside), entry, &with_arguments);
         Stages {
             vertices: stage("vertices", Pass::Vertices, "main"),
             edges: stage("edges", Pass::Edges, "main"),
@@ -117,7 +118,7 @@ impl Geometry {
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout =
             layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
-        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, Method::default());
+        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, Method::default(), false);
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
@@ -172,9 +173,9 @@ impl Geometry {
         }
     }
 
-    /// Compiles the stages for another method of projection.
-    pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
-        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, method);
+    /// Compiles the stages for another method of projection, or for a camera on the other side of the horizon.
+    pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method, inside: bool) {
+        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, method, inside);
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.

@@ -1,0 +1,3 @@
+// For a camera inside the horizon.
+
+const SEES_INSIDE: bool = true;
