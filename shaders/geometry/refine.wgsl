@@ -118,30 +118,23 @@ fn refine_triangle(piece: Piece) {
     let m0 = edge_point(c1, c2, 0.5);
     let m1 = edge_point(c2, c0, 0.5);
     let m2 = edge_point(c0, c1, 0.5);
-    let p = piece.what.x;
-    let t = piece.what.y;
-    let d = depth + 1u;
-    let k = PIECE_TRIANGLE;
+    // The parts, three corners each.
+    var parts = array<vec3<f32>, 12>(c0, m2, m1, m2, c1, m0, m1, m0, c2, m0, m1, m2);
     let count = u32(split_0) + u32(split_1) + u32(split_2);
-    if count == 3u {
-        emit_piece(p, t, k, d, c0, m2, m1);
-        emit_piece(p, t, k, d, m2, c1, m0);
-        emit_piece(p, t, k, d, m1, m0, c2);
-        emit_piece(p, t, k, d, m0, m1, m2);
-    } else if count == 2u {
+    if count == 2u {
         // Turned so that the whole edge is a–b, opposite to c.
         var a = c0; var b = c1; var c = c2; var ma = m0; var mb = m1;
         if !split_0 { a = c1; b = c2; c = c0; ma = m1; mb = m2; }
         else if !split_1 { a = c2; b = c0; c = c1; ma = m2; mb = m0; }
-        emit_piece(p, t, k, d, c, mb, ma);
-        emit_piece(p, t, k, d, mb, a, ma);
-        emit_piece(p, t, k, d, a, b, ma);
-    } else {
+        parts = array<vec3<f32>, 12>(c, mb, ma, mb, a, ma, a, b, ma, c0, c0, c0);
+    } else if count == 1u {
         var a = c0; var b = c1; var c = c2; var m = m0;
         if split_1 { a = c1; b = c2; c = c0; m = m1; }
         else if split_2 { a = c2; b = c0; c = c1; m = m2; }
-        emit_piece(p, t, k, d, a, b, m);
-        emit_piece(p, t, k, d, a, m, c);
+        parts = array<vec3<f32>, 12>(a, b, m, a, m, c, c0, c0, c0, c0, c0, c0);
+    }
+    for (var k = 0u; k <= count; k++) {
+        emit_piece(piece.what.x, piece.what.y, PIECE_TRIANGLE, depth + 1u, parts[3u * k], parts[3u * k + 1u], parts[3u * k + 2u]);
     }
 }
 

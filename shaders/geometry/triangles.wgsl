@@ -40,32 +40,42 @@ fn decide(chunk: Chunk, lane: u32) {
     let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
     let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
 
-    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans.
-    if o0.w == VERTEX_ON_AXIS {
-        cut(chunk.placement, number, corner_0, corner_1, corner_2, true, false, false);
-        return;
-    }
-    if o1.w == VERTEX_ON_AXIS {
-        cut(chunk.placement, number, corner_1, corner_2, corner_0, true, false, false);
-        return;
-    }
-    if o2.w == VERTEX_ON_AXIS {
-        cut(chunk.placement, number, corner_2, corner_0, corner_1, true, false, false);
-        return;
-    }
+    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans. `parts` of them, from `apex` over the edge
+    // first–second and on round.
+    var apex = vec3<f32>(0.0);
+    var first = corner_1;
+    var second = corner_2;
+    var parts = 0u;
     let cuts = vec3<bool>((bitcast<u32>(e0.y) & EDGE_CUT) != 0u, (bitcast<u32>(e1.y) & EDGE_CUT) != 0u, (bitcast<u32>(e2.y) & EDGE_CUT) != 0u);
-    // The fraction counts from the lower vertex of the edge.
-    if cuts.x {
-        cut(chunk.placement, number, vec3<f32>(0.0, 1.0 - e0.z, e0.z), corner_2, corner_0, true, true, false);
-        return;
-    }
-    if cuts.y {
-        cut(chunk.placement, number, vec3<f32>(1.0 - e1.z, 0.0, e1.z), corner_0, corner_1, true, true, false);
-        return;
-    }
-    if cuts.z {
-        cut(chunk.placement, number, vec3<f32>(1.0 - e2.z, e2.z, 0.0), corner_1, corner_2, true, true, false);
-        return;
+    if o0.w == VERTEX_ON_AXIS {
+        apex = corner_0;
+        parts = 1u;
+    } else if o1.w == VERTEX_ON_AXIS {
+        apex = corner_1;
+        first = corner_2;
+        second = corner_0;
+        parts = 1u;
+    } else if o2.w == VERTEX_ON_AXIS {
+        apex = corner_2;
+        first = corner_0;
+        second = corner_1;
+        parts = 1u;
+    } else if cuts.x {
+        // The fraction counts from the lower vertex of the edge.
+        apex = vec3<f32>(0.0, 1.0 - e0.z, e0.z);
+        first = corner_2;
+        second = corner_0;
+        parts = 2u;
+    } else if cuts.y {
+        apex = vec3<f32>(1.0 - e1.z, 0.0, e1.z);
+        first = corner_0;
+        second = corner_1;
+        parts = 2u;
+    } else if cuts.z {
+        apex = vec3<f32>(1.0 - e2.z, e2.z, 0.0);
+        first = corner_1;
+        second = corner_2;
+        parts = 2u;
     }
     let q0 = across_plane(o0.xyz);
     let q1 = across_plane(o1.xyz);
@@ -73,13 +83,17 @@ fn decide(chunk: Chunk, lane: u32) {
     let s0 = q1.x * q2.y - q1.y * q2.x;
     let s1 = q2.x * q0.y - q2.y * q0.x;
     let s2 = q0.x * q1.y - q0.y * q1.x;
-    if (s0 > 0.0 && s1 > 0.0 && s2 > 0.0) || (s0 < 0.0 && s1 < 0.0 && s2 < 0.0) {
+    if parts == 0u && ((s0 > 0.0 && s1 > 0.0 && s2 > 0.0) || (s0 < 0.0 && s1 < 0.0 && s2 < 0.0)) {
         let corner = vec3<f32>(s0, s1, s2) / (s0 + s1 + s2);
         let height = dot(o0.xyz * corner.x + o1.xyz * corner.y + o2.xyz * corner.z, frame.radial.xyz);
         if axis_matters(height, order) {
-            cut(chunk.placement, number, corner, corner_1, corner_2, true, true, true);
-            return;
+            apex = corner;
+            parts = 3u;
         }
+    }
+    if parts > 0u {
+        cut(chunk.placement, number, apex, first, second, parts);
+        return;
     }
 
     let v0 = seen[slots.x].apparent.xyz;
@@ -138,18 +152,16 @@ fn seen_straight(offset: vec3<f32>) -> vec3<f32> {
     return (frame.camera_from_rain * vec4<f32>(rain, -gamma * (distance - beta * along))).xyz;
 }
 
-/// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge or inside, over the other edges too.
-/// For an edge cut the corners are: `first` the end after the cut, then the vertex opposite; the third is the remaining one.
-fn cut(placement: u32, number: u32, apex: vec3<f32>, first: vec3<f32>, second: vec3<f32>, one: bool, two: bool, three: bool) {
+/// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge (2) or inside (3), over the other edges too. For an
+/// edge cut the corners are: `first` the end after the cut, then the vertex opposite; the third is the remaining one.
+fn cut(placement: u32, number: u32, apex: vec3<f32>, first: vec3<f32>, second: vec3<f32>, parts: u32) {
     atomicAdd(&counters.cut, 1u);
-    let third = vec3<f32>(1.0) - first - second;
-    if one {
-        emit_piece(placement, number, PIECE_FAN, 0u, apex, first, second);
-    }
-    if two {
-        emit_piece(placement, number, PIECE_FAN, 0u, apex, second, third);
-    }
-    if three {
-        emit_piece(placement, number, PIECE_FAN, 0u, apex, third, first);
+    var a = first;
+    var b = second;
+    for (var k = 0u; k < parts; k++) {
+        emit_piece(placement, number, PIECE_FAN, 0u, apex, a, b);
+        let third = vec3<f32>(1.0) - a - b;
+        a = b;
+        b = third;
     }
 }
