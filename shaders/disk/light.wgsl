@@ -17,7 +17,7 @@ fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
     let shown = select(ln_temperature, shifted, doppler);
     let rgb = blackbody_rgb(exp(shown));
     var gain = disk.sprites.y;
-    if doppler != beaming {
+    if (doppler != beaming) & (g != 1.0) {
         let bright = luminance(blackbody_rgb(exp(select(ln_temperature, shifted, beaming))));
         gain *= bright / max(luminance(rgb), 1e-30);
     }

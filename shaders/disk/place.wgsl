@@ -110,9 +110,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     vertex.light = vec4<f32>(light.rgb, cosine);
     vertex.slope = vec4<f32>(light.slope, 0.0);
     vertex.thin = thin;
-    if disk.room.y == 0u {
-        vertex.gas.w *= disk_slant(cosine, ray.delay, circle.motion.z);
-    }
+    vertex.gas.w *= select(1.0, disk_slant(cosine, ray.delay, circle.motion.z), disk.room.y == 0u);
     return vertex;
 }
 

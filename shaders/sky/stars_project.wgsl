@@ -68,10 +68,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let flags = frame.switches.x;
     let rest = blackbody_rgb(star.colour.x);
-    var light = rest;
-    if (flags & FLAG_DOPPLER) != 0u {
-        light = blackbody_rgb(star.colour.x * g);
-    }
+    var light = blackbody_rgb(star.colour.x * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
     // The catalogue gives light as seen: a black body at T of that luminance. At gT it is as much brighter as the black body is.
     light /= max(luminance(select(light, rest, (flags & FLAG_BEAMING) != 0u)), 1e-30);
     let colour = light * flux;
