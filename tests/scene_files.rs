@@ -108,6 +108,14 @@ fn complaints_name_file_line_key_and_range() {
             "[[prop]]\nmodel = \"square\"\nposition = [0,0,5]\n[[prop]]\nmodel = \"sphere\"\nposition = [0,0,5]\nsize = -1\n",
             ["some/scene.toml:7:", "prop[1].size", "-1", "0.0001"],
         ),
+        (
+            "[[prop]]\nmodel = \"sphere\"\nposition = [0,0,5]\ntriangles = 600000\n",
+            ["some/scene.toml:4:", "prop[0].triangles", "600000", "500000"],
+        ),
+        (
+            "[[prop]]\nmodel = \"lattice\"\nposition = [0,0,9]\ncount = [40, 40, 40]\ntriangles = 21\n",
+            ["some/scene.toml:5:", "prop[0].triangles", "triangles, allowed 800000", "count"],
+        ),
         ("[disk]\ninner = 3.0\nglow = 1\n", ["some/scene.toml:3:", "disk.glow", "unknown key", "turbulence"]),
         ("[disk]\narcs = 4\n", ["some/scene.toml:2:", "disk.arcs", "4 is out of range", "16 to 50000"]),
         ("[disk]\ninner = \"three\"\n", ["some/scene.toml:2:", "disk.inner", "wrong type", "1.05 to 50 r_s"]),

@@ -10,7 +10,7 @@ pub enum DeviceError {
     /// No driver offers an adapter.
     #[error(
         "no GPU adapter: no Vulkan, Metal or DirectX 12 driver was found. On Debian or Ubuntu, install the software driver with \
-         `apt-get install mesa-vulkan-drivers`. `simulate`, `bake` and `project` work without one. ({0})"
+         `apt-get install mesa-vulkan-drivers`. `simulate`, `bake`, `project`, `trace` and the charts of the processor work without one. ({0})"
     )]
     NoAdapter(wgpu::RequestAdapterError),
     /// The adapter refused to open.

@@ -69,6 +69,9 @@ pub struct Model {
     pub materials: Vec<Material>,
 }
 
+/// Most triangles of a model: what the smallest buffers hold that a graphics adapter must offer (128 MiB).
+pub const MOST_TRIANGLES: usize = 500_000;
+
 impl Model {
     /// The largest distance of a vertex from the model's origin, in units of the model.
     pub fn radius(&self) -> f32 {
@@ -78,6 +81,9 @@ impl Model {
     /// `None` if the model is sound, or what is wrong with it: indices out of range, lengths that disagree, numbers that are not finite.
     pub fn fault(&self) -> Option<&'static str> {
         let corners = self.vertices.len() as u32;
+        if self.triangles.len() > MOST_TRIANGLES {
+            return Some("more than 500,000 triangles");
+        }
         if self.triangle_materials.len() != self.triangles.len() {
             return Some("not every triangle has a material");
         }

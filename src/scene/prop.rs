@@ -29,6 +29,11 @@ use super::texture;
 
 /// The most spheres in one lattice.
 pub const MAX_LATTICE: u64 = 200_000;
+/// Most triangles of one shape, and of all shapes of a scene: what the smallest buffers hold that a graphics adapter must offer (128 MiB), in
+/// three image orders.
+pub const MAX_TRIANGLES_EACH: u32 = super::model::MOST_TRIANGLES as u32;
+/// Those of all shapes of a scene.
+pub const MAX_TRIANGLES: u64 = 800_000;
 
 /// Something held in place.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +106,21 @@ pub struct PropEntry {
 
 /// Checks all props of a scene.
 pub fn check_props(entries: &[Spanned<PropEntry>]) -> Result<Vec<Prop>, Fault> {
-    entries.iter().enumerate().map(|(index, entry)| check_prop(index, entry.get_ref())).collect()
+    let props = entries.iter().enumerate().map(|(index, entry)| check_prop(index, entry.get_ref())).collect::<Result<Vec<_>, _>>()?;
+    let mut total = 0;
+    for (prop, entry) in props.iter().zip(entries) {
+        let each = match &prop.shape {
+            Shape::Sphere(each) | Shape::Square(each, _) => *each,
+            Shape::Icosphere(each) => shapes::icosphere_triangles(*each),
+            Shape::File(_) => continue,
+        };
+        total += u64::from(each) * prop.positions.len() as u64;
+        if total > MAX_TRIANGLES {
+            let message = format!("up to here the scene has {total} triangles, allowed {MAX_TRIANGLES}: lower triangles or count");
+            return Err(Fault { span: entry.get_ref().triangles.as_ref().map_or(entry.span(), Spanned::span), message });
+        }
+    }
+    Ok(props)
 }
 
 fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
@@ -109,8 +128,8 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
         value.as_ref().map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
     };
     let triangles = match &entry.triangles {
-        Some(place) if !(2..=1_000_000).contains(place.get_ref()) => {
-            return fault(place, format!("triangles = {} must be from 2 to 1000000", place.get_ref()));
+        Some(place) if !(2..=MAX_TRIANGLES_EACH).contains(place.get_ref()) => {
+            return fault(place, format!("triangles = {} must be from 2 to {MAX_TRIANGLES_EACH}", place.get_ref()));
         }
         Some(place) => Some(*place.get_ref()),
         None => None,

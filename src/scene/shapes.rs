@@ -66,6 +66,15 @@ fn sphere_vertex(normal: Vec3, uv: [f32; 2]) -> Vertex {
     Vertex { position: (0.5 * normal).to_array(), normal: normal.to_array(), uv }
 }
 
+/// How many triangles [`icosphere`] makes when at least this many are asked for.
+pub fn icosphere_triangles(least: u32) -> u32 {
+    let mut triangles = 20;
+    while triangles < least {
+        triangles *= 4;
+    }
+    triangles
+}
+
 /// A sphere of diameter 1 from a subdivided icosahedron: 20·4^k triangles, the smallest such number that is at least
 /// `triangles`. Its texture coordinates are longitude and latitude, with a seam.
 pub fn icosphere(triangles: u32, material: Material) -> Model {
