@@ -25,6 +25,8 @@ mod render_disk;
 #[cfg(feature = "game")]
 mod render_lookup;
 #[cfg(feature = "game")]
+mod render_methods;
+#[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
