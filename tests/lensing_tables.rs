@@ -330,7 +330,9 @@ fn the_shader_has_every_function_of_its_twin() {
         (include_str!("../src/lensing/closed.rs"), others),
     ] {
         // The shader has one `fire` and one `tilt`, of the method's own; `residuals` in other formats too.
-        let own = |name: &str| name == "camera" || name == "lookup_with" || ["fire_", "tilt_", "residuals_"].iter().any(|start| name.starts_with(start));
+        let own = |name: &str| {
+            name == "camera" || name == "lookup_with" || ["fire_", "tilt_", "residuals_"].iter().any(|start| name.starts_with(start))
+        };
         for name in twin.split("pub fn ").skip(1).filter_map(|rest| rest.split('(').next()).filter(|name| !own(name)) {
             assert!(shader.contains(&format!("fn {name}(")), "the shader lacks {name}");
         }

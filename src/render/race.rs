@@ -38,6 +38,11 @@ impl Race {
         Race { gpu: gpu.clone(), table, paper: None, layout, pipelines: HashMap::new() }
     }
 
+    /// With these tables of paper 1 instead of those that the game draws with.
+    pub fn with_paper(self, table: Table) -> Race {
+        Race { paper: Some(table), ..self }
+    }
+
     /// The adapter's name and kind.
     pub fn adapter(&self) -> String {
         let info = &self.gpu.adapter;

@@ -64,6 +64,9 @@ const COLUMNS: &[&str] = &[
     "worst_phi",
     "worst_L",
     "delay_over_allowed",
+    "delay_worst_r",
+    "delay_worst_phi",
+    "delay_worst_L",
     "nanoseconds",
     "bytes",
 ];
@@ -113,8 +116,7 @@ pub fn measure(request: &Request, adapter: &mut dyn Adapter) -> Result<Sheet, Ch
                 answers.extend(adapter.look_up(name, rows[0].query.camera, &asked).unwrap_or_else(|| vec![None; rows.len()]));
             }
             let s = tally(&frames.concat(), &answers, &truths.concat());
-            let [r, phi, l] = s.angle.worst;
-            sheet.push([
+            let mut cells = vec![
                 name.to_owned(),
                 FAMILIES[family].to_owned(),
                 order.number().to_string(),
@@ -125,13 +127,12 @@ pub fn measure(request: &Request, adapter: &mut dyn Adapter) -> Result<Sheet, Ch
                 format!("{:.4e}", s.angle.max),
                 format!("{:.4e}", s.angle.most),
                 format!("{:.4e}", s.angle.rms),
-                format!("{r:.5}"),
-                format!("{phi:.6}"),
-                format!("{l:.5}"),
-                format!("{:.4e}", s.delay_share.max),
-                format!("{:.1}", times[times.len() / 2]),
-                bytes.to_string(),
-            ]);
+            ];
+            cells.extend(s.angle.worst.map(|v| format!("{v:.9}")));
+            cells.push(format!("{:.4e}", s.delay_share.max));
+            cells.extend(s.delay_share.worst.map(|v| format!("{v:.9}")));
+            cells.extend([format!("{:.1}", times[times.len() / 2]), bytes.to_string()]);
+            sheet.push(cells);
         }
     }
     Ok(sheet)

@@ -74,7 +74,8 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
             String::new()
         };
         Point {
-            x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds },
+            // What an adapter does for nothing beside its overhead is drawn at a nanosecond.
+            x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds.max(1.0) },
             y: y(entry).max(LEAST_ERROR),
             label: format!("{}{share}", entry.name),
             family: entry.family,
