@@ -68,6 +68,9 @@ fn exact_delay(cam: LensCamera, c: f32, room: f32, phi: f32, ray: Joined) -> f32
 
 /// The ray of a point outside.
 fn exact_ray(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+        return no_ray();
+    }
     let phi = max(sweep, SMALLEST_SWEEP);
     let c = 1.0 / at.r;
     let room = max(at.room, 1e-4);

@@ -50,6 +50,9 @@ fn fire(cam: LensCamera, x: f32, phi: f32) -> Fired {
 
 /// The ray of a point outside.
 fn integrated_ray(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+        return no_ray();
+    }
     let c = 1.0 / at.r;
     let ray = shot_ray(cam, c, -at.dr * c * cam.a, max(sweep, SMALLEST_SWEEP));
     if !ray.found {

@@ -9,8 +9,5 @@ fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) ->
     if SEES_INSIDE && at.room <= 0.0 {
         return lookup(cam, at, swept(at, order), elapsed);
     }
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
-        return no_ray();
-    }
     return exact_ray(cam, at, swept(at, order));
 }

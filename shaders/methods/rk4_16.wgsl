@@ -8,8 +8,5 @@ const SHOT_STEPS: u32 = 16u;
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
     let at = place(cam, along, across, height);
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
-        return no_ray();
-    }
     return integrated_ray(cam, at, swept(at, order));
 }

@@ -5,7 +5,7 @@
 //! closed form.
 
 use super::inside::INSIDE_NODES;
-use super::lookup::{LensRay, NOTHING, Place, ray_of};
+use super::lookup::{LensRay, NOTHING, Place, finite, ray_of};
 use super::orbit::{CRITICAL_SQUARE, FELL, LEFT, MET, PHOTON_SPHERE, carry, critical_excess, pole_orbit, shoot};
 use super::single::{Camera, HALF_TURN, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
 
@@ -176,6 +176,9 @@ pub fn exact_delay(cam: &Camera, c: f32, room: f32, phi: f32, ray: &Joined) -> f
 
 /// The ray of a point outside by the closed form.
 pub fn exact_ray(cam: &Camera, at: Place, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+        return NOTHING;
+    }
     let phi = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
     let room = at.room.max(1e-4);
@@ -232,6 +235,9 @@ pub fn fire_in_steps(cam: &Camera, x: f32, phi: f32, steps: u32) -> Fired {
 
 /// The ray of a point outside by integration in `steps` steps.
 pub fn integrated_ray(cam: &Camera, at: Place, sweep: f32, steps: u32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+        return NOTHING;
+    }
     let c = 1.0 / at.r;
     let phi = sweep.max(SMALLEST_SWEEP);
     let ray = shot_ray(cam, c, -at.dr * c * cam.a, phi, |x| fire_in_steps(cam, x, phi, steps));
