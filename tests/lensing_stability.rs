@@ -299,8 +299,11 @@ fn hostile_numbers_give_no_nan() {
     }
 }
 
+/// A method of the shader: its name and its answer for a place in an order.
+type Twin = (&'static str, fn(&Slice, lookup::Place, u32) -> LensRay);
+
 /// The methods without a table in f32, as the shader has them.
-fn without_a_table() -> [(&'static str, fn(&Slice, lookup::Place, u32) -> LensRay); 6] {
+fn without_a_table() -> [Twin; 6] {
     fn swept(at: lookup::Place, order: u32) -> f32 {
         lookup::swept(at, order)
     }
@@ -375,7 +378,9 @@ fn single_precision_follows_double_without_a_table() {
 /// The relations of `measure::methods` and those of the shader are the same: twice written, once in each precision.
 #[test]
 fn the_approximations_are_the_same_in_both_precisions() {
-    for (r, phi, camera) in [(3.0f64, 1.0f64, 50.0f64), (5.0, 1.5, 200.0), (40.0, 1.2, 4.0), (6.0, 0.3, 8.0), (1.5, 2.0, 1.2), (900.0, 0.1, 30.0)] {
+    for (r, phi, camera) in
+        [(3.0f64, 1.0f64, 50.0f64), (5.0, 1.5, 200.0), (40.0, 1.2, 4.0), (6.0, 0.3, 8.0), (1.5, 2.0, 1.2), (900.0, 0.1, 30.0)]
+    {
         let slice = Slice::new(table(), camera);
         let at = lookup::place(&slice.camera, (r * phi.cos() - camera) as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32);
         for (method, tilt) in [
