@@ -205,6 +205,23 @@ fn a_damaged_file_is_named_and_never_used() {
     assert_eq!(Table::load(&path, Scheme::PaperUniform).unwrap(), first);
 }
 
+/// The paper's equations 3 to 6 at both ends of the range of L and in the middle, worked out by hand.
+#[test]
+fn paper_ones_meshes_are_its_own() {
+    let [low, high] = [paper::RANGES[0], paper::RANGES[1]];
+    for (x, inside, radial, angular) in [
+        (0.0, true, 18.210579, 4.08),
+        (0.5, true, -4.226936, 5.750260),
+        (1.0, true, -6.697740, 7.940130),
+        (0.0, false, 14.4, 3.70),
+        (1.0, false, 6.45, 7.42),
+    ] {
+        let l = low * f64::powf(high / low, x);
+        let [r, phi] = paper::slice_meshes(Scheme::Paper, inside, l);
+        assert!((r.bias() - radial).abs() < 1e-5 && (phi.bias() - angular).abs() < 1e-5, "x {x}: {} and {}", r.bias(), phi.bias());
+    }
+}
+
 /// Paper 1's meshes do at small size what its table 3 says of 32³: a few degrees at worst over its own points, and the uniform
 /// meshes of its table 2 fail.
 #[test]
