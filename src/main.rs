@@ -449,7 +449,13 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
-    match projection::run(&request, None) {
+    #[cfg(feature = "game")]
+    let mut race = if request.output.redraw { None } else { lensrunner::play::race::race() };
+    #[cfg(feature = "game")]
+    let adapter = race.as_mut().map(|race| race as &mut dyn projection::Adapter);
+    #[cfg(not(feature = "game"))]
+    let adapter = None;
+    match projection::run(&request, adapter) {
         Err(error @ ChartError::Method { .. }) => fail(&error, 2),
         result => finish_chart(result),
     }

@@ -17,6 +17,7 @@ mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
+#[cfg(feature = "game")]
 mod render_aurora;
 #[cfg(feature = "game")]
 mod render_branches;
@@ -24,7 +25,10 @@ mod render_branches;
 mod render_disk;
 #[cfg(feature = "game")]
 mod render_horizon;
+#[cfg(feature = "game")]
 mod render_lookup;
+#[cfg(feature = "game")]
+mod render_methods;
 #[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]

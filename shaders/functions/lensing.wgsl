@@ -11,6 +11,7 @@
 // The twin of src/lensing/formulas.rs, inside.rs and lookup.rs, function for function. No bindings here: the shader that includes
 // this file supplies
 //   const SEES_INSIDE: bool, false in passes that never look from inside the horizon at what is inside: they compile in half the time
+//   fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32>, of residuals.wgsl or a method's own
 //   fn lens_texel(index: u32) -> vec4<f32>
 // the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
 // delay, turn of w_e, unused), r fastest.
@@ -248,24 +249,6 @@ fn spline_weights(t: f32) -> vec4<f32> {
     return vec4<f32>(SIXTH * s2 * s, 4.0 * SIXTH + t2 * (0.5 * t - 1.0), 4.0 * SIXTH + s2 * (0.5 * s - 1.0), SIXTH * t2 * t);
 }
 
-fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32> {
-    let px = clamp(x, 0.0, 1.0) * f32(cam.nx - 1u);
-    let py = clamp(y, 0.0, 1.0) * f32(cam.ny - 1u);
-    let i = min(u32(px), cam.nx - 2u);
-    let j = min(u32(py), cam.ny - 2u);
-    let wx = spline_weights(px - f32(i));
-    let wy = spline_weights(py - f32(j));
-    var sum = vec3<f32>(0.0);
-    // Always 4, but not to the compiler: unrolled, the loop is a fifth of every pass that looks rays up.
-    let rows = min(cam.ny, 4u);
-    for (var b = 0u; b < rows; b++) {
-        let at = HEADER + (j + b) * (cam.nx + 2u) + i;
-        let row = wx.x * lens_texel(at).xyz + wx.y * lens_texel(at + 1u).xyz + wx.z * lens_texel(at + 2u).xyz + wx.w * lens_texel(at + 3u).xyz;
-        sum += wy[b] * row;
-    }
-    return sum;
-}
-
 fn finite(x: f32) -> bool {
     return abs(x) < 3e38;
 }
@@ -446,18 +429,20 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
     return ray_of(cam, c, room, w, e, w_e, delay);
 }
 
+/// Φ of `order` for the point at `at`.
+fn swept(at: Place, order: u32) -> f32 {
+    if order == 2u {
+        return 2.0 * HALF_TURN - at.phi;
+    }
+    return select(at.phi, 2.0 * HALF_TURN + at.phi, order == 3u);
+}
+
 /// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the
 /// time since the light left as far as it is known: where camera and point are both inside it decides between E > 0 and E < 0.
 fn lens_lookup_aged(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
     let at = place(cam, along, across, height);
-    var sweep = at.phi;
-    if order == 2u {
-        sweep = 2.0 * HALF_TURN - at.phi;
-    } else if order == 3u {
-        sweep = 2.0 * HALF_TURN + at.phi;
-    }
-    return lookup(cam, at, sweep, elapsed);
+    return lookup(cam, at, swept(at, order), elapsed);
 }
 
 fn lens_lookup_at(along: f32, across: f32, height: f32, order: u32) -> LensRay {

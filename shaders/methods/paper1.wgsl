@@ -33,23 +33,5 @@ fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) ->
     let high = mix(lens_texel(first + 2u * cam.nx), lens_texel(first + 2u * cam.nx + 2u), vec4<f32>(cr.y));
     let both = mix(low, high, vec4<f32>(cp.y));
     let found = select(both.zw, both.xy, order == 1u);
-    // From the static angle the rest follows; on which side of a turning point the light left, as straight light would.
-    let c = 1.0 / at.r;
-    let room = max(at.room, 1e-4);
-    let w = -cam.a * sqrt(cam.room) * cos(found.x) / max(sin(found.x), 1e-7);
-    let e = energy(w, cam.a, cam.room);
-    let w_e = sqrt(max(e * e - c * c * room, 0.0));
-    let leaves_inward = c * cos(at.phi) > cam.a && order == 1u;
-    return ray_of(cam, c, room, w, e, select(-w_e, w_e, leaves_inward), found.y);
-}
-
-/// Rain-frame momentum and γ of what is held in place: of a static observer, γβ outward; inside, where nothing is static, of the rain.
-fn held_momentum(position: vec3<f32>) -> vec4<f32> {
-    let r = length(position);
-    if r < 1.0 {
-        return vec4<f32>(0.0, 0.0, 0.0, 1.0);
-    }
-    let held = max(r, 1.0005);
-    let gamma = inverseSqrt(1.0 - 1.0 / held);
-    return vec4<f32>(position * (gamma / (held * sqrt(held))), gamma);
+    return static_ray(cam, at, order, found.x, found.y);
 }

@@ -47,7 +47,7 @@ pub struct LensRay {
 }
 
 /// The answer where there is none.
-const NOTHING: LensRay = LensRay {
+pub const NOTHING: LensRay = LensRay {
     cos_psi: 1.0,
     sin_psi: 0.0,
     delay: 0.0,
@@ -85,7 +85,8 @@ pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     Place { r, room: (r - 1.0) * inverse, dr: r - cam.l, phi }
 }
 
-const SIXTH: f32 = 1.0 / 6.0;
+/// The outermost weight at a node.
+pub const SIXTH: f32 = 1.0 / 6.0;
 
 /// The weights of the four B-spline coefficients around the place `t` in 0..=1 between two nodes.
 pub fn spline_weights(t: f32) -> [f32; 4] {
@@ -115,6 +116,40 @@ pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
     }
     let [turn, delay, emission_turn, _] = sum.to_array();
     [turn, delay, emission_turn]
+}
+
+/// The cell of a coordinate in 0..=1 among `n` nodes, and the place in it.
+fn cell(x: f32, n: u32) -> (u32, f32) {
+    let p = x.clamp(0.0, 1.0) * (n - 1) as f32;
+    let i = (p as u32).min(n - 2);
+    (i, p - i as f32)
+}
+
+/// The residuals of the method "table-linear", from texels of [`Slice::nodes`]: the twin of `residuals` in its shader.
+pub fn residuals_linear(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+    let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
+    let at = HEADER + (j * nx + i) as usize;
+    let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
+    let row = |at: usize, h: usize| mix(texels[at][h], texels[at + 1][h], tx);
+    [0, 1, 2].map(|h| mix(row(at, h), row(at + nx as usize, h), ty))
+}
+
+/// The residuals of the method "table-half", from texels of [`Slice::halves`]: the twin of `residuals` in its shader.
+pub fn residuals_half(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+    let half = |index: usize| {
+        let texel = texels[HEADER + index / 2].map(f32::to_bits);
+        let pair = if index % 2 == 1 { [texel[2], texel[3]] } else { [texel[0], texel[1]] };
+        [pair[0] & 0xffff, pair[0] >> 16, pair[1] & 0xffff].map(|bits| half::f16::from_bits(bits as u16).to_f32())
+    };
+    let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
+    let (wx, wy) = (spline_weights(tx), spline_weights(ty));
+    let mut sum = [0.0; 3];
+    for (b, weight) in wy.into_iter().enumerate() {
+        let at = ((j + b as u32) * (nx + 2) + i) as usize;
+        let row = [half(at), half(at + 1), half(at + 2), half(at + 3)];
+        (0..3).for_each(|h| sum[h] += weight * (wx[0] * row[0][h] + wx[1] * row[1][h] + wx[2] * row[2][h] + wx[3] * row[3][h]));
+    }
+    sum
 }
 
 /// Whether a number is neither NaN nor infinite.
@@ -150,7 +185,7 @@ pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
 }
 
 /// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
-pub(crate) fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
+pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
     }
@@ -209,7 +244,7 @@ pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, ord
 }
 
 /// Φ of `order` for the point at `at`.
-pub(crate) fn swept(at: Place, order: u32) -> f32 {
+pub fn swept(at: Place, order: u32) -> f32 {
     match order {
         2 => 2.0 * HALF_TURN - at.phi,
         3 => 2.0 * HALF_TURN + at.phi,

@@ -4,16 +4,19 @@
 //! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
 //! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
 //! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
-//! method of paper 1, for comparison, and `score` measures the error of either.
+//! method of paper 1, for comparison, and `score` measures the error of either. `orbit`, `shooting` and `closed` are f32 methods without a table.
 
 pub mod bake;
 pub mod batch;
+pub mod closed;
 pub mod command;
 pub mod grid;
 pub mod inside;
 pub mod lookup;
+pub mod orbit;
 pub mod paper;
 pub mod score;
+pub mod shooting;
 pub mod slice;
 pub mod spline;
 pub mod table;

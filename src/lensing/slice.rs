@@ -50,6 +50,33 @@ impl Slice {
         &self.texels
     }
 
+    /// The texels of the method "table-linear": the header, then the residuals at the nodes instead of the coefficients, r fastest.
+    pub fn nodes(&self) -> Vec<[f32; 4]> {
+        let [nx, ny] = self.size.map(|n| n as usize);
+        let weights = spline::weights(0.0).map(|w| w as f32);
+        let node = |k: usize| {
+            let (i, j) = (k % nx, k / nx);
+            // At a node three coefficients along each axis count.
+            let taps = (0..9).map(|tap| (tap % 3, tap / 3));
+            taps.fold([0.0; 4], |sum, (a, b)| {
+                let texel = self.texels[HEADER + (j + b) * (nx + 2) + i + a];
+                std::array::from_fn(|h| sum[h] + weights[a] * weights[b] * texel[h])
+            })
+        };
+        self.texels[..HEADER].iter().copied().chain((0..nx * ny).map(node)).collect()
+    }
+
+    /// The texels of the method "table-half": the header, then the coefficients in half precision, two to a texel, each in two words.
+    pub fn halves(&self) -> Vec<[f32; 4]> {
+        let bits = |x: f32| u32::from(half::f16::from_f32(x).to_bits());
+        let packed = |t: &[f32; 4]| [f32::from_bits(bits(t[0]) | bits(t[1]) << 16), f32::from_bits(bits(t[2]))];
+        let pairs = self.texels[HEADER..].chunks(2).map(|pair| {
+            let (first, second) = (packed(&pair[0]), pair.get(1).map_or([0.0; 2], packed));
+            [first[0], first[1], second[0], second[1]]
+        });
+        self.texels[..HEADER].iter().copied().chain(pairs).collect()
+    }
+
     fn assembled(cam: Camera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
         let header = [
             [cam.l, cam.room, cam.a, cam.beta],

@@ -14,6 +14,7 @@ pub mod instruments;
 pub mod live;
 pub mod menu;
 pub mod overlay;
+pub mod race;
 pub mod record;
 pub mod screens;
 pub mod seen;

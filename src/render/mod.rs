@@ -17,6 +17,7 @@ pub mod method;
 pub mod models;
 pub mod placements;
 pub mod plugin;
+pub mod race;
 pub mod readback;
 pub mod renderer;
 pub mod shaders;

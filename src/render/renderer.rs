@@ -217,7 +217,7 @@ impl Renderer {
                     let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
                     paper::slice(table, l)
                 }
-                Method::Table | Method::Flat => slice.texels().to_vec(),
+                _ => method.texels(&slice),
             };
             if self.lens_slice.write(&self.gpu, &texels) {
                 let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
@@ -391,7 +391,7 @@ impl Renderer {
 /// Nodes along each axis of paper 1's tables, when they are baked here: a few seconds on two cores, and about the error of the paper's 64³.
 const PAPER_NODES: usize = 64;
 
-fn paper_table() -> Table {
+pub(super) fn paper_table() -> Table {
     let file = lensing::default_file().with_file_name("paper1.lut");
     let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
     lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())

@@ -10,6 +10,8 @@ const BINDINGS: &str = include_str!("../../shaders/bindings.wgsl");
 const SEES_INSIDE: &str = include_str!("../../shaders/functions/sees_inside.wgsl");
 const SEES_OUTSIDE: &str = include_str!("../../shaders/functions/sees_outside.wgsl");
 const LENSING: &str = include_str!("../../shaders/functions/lensing.wgsl");
+const RESIDUALS: &str = include_str!("../../shaders/functions/residuals.wgsl");
+const RACE: &str = include_str!("../../shaders/methods/race.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
 const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
@@ -130,7 +132,8 @@ impl Pass {
     /// `inside` is whether the camera may be inside the horizon.
     pub fn source_by(self, method: Method, inside: bool) -> String {
         let side = if inside { SEES_INSIDE } else { SEES_OUTSIDE };
-        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, method.source(), GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        let method = method.source();
+        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -167,13 +170,13 @@ impl Pass {
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
-            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, method.source(), CLIP, PROJECT, STREAKS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
             Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices => {
-                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],
@@ -184,6 +187,7 @@ impl Pass {
                     BINDINGS,
                     SEES_OUTSIDE,
                     LENSING,
+                    RESIDUALS,
                     LENSING_CAMERA,
                     CLIP,
                     COLOUR,
@@ -198,4 +202,9 @@ impl Pass {
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
     }
+}
+
+/// The shader that only looks rays up by `method`, with bindings of its own: for the race of methods and for the tests of twins.
+pub fn race(method: Method) -> String {
+    [RACE, SEES_INSIDE, LENSING, LENSING_CAMERA, &method.source()].join("\n")
 }

@@ -100,6 +100,10 @@ macro_rules! config {
 
 use Allowed::{Choice, Key, Switch};
 
+/// The methods of projection that the renderer has.
+pub const METHODS: &[&str] =
+    &["table", "table-linear", "table-half", "newton", "exact", "rk4-16", "rk4-64", "paper1", "beloborodov", "poutanen", "flat"];
+
 config! {
     /// The hole.
     hole: Hole {
@@ -115,7 +119,7 @@ config! {
     render: Render {
         pixel_error_budget: f64 = 0.5, number(0.05, 16.0), "pixels", "largest displacement allowed when a cheaper model is chosen";
         orders: u32 = 2u32, integer(1, 3), "images", "image orders drawn";
-        method: String = "table", Choice(&["table", "flat", "paper1"]), "", "how a vertex is projected";
+        method: String = "table", Choice(METHODS), "", "how a vertex is projected";
         tessellation_max_level: u32 = 13u32, integer(0, 13), "halvings", "finest subdivision of an edge";
         vertex_budget: u32 = 600_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
         min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";

@@ -29,6 +29,7 @@ pub mod viewpoint;
 pub use assembly::{Assembly, Body, Object};
 pub use camera::{Camera, Mount, picture_size};
 pub use config::GameConfig;
+pub use config_fields::METHODS;
 pub use error::{Complaint, ConfigError, SceneError};
 pub use load::{Scene, assets_folder, load, names};
 pub use model::{Image, Material, Model, Vertex};

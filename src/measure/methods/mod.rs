@@ -15,7 +15,7 @@ pub use exact::Exact;
 pub use integrate::Integrate;
 pub use paper::{Paper, PaperBatch};
 pub use residual::{Interpolation, Residual, Texels};
-pub use slice::{Batch, Newton, Table};
+pub use slice::{Batch, Newton, Reformatted, Table};
 
 /// A point and a camera, r_s = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,6 +137,8 @@ pub const CATALOGUE: &[Entry] = &[
     entry("table", 0, "what the game draws with: the small residual table, sliced at the camera's radius for a frame, cubic, f32"),
     entry("table-batch", 0, "table, eight points at once in SIMD registers"),
     entry("table-full", 0, "the same from the full table"),
+    entry("table-linear", 0, "table, linear between the nodes of the slice"),
+    entry("table-half", 0, "table, its slice in half precision"),
     entry("newton", 0, "table, then one Newton step on the closed form in f64"),
     entry("residual-cubic-f32", 0, "the full residual table without a slice: cubic in three dimensions"),
     entry("residual-cubic-f16", 0, "the same, stored in half precision"),
@@ -179,6 +181,8 @@ pub fn named(name: &str) -> Option<Box<dyn Projector>> {
         "table" => Box::new(Table(lensing::default_table())),
         "table-batch" => Box::new(Batch(Table(lensing::default_table()))),
         "table-full" => Box::new(Table(full())),
+        "table-linear" => Box::new(Reformatted { table: lensing::default_table(), half: false }),
+        "table-half" => Box::new(Reformatted { table: lensing::default_table(), half: true }),
         "newton" => Box::new(Newton(Table(lensing::default_table()))),
         "residual-cubic-f32" => Box::new(Residual::<[f32; 3]>::new(&full(), Interpolation::Cubic)),
         "residual-cubic-f16" => Box::new(Residual::<[half::f16; 3]>::new(&full(), Interpolation::Cubic)),

@@ -2,7 +2,7 @@
 
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
 use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
-use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
+use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, place, swept};
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
 
@@ -89,6 +89,58 @@ impl Projector for Batch {
 
     fn memory(&self) -> usize {
         self.0.memory()
+    }
+}
+
+/// The slice in other formats, as the GPU's methods of these names read it.
+pub struct Reformatted {
+    /// The table that is sliced.
+    pub table: lensing::Table,
+    /// Half precision, cubic; else single precision, linear.
+    pub half: bool,
+}
+
+/// A slice as the shader's texels, with what the lookup needs besides.
+struct Texels {
+    slice: Slice,
+    texels: Vec<[f32; 4]>,
+    half: bool,
+}
+
+impl Reformatted {
+    fn texels(&self, l: f64) -> Texels {
+        let slice = Slice::new(&self.table, l);
+        let texels = if self.half { slice.halves() } else { slice.nodes() };
+        Texels { slice, texels, half: self.half }
+    }
+}
+
+impl Texels {
+    fn look_up(&self, point: &Vertex, order: Order, branch: Branch) -> LensRay {
+        let Texels { slice, texels, half } = self;
+        let residuals = if *half { lensing::lookup::residuals_half } else { lensing::lookup::residuals_linear };
+        let at = place(&slice.camera, point.along, point.across, point.height);
+        let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
+        lookup_with(&slice.camera, at, swept(at, u32::from(order.number())), elapsed, |x, y| residuals(texels, slice.size, x, y))
+    }
+}
+
+impl Projector for Reformatted {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        if !in_range(query) {
+            return None;
+        }
+        let ray = self.texels(query.camera).look_up(&query.into(), order, branch);
+        ray.valid.then(|| seen(&ray, query))
+    }
+
+    fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
+        let texels = self.texels(l);
+        each(move |point, order| texels.look_up(point, order, Branch::Plus))
+    }
+
+    fn memory(&self) -> usize {
+        size_of_val(self.table.values.as_slice())
     }
 }
 

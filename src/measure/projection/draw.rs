@@ -54,6 +54,15 @@ fn entries(sheet: &Sheet) -> Vec<Entry> {
     all
 }
 
+/// The same from the sheet of a graphics adapter.
+fn on_adapter(sheet: &Sheet) -> Panel {
+    let entries = entries(sheet);
+    let mut panel = scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", false, (HALF_PIXEL, ""), "");
+    panel.title = format!("on the adapter: {}", sheet.note("adapter").unwrap_or("unknown"));
+    panel.x = Axis::log("nanoseconds a lookup, many at once");
+    Panel::Scatter(panel)
+}
+
 fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: bool, guide: (f64, &str), title: &str) -> Scatter {
     let points = entries.iter().map(|entry| {
         let failed = entry.wrong > MOST_WRONG;
@@ -65,7 +74,8 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
             String::new()
         };
         Point {
-            x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds },
+            // What an adapter does for nothing beside its overhead is drawn at a nanosecond.
+            x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds.max(1.0) },
             y: y(entry).max(LEAST_ERROR),
             label: format!("{}{share}", entry.name),
             family: entry.family,
@@ -96,22 +106,24 @@ fn footer(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-/// The picture for a stranger: the largest error against time, and against memory.
-pub fn race(sheet: &Sheet) -> Figure {
+/// The picture for a stranger: the largest error against time, against memory, and on the graphics adapter where one took part.
+pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
     let entries = entries(sheet);
     let guide = (HALF_PIXEL, "half a pixel at 3840 over 60°");
     let worst = |entry: &Entry| entry.max;
+    let mut panels = vec![
+        Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", false, guide, "on the processor: against time")),
+        Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", true, guide, "against memory")),
+    ];
+    panels.extend(graphics.map(on_adapter));
     Figure {
         title: "Where a vertex is seen near a black hole: error against cost".into(),
-        subtitle: "The worst error of each method on the same points, chosen to be hard. Lower and further left is better; the black line joins what nothing beats.\n\
+        subtitle: "The worst error of each method on points chosen to be hard. Lower and further left is better; the black line joins what nothing beats.\n\
                    Red crosses failed: they leave so many per cent of the points unanswered (camera inside, or of higher order). Use \"table\", or \"table-batch\" on the processor."
             .into(),
-        panels: vec![
-            Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", false, guide, "against time")),
-            Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", true, guide, "against memory")),
-        ],
-        columns: 2,
-        size: [1640, 860],
+        size: [820 * panels.len() as u32, 860],
+        columns: panels.len(),
+        panels,
         footer: footer(sheet),
     }
 }

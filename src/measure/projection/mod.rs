@@ -1,6 +1,7 @@
 //! The chart `projection`: every method of projection on the same points, error against time per lookup and against memory; where each
 //! fails; and paper 1's tables 2 and 3 with its own sampling.
 
+mod adapter;
 mod draw;
 mod maps;
 mod paper;
@@ -10,6 +11,7 @@ mod time;
 
 use std::path::PathBuf;
 
+pub use adapter::Adapter;
 pub use points::{Row, rows};
 pub use score::{Score, Truth, score, truth};
 
@@ -48,22 +50,18 @@ pub enum ChartError {
     },
 }
 
-/// The time of a method on a graphics adapter: nanoseconds a lookup for points of one order, where it has the method of that name.
-pub trait Adapter {
-    /// The adapter's name.
-    fn name(&self) -> String;
-    /// Median nanoseconds a lookup of the method called `method`; None where the adapter does not have it.
-    fn time(&mut self, method: &str, frames: &[time::TimedFrame]) -> Option<f64>;
-}
-
-pub use time::TimedFrame;
-
-/// Measures (or reads) and draws; returns the files written. `adapter` adds a column of its times.
+/// Measures (or reads) and draws; returns the files written. `adapter` adds a sheet and a panel of its own.
 pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
-    let sheet = output.sheet("projection", || measure(request, adapter))?;
+    let sheet = output.sheet("projection", || measure(request))?;
     let mut paths = vec![output.csv("projection")];
-    paths.extend(draw::race(&sheet).save(&output.folder, "projection")?);
+    let graphics = match adapter {
+        Some(adapter) => Some(output.sheet("projection-gpu", || adapter::measure(request, adapter))?),
+        None if output.redraw && output.csv("projection-gpu").is_file() => Some(Sheet::load(&output.csv("projection-gpu"))?),
+        None => None,
+    };
+    paths.extend(graphics.iter().map(|_| output.csv("projection-gpu")));
+    paths.extend(draw::race(&sheet, graphics.as_ref()).save(&output.folder, "projection")?);
     paths.extend(draw::everything(&sheet).save(&output.folder, "projection-all")?);
     let sheet = output.sheet("projection-maps", || maps::measure(request))?;
     paths.push(output.csv("projection-maps"));
@@ -109,15 +107,14 @@ const COLUMNS: &[&str] = &[
     "delay_worst_phi",
     "delay_worst_L",
     "nanoseconds",
-    "adapter_nanoseconds",
     "frame_microseconds",
     "bytes",
 ];
 
-fn measure(request: &Request, mut adapter: Option<&mut dyn Adapter>) -> Result<Sheet, ChartError> {
+fn measure(request: &Request) -> Result<Sheet, ChartError> {
     let methods = chosen(request)?;
     let mut sheet = Sheet::new(COLUMNS);
-    sheet.notes = Provenance::now(&adapter.as_ref().map(|adapter| adapter.name()).unwrap_or_default()).notes();
+    sheet.notes = Provenance::now("").notes();
     sheet.notes.push(("points".into(), format!("{} for each order, seed {}", request.points, request.seed)));
     eprintln!("timing {} methods", methods.len());
     let frames = time::frames(request.seed);
@@ -126,7 +123,6 @@ fn measure(request: &Request, mut adapter: Option<&mut dyn Adapter>) -> Result<S
     let truths: Vec<Vec<Truth>> = Order::ALL.iter().map(|order| truth(&rows, *order)).collect();
     for ((entry, method), timed) in methods.iter().zip(times) {
         eprintln!("scoring {}", entry.name);
-        let on_adapter = adapter.as_mut().and_then(|adapter| adapter.time(entry.name, &frames));
         for (order, truth) in Order::ALL.into_iter().zip(&truths) {
             let s = score(method.as_ref(), &rows, truth, order);
             let mut cells = vec![entry.name.to_owned(), FAMILIES[entry.family].to_owned(), order.number().to_string()];
@@ -136,7 +132,6 @@ fn measure(request: &Request, mut adapter: Option<&mut dyn Adapter>) -> Result<S
             cells.extend([s.delay.max, s.delay.most, s.delay_share.max].map(|v| format!("{v:.4e}")));
             cells.extend(s.delay_share.worst.map(|v| format!("{v:.9}")));
             cells.push(format!("{:.1}", timed.nanoseconds));
-            cells.push(on_adapter.map(|v| format!("{v:.3}")).unwrap_or_default());
             cells.push(format!("{:.2}", timed.frame_microseconds));
             cells.push(method.memory().to_string());
             sheet.push(cells);

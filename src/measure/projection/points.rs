@@ -35,7 +35,17 @@ pub fn rows(count: usize, seed: u64) -> Vec<Row> {
 }
 
 fn row(rng: &mut SmallRng) -> Row {
-    let camera = if rng.random_bool(1.0 / 3.0) { between(rng, NEAR) } else { between(rng, CAMERAS) };
+    let camera = camera(rng);
+    row_of(rng, camera)
+}
+
+/// A camera's radius.
+pub(super) fn camera(rng: &mut SmallRng) -> f64 {
+    if rng.random_bool(1.0 / 3.0) { between(rng, NEAR) } else { between(rng, CAMERAS) }
+}
+
+/// A row of that camera.
+pub(super) fn row_of(rng: &mut SmallRng, camera: f64) -> Row {
     let branch = if rng.random_bool(0.5) { Branch::Plus } else { Branch::Minus };
     loop {
         let clustered = rng.random_bool(0.5);

@@ -68,6 +68,11 @@ pub fn score(method: &dyn Projector, rows: &[Row], truth: &[Truth], order: Order
             (sight.psi_rain.is_finite() && sight.delay.is_finite()).then_some([sight.psi_rain, sight.delay])
         })
         .collect();
+    tally(rows, &answers, truth)
+}
+
+/// Scores `answers` (ψ in the rain frame, delay) to `rows`, whose truth is `truth`.
+pub(super) fn tally(rows: &[Row], answers: &[Option<[f64; 2]>], truth: &[Truth]) -> Score {
     let mut angle = Vec::new();
     let (mut delay, mut share) = (Vec::new(), Vec::new());
     let (mut missing, mut invented) = (0, 0);

@@ -1,0 +1,13 @@
+// Method "exact": the closed form of the ray by elliptic functions, solved for each vertex in f32. No table.
+
+/// Triangles are cut at the axis and subdivided, none is dropped.
+const METHOD_FILTERS: bool = false;
+
+fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
+    let cam = lens_camera();
+    let at = place(cam, along, across, height);
+    if SEES_INSIDE && at.room <= 0.0 {
+        return lookup(cam, at, swept(at, order), elapsed);
+    }
+    return exact_ray(cam, at, swept(at, order));
+}

@@ -1,0 +1,160 @@
+//! The methods of projection on the GPU by themselves: many look-ups at once through the shipped shader functions, for the chart and for the
+//! tests of twins.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::lensing::{Slice, Table, paper};
+
+use super::Gpu;
+use super::layout::{Slot, bind, buffer, compute_of, layout, storage};
+use super::method::Method;
+use super::readback::{self, PictureError};
+use super::renderer::paper_table;
+use super::shaders;
+
+/// Threads of a workgroup.
+const GROUP: usize = 64;
+
+/// Look-ups on the GPU.
+#[derive(Debug)]
+pub struct Race {
+    gpu: Gpu,
+    table: Arc<Table>,
+    paper: Option<Table>,
+    layout: wgpu::BindGroupLayout,
+    /// The look-up of each method, and the same dispatch without one.
+    pipelines: HashMap<Method, [wgpu::ComputePipeline; 2]>,
+}
+
+impl Race {
+    /// Of the methods that read `table` or none.
+    pub fn new(gpu: &Gpu, table: Arc<Table>) -> Race {
+        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Write];
+        let layout = layout(&gpu.device, "race", ShaderStages::COMPUTE, &slots);
+        Race { gpu: gpu.clone(), table, paper: None, layout, pipelines: HashMap::new() }
+    }
+
+    /// With these tables of paper 1 instead of those that the game draws with.
+    pub fn with_paper(self, table: Table) -> Race {
+        Race { paper: Some(table), ..self }
+    }
+
+    /// The adapter's name and kind.
+    pub fn adapter(&self) -> String {
+        let info = &self.gpu.adapter;
+        let kind = if info.device_type == wgpu::DeviceType::Cpu { " (software)" } else { "" };
+        format!("{}{kind}", info.name)
+    }
+
+    /// What `method` reads for a camera at the radius `l`, r_s.
+    pub fn texels(&mut self, method: Method, l: f64) -> Vec<[f32; 4]> {
+        if method == Method::Paper1 {
+            return paper::slice(self.paper.get_or_insert_with(paper_table), l);
+        }
+        method.texels(&Slice::new(&self.table, l))
+    }
+
+    /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in r_s/c,
+    /// 1 if there is one; frequency at the camera, radial momentum and frequency at the point, e.
+    pub fn look_up(&mut self, method: Method, l: f64, rows: &[[f32; 4]]) -> Result<Vec<[[f32; 4]; 2]>, PictureError> {
+        let (out, _) = self.dispatch(method, 0, l, rows, rows.len())?;
+        let bytes = readback::buffer(&self.gpu, &out)?;
+        Ok(bytemuck::cast_slice::<u8, [[f32; 4]; 2]>(&bytes)[..rows.len()].to_vec())
+    }
+
+    /// Seconds for each of many look-ups of `rows`, what a dispatch and its rows cost by themselves taken off.
+    pub fn time(&mut self, method: Method, l: f64, rows: &[[f32; 4]]) -> Result<f64, PictureError> {
+        let threads = if self.gpu.adapter.device_type == wgpu::DeviceType::Cpu { 8192 } else { 1 << 18 };
+        let mut times = [0.0; 2];
+        for (which, time) in times.iter_mut().enumerate() {
+            *time = self.dispatch(method, which, l, rows, threads)?.1;
+        }
+        Ok((times[0] - times[1]).max(0.0) / threads as f64)
+    }
+
+    /// Runs one pipeline on at least `threads` threads; the buffer it wrote and the seconds it took.
+    fn dispatch(
+        &mut self,
+        method: Method,
+        which: usize,
+        l: f64,
+        rows: &[[f32; 4]],
+        threads: usize,
+    ) -> Result<(wgpu::Buffer, f64), PictureError> {
+        let texels = self.texels(method, l);
+        let Race { gpu, layout, pipelines, .. } = self;
+        let device = &gpu.device;
+        let source = || shaders::race(method);
+        let pipeline = &pipelines
+            .entry(method)
+            .or_insert_with(|| ["race", "idle"].map(|entry| compute_of(device, method.name(), &source(), entry, &[Some(layout)])))[which];
+        // Whole workgroups: the last row is looked up again.
+        let mut padded = rows.to_vec();
+        padded.resize(rows.len().next_multiple_of(GROUP).max(GROUP), rows.last().copied().unwrap_or([0.0; 4]));
+        let threads = threads.next_multiple_of(GROUP).max(GROUP);
+        let frame = buffer(device, "race frame", 16, BufferUsages::UNIFORM);
+        gpu.queue.write_buffer(&frame, 0, bytemuck::bytes_of(&[0.0, 0.0, 0.0, l as f32]));
+        let (slice, rows) = (storage(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
+        let out = buffer(device, "race out", 32 * threads as u64, BufferUsages::STORAGE);
+        let group = bind(device, "race", layout, &[&frame, &slice, &rows, &out].map(|b| b.as_entire_binding()));
+        gpu.queue.submit([]);
+        wait(gpu)?;
+        let queries = Queries::new(gpu);
+        let mut encoder = device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("race"),
+                timestamp_writes: queries.as_ref().map(|queries| wgpu::ComputePassTimestampWrites {
+                    query_set: &queries.set,
+                    beginning_of_pass_write_index: Some(0),
+                    end_of_pass_write_index: Some(1),
+                }),
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups((threads / GROUP) as u32, 1, 1);
+        }
+        if let Some(queries) = &queries {
+            encoder.resolve_query_set(&queries.set, 0..2, &queries.resolved, 0);
+        }
+        let start = Instant::now();
+        gpu.queue.submit([encoder.finish()]);
+        wait(gpu)?;
+        let seconds = match queries {
+            Some(queries) => queries.seconds(gpu)?,
+            None => start.elapsed().as_secs_f64(),
+        };
+        Ok((out, seconds))
+    }
+}
+
+fn wait(gpu: &Gpu) -> Result<(), PictureError> {
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map(|_| ()).map_err(|error| PictureError::Map(error.to_string()))
+}
+
+/// Two timestamps, where the device has them.
+struct Queries {
+    set: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+}
+
+impl Queries {
+    fn new(gpu: &Gpu) -> Option<Queries> {
+        if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let descriptor = wgpu::QuerySetDescriptor { label: Some("race"), ty: wgpu::QueryType::Timestamp, count: 2 };
+        let resolved = buffer(&gpu.device, "race times", 16, BufferUsages::QUERY_RESOLVE);
+        Some(Queries { set: gpu.device.create_query_set(&descriptor), resolved })
+    }
+
+    fn seconds(&self, gpu: &Gpu) -> Result<f64, PictureError> {
+        let bytes = readback::buffer(gpu, &self.resolved)?;
+        let ticks: &[u64] = bytemuck::cast_slice(&bytes[..16]);
+        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(gpu.queue.get_timestamp_period()) * 1e-9)
+    }
+}
