@@ -6,7 +6,7 @@
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.xyw, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
+    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.x, exp2(4.0 * seen.gas.y), seen.gas.w, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
         seen.more.zw);
 }
 
@@ -53,7 +53,7 @@ fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
 }
 
-/// Half height of the disk at a height in the pattern: thickness times radius.
-fn near_half_height(y: f32) -> f32 {
-    return max(bitcast<f32>(disk.room.z) * exp2(4.0 * y), 1e-3);
+/// Half height of the disk at a radius of the pattern: thickness times that.
+fn near_half_height(radius: f32) -> f32 {
+    return max(bitcast<f32>(disk.room.z) * radius, 1e-3);
 }
