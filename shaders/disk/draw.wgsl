@@ -37,18 +37,23 @@ fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
     return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
 }
 
-fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
+/// Light paths between which the finest octaves fade, in r_s: beyond the second the passes from far take over, which do not have them.
+const FINE: vec2<f32> = vec2<f32>(1.5, 3.0);
+
+/// The pattern with its finest octaves, of which `share` is there.
+fn close_pattern(uv: vec2<f32>, level: f32, share: f32) -> f32 {
     // A texel that is smaller than a pixel is filtered as it is.
     let coarse = textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
     let fine = 8.0 * uv;
-    return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+    return coarse + 0.35 * share * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
 }
 
 /// From near: slant and the finest octaves in each pixel.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in.gas, in.light.w, in.thin.y < 1e5);
-    let turbulence = at.shares.x * close_pattern(at.young, at.level) + at.shares.y * close_pattern(at.old, at.level);
+    let fine = 1.0 - smoothstep(FINE.x, FINE.y, in.light.w);
+    let turbulence = at.shares.x * close_pattern(at.young, at.level, fine) + at.shares.y * close_pattern(at.old, at.level, fine);
     let depth = in.gas.z * disk_slant(in.gas.w, in.light.w, near_half_height(in.gas.y));
     return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
 }

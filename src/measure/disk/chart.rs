@@ -164,7 +164,7 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     sheet.notes = Provenance::now(adapter).notes();
     let eye = portrait();
     let base = &contestants[0].config;
-    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, base.render.orders, 6);
+    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
         let shown = draw(Some(number), &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;

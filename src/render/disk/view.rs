@@ -26,8 +26,9 @@ const AZIMUTHS: usize = 12;
 const GREEN: f64 = 26_160.0;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
 const LEAST_ARC: f64 = 64.0;
-/// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide.
-const CLOSE: f64 = 4.0;
+/// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide. They fade in from here on, as
+/// shaders/disk/draw.wgsl has it.
+const CLOSE: f64 = 3.0;
 /// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
 const DETOUR: f64 = 60.0;
 
@@ -62,7 +63,12 @@ impl DiskView {
 
         let mut circles = Vec::new();
         let mut rings = Vec::new();
-        for order in 1..=input.settings.orders.min(3) {
+        for order in 1..=3 {
+            // The third is drawn unasked where it is wider than the pixel budget.
+            let unasked = order > input.settings.orders;
+            if unasked && (order < 3 || widest(disk, camera, slice, width, order) < f64::from(input.settings.pixel_error)) {
+                continue;
+            }
             let first = circles.len() as u32;
             let (rows, pairs) = rows(disk, camera, slice, width, order);
             let last = first + rows.len() as u32 - 1;
@@ -123,6 +129,14 @@ fn rows(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> 
     }
     let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
     (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
+}
+
+/// The width of the image of an order where it is widest, in pixels.
+fn widest(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> f64 {
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let [inner, outer] = disk.gas.extent().map(|r| SeenCircle::new(disk, camera, slice, order, r));
+    let widths = inner.places.iter().zip(&outer.places).map(|(a, b)| a.angle_to(*b).abs() / pixel);
+    widths.fold(0.0, f64::max)
 }
 
 /// A circle as an order shows it.
