@@ -158,7 +158,7 @@ struct Material {
 struct Star {
     /// Unit direction on the sky, rain axes; w: flux, in units of a star of magnitude 0.
     direction: vec4<f32>,
-    /// x: temperature in K; yzw unused.
+    /// x: temperature in K; y: luminance of a black body of that temperature, as blackbody_rgb gives it; zw unused.
     colour: vec4<f32>,
 }
 

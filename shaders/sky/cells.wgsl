@@ -27,7 +27,7 @@ struct CellDraws {
 }
 
 /// How far off an interpolated place on the sky may be, as a part of what one pixel covers there.
-const SKY_ERROR: f32 = 0.25;
+const SKY_ERROR: f32 = 1.0;
 
 /// Normalised device coordinates of a place counted in cells from the upper left corner.
 fn cell_ndc(place: vec2<f32>) -> vec2<f32> {

@@ -67,11 +67,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let flags = frame.switches.x;
-    let rest = blackbody_rgb(star.colour.x);
-    var light = blackbody_rgb(star.colour.x * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
+    let light = blackbody_rgb(star.colour.x * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
     // The catalogue gives light as seen: a black body at T of that luminance. At gT it is as much brighter as the black body is.
-    light /= max(luminance(select(light, rest, (flags & FLAG_BEAMING) != 0u)), 1e-30);
-    let colour = light * flux;
+    let colour = light * flux / max(select(luminance(light), star.colour.y, (flags & FLAG_BEAMING) != 0u), 1e-30);
     // Three vertices a star, and one instance: software drivers pay for each instance.
     let slot = atomicAdd(&star_draw.vertices, 3u) / 3u;
     if slot >= arrayLength(&seen_stars) {

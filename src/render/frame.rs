@@ -234,7 +234,12 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
     }
 }
 
-/// The table of black bodies: ln of linear sRGB radiance over ln T, relative to the luminance at 5,772 K. Ends as in functions/colour.wgsl.
+/// Temperatures of the ends of [`blackbody_table`], in K; as in functions/colour.wgsl.
+pub const BLACKBODY_COLDEST: f32 = 200.0;
+/// The upper end, in K.
+pub const BLACKBODY_HOTTEST: f32 = 2.0e6;
+
+/// The table of black bodies: ln of linear sRGB radiance over ln T, relative to the luminance at 5,772 K.
 pub fn blackbody_table() -> Vec<[f32; 4]> {
-    blackbody::table(512, 200.0, 2.0e6)
+    blackbody::table(512, BLACKBODY_COLDEST, BLACKBODY_HOTTEST)
 }

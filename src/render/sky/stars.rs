@@ -5,11 +5,12 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::DVec3;
 
 use crate::render::Gpu;
-use crate::render::frame::Camera;
+use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST, Camera, blackbody_table};
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
 use crate::render::types::Star;
 use crate::render::visibility::may_be_seen;
+use crate::scene::blackbody;
 
 use super::table::sky_seen;
 
@@ -101,7 +102,12 @@ impl Stars {
     /// Uploads the catalogue.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star]) -> Self {
         let device = &gpu.device;
-        let (sorted, clusters) = arranged(stars);
+        let (mut sorted, clusters) = arranged(stars);
+        let table = blackbody_table();
+        for star in &mut sorted {
+            let rgb = blackbody::lookup(&table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.colour[0]);
+            star.colour[1] = blackbody::luminance(rgb.map(f64::from)) as f32;
+        }
         let catalogue = storage(gpu, "stars", &sorted);
         let listed = Growing::new(device, "star clusters", wgpu::BufferUsages::STORAGE);
         let seen =
