@@ -373,3 +373,22 @@ fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
         assert!((0.0..0.2).contains(&passed), "{passed} of the light behind the disk comes through");
     }
 }
+
+/// Gas without streaks: what is left are the places, the shift, the light and the thin images, and those are right to a hundredth.
+#[test]
+fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
+    let size = [192, 108];
+    let mut config = GameConfig::default();
+    config.disk.turbulence = 0.0;
+    let disk = Disk::new(config.disk.clone(), &config);
+    let mut renderer = renderer(size);
+    let camera = camera(27.0, 80.0, 26f64.to_radians());
+    renderer.set_disk(Some(disk.clone()));
+    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+    let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
+    let error = disk::compare(&got, &truth, size);
+    println!("without streaks: {error:?}");
+    assert!(error.psnr > 40.0, "PSNR is {} dB", error.psnr);
+}
