@@ -365,11 +365,11 @@ fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
     let far = (middle("far", Some(1.25), true), middle("far-alone", Some(1.25), false));
     std::fs::remove_dir_all(&folder).unwrap();
     println!("gas {gas:?}, near {near:?}, far {far:?}");
-    for c in 0..3 {
+    for (c, light) in gas.into_iter().enumerate() {
         assert!(near.1[c] > 1e-3 && far.1[c] > 1e-3, "the ball is dark");
         assert!((near.0[c] / near.1[c] - 1.0).abs() < 2e-3, "the disk shows before what hides it: {near:?}");
         // The disk stops four fifths face on, and more from the side.
-        let passed = (far.0[c] - gas[c]) / far.1[c];
+        let passed = (far.0[c] - light) / far.1[c];
         assert!((0.0..0.2).contains(&passed), "{passed} of the light behind the disk comes through");
     }
 }
