@@ -327,3 +327,68 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {
         }
     }
 }
+
+/// A ball between camera and disk hides it; one behind it shines through weakly; in both cases the light adds up as the rule of composition says.
+#[test]
+fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
+    let size = [64, 36];
+    let folder = std::env::temp_dir().join(format!("lensrunner-disk-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let (eye, through) = (DVec3::new(0.0, -20.0, 8.0), DVec3::new(0.0, -7.0, 0.0));
+    let mut renderer = renderer(size);
+    // Light at the middle of the picture, which looks at the place `through` of the disk.
+    let mut middle = |name: &str, ball: Option<f64>, disk: bool| -> [f32; 3] {
+        let file = folder.join(format!("{name}.toml"));
+        let look = through - eye;
+        let mut text = format!(
+            "[camera]\nposition = [{}, {:.1}, {:.1}]\nlook = [{}, {:.1}, {:.1}]\nfov = 20.0\n",
+            eye.x, eye.y, eye.z, look.x, look.y, look.z
+        );
+        if disk {
+            text += "[disk]\n";
+        }
+        if let Some(share) = ball {
+            let p = eye + look * share;
+            text +=
+                &format!("[[prop]]\nname = \"ball\"\nmodel = \"sphere\"\nposition = [{:.3}, {:.3}, {:.3}]\nsize = 1.5\n", p.x, p.y, p.z);
+        }
+        std::fs::write(&file, text).unwrap();
+        let scene = lensrunner::scene::load(file.to_str().unwrap()).unwrap();
+        let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &GameConfig::default());
+        let frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings());
+        let linear = renderer.picture(&frame, false).unwrap().linear;
+        let p = linear[(size[0] * (size[1] / 2) + size[0] / 2) as usize];
+        [p[0], p[1], p[2]]
+    };
+    let gas = middle("gas", None, true);
+    let near = (middle("near", Some(0.6), true), middle("near-alone", Some(0.6), false));
+    let far = (middle("far", Some(1.25), true), middle("far-alone", Some(1.25), false));
+    std::fs::remove_dir_all(&folder).unwrap();
+    println!("gas {gas:?}, near {near:?}, far {far:?}");
+    for (c, light) in gas.into_iter().enumerate() {
+        assert!(near.1[c] > 1e-3 && far.1[c] > 1e-3, "the ball is dark");
+        assert!((near.0[c] / near.1[c] - 1.0).abs() < 2e-3, "the disk shows before what hides it: {near:?}");
+        // The disk stops four fifths face on, and more from the side.
+        let passed = (far.0[c] - light) / far.1[c];
+        assert!((0.0..0.2).contains(&passed), "{passed} of the light behind the disk comes through");
+    }
+}
+
+/// Gas without streaks: what is left are the places, the shift, the light and the thin images, and those are right to a hundredth.
+#[test]
+fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
+    let size = [192, 108];
+    let mut config = GameConfig::default();
+    config.disk.turbulence = 0.0;
+    let disk = Disk::new(config.disk.clone(), &config);
+    let mut renderer = renderer(size);
+    let camera = camera(27.0, 80.0, 26f64.to_radians());
+    renderer.set_disk(Some(disk.clone()));
+    let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+    let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
+    let error = disk::compare(&got, &truth, size);
+    println!("without streaks: {error:?}");
+    assert!(error.psnr > 40.0, "PSNR is {} dB", error.psnr);
+}

@@ -18,14 +18,11 @@ fn vertex(@builtin(vertex_index) i: u32) -> Screen {
 /// A filmic curve: straight in the dark, a soft shoulder that reaches white at about ten times middle grey; colours lose their hue only
 /// as they come near to white.
 fn tone_curve(x: vec3<f32>) -> vec3<f32> {
-    let peak = max(x.r, max(x.g, x.b));
-    if peak <= 0.0 {
-        return vec3<f32>(0.0);
-    }
+    let peak = max(max(x.r, max(x.g, x.b)), 1e-12);
     let mapped = 1.0 - exp(-peak);
-    let hue = x / peak;
+    let toned = x * (mapped / peak);
     let bleach = smoothstep(0.6, 1.0, mapped);
-    return mix(hue * mapped, vec3<f32>(1.0) - (vec3<f32>(1.0) - hue * mapped) * (1.0 - bleach), vec3<f32>(bleach));
+    return toned + bleach * bleach * (vec3<f32>(1.0) - toned);
 }
 
 @fragment

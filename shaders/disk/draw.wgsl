@@ -6,7 +6,7 @@
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.xyw, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
+    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.x, exp2(4.0 * seen.gas.y), seen.gas.w, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
         seen.more.zw);
 }
 
@@ -37,23 +37,28 @@ fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
     return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
 }
 
-fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
+/// Light paths between which the finest octaves fade, in r_s: beyond the second the passes from far take over, which do not have them.
+const FINE: vec2<f32> = vec2<f32>(1.5, 3.0);
+
+/// The pattern with its finest octaves, of which `share` is there.
+fn close_pattern(uv: vec2<f32>, level: f32, share: f32) -> f32 {
     // A texel that is smaller than a pixel is filtered as it is.
     let coarse = textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
     let fine = 8.0 * uv;
-    return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+    return coarse + 0.35 * share * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
 }
 
 /// From near: slant and the finest octaves in each pixel.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in.gas, in.light.w, in.thin.y < 1e5);
-    let turbulence = at.shares.x * close_pattern(at.young, at.level) + at.shares.y * close_pattern(at.old, at.level);
+    let fine = 1.0 - smoothstep(FINE.x, FINE.y, in.light.w);
+    let turbulence = at.shares.x * close_pattern(at.young, at.level, fine) + at.shares.y * close_pattern(at.old, at.level, fine);
     let depth = in.gas.z * disk_slant(in.gas.w, in.light.w, near_half_height(in.gas.y));
     return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
 }
 
-/// Half height of the disk at a height in the pattern: thickness times radius.
-fn near_half_height(y: f32) -> f32 {
-    return max(bitcast<f32>(disk.room.z) * exp2(4.0 * y), 1e-3);
+/// Half height of the disk at a radius of the pattern: thickness times that.
+fn near_half_height(radius: f32) -> f32 {
+    return max(bitcast<f32>(disk.room.z) * radius, 1e-3);
 }

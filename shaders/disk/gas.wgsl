@@ -10,7 +10,7 @@
 
 struct Gas {
     @builtin(position) position: vec4<f32>,
-    /// Place in the pattern, optical depth, |cos|: as DiskVertex has them.
+    /// Azimuth in the pattern in turns, radius in the pattern in r_s, optical depth, |cos|.
     @location(0) gas: vec4<f32>,
     /// Light; w: light path.
     @location(1) light: vec4<f32>,
@@ -28,22 +28,23 @@ struct Streaks {
 /// Where in the pattern a place is, in both generations that are seen there. A thin image shows the mean of all it holds: there the level of the
 /// pattern is that of the longer side of what a pixel covers.
 fn streaks_of(gas: vec4<f32>, path: f32, thin: bool) -> Streaks {
+    let height = 0.25 * log2(gas.y);
+    let place = vec2<f32>(gas.x, height);
     // Pattern per pixel: shear moves it along but does not change the area a pixel covers.
-    let dx = dpdx(gas.xy);
-    let dy = dpdy(gas.xy);
+    let dx = dpdx(place);
+    let dy = dpdy(place);
     let size = vec2<f32>(textureDimensions(far_pattern));
     let area = abs(dx.x * dy.y - dx.y * dy.x) * size.x * size.y;
     let longest = max(dot(dx * size, dx * size), dot(dy * size, dy * size));
     let time = disk.renewal.x - path * disk.renewal.y;
     let number = floor(time);
     let grown = time - number;
-    let index = u32(clamp(number, 1.0, 15.0));
     let age = grown * disk.renewal.z + disk.renewal.w;
-    let rate = disk_rate(gas.y);
+    let rate = disk_rate(height);
     let moved = gas.x - rate * age;
     var result: Streaks;
-    result.young = vec2<f32>(moved, gas.y) + disk.offsets[index].xy;
-    result.old = vec2<f32>(moved - rate * disk.renewal.z, gas.y) + disk.offsets[index - 1u].xy;
+    result.young = vec2<f32>(moved, height) + disk.offset.xy + number * disk.offset.zw;
+    result.old = result.young - vec2<f32>(rate * disk.renewal.z, 0.0) - disk.offset.zw;
     result.shares = disk_shares(grown);
     result.level = 0.5 * log2(max(select(area, longest, thin), 1e-12));
     return result;

@@ -12,7 +12,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
     let light = gas_light(gas.a.x, log(ratio.x));
     let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
-    let place = vec4<f32>(found.surface.x - gas.b.x / 6.28318531, gas.b.z, depth, ratio.y);
+    let place = vec4<f32>(found.surface.x - gas.b.x / 6.28318531, exp2(4.0 * gas.b.z), depth, ratio.y);
     return Gas(clip_position(found.apparent.xyz), place, vec4<f32>(light.rgb, found.apparent.w), light.slope, vec2<f32>(0.0, 1e6));
 }
 

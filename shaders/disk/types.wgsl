@@ -22,8 +22,8 @@ struct DiskFrame {
     room: vec4<u32>,
     /// x: radius of a sprite in r_s; y: the scene's unit of light over the black body's; z, w unused.
     sprites: vec4<f32>,
-    /// xy: where in the pattern each generation begins.
-    offsets: array<vec4<f32>, 16>,
+    /// x, y: where in the pattern the first generation begins; z, w: from each to the next.
+    offset: vec4<f32>,
 }
 
 struct Circle {

@@ -231,7 +231,10 @@ impl Renderer {
             disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
-        let uniform = uniform(input, self.targets.size, self.geometry.capacity());
+        let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
+        if let Some(disk) = self.disk() {
+            uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
+        }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);

@@ -134,7 +134,7 @@ config! {
         exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
         exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
-        bloom: f64 = 0.06, number(0.0, 1.0), "", "share of light spread by the lens";
+        bloom: f64 = 0.1, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
     /// Stars and Milky Way.
@@ -158,6 +158,7 @@ config! {
         width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius";
+        exposure_key: f64 = 0.8, number(0.01, 8.0), "", "light that what shines is brought to where there is a disk; 1 is white";
         opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";

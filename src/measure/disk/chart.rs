@@ -164,7 +164,7 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     sheet.notes = Provenance::now(adapter).notes();
     let eye = portrait();
     let base = &contestants[0].config;
-    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, base.render.orders, 6);
+    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
         let shown = draw(Some(number), &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;
@@ -200,10 +200,17 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     Ok(sheet)
 }
 
-/// A frame, after one that makes targets and whose timestamps are another's.
+/// A frame: the mean of two, after two that make targets and whose timestamps are another's.
 fn timed(number: Option<usize>, eye: &Eye, draw: &mut Draw) -> Result<Shown, ChartError> {
-    draw(number, eye, TIME, None).map_err(ChartError::Draw)?;
-    draw(number, eye, TIME, None).map_err(ChartError::Draw)
+    let mut frame = || draw(number, eye, TIME, None).map_err(ChartError::Draw);
+    frame()?;
+    frame()?;
+    let (first, second) = (frame()?, frame()?);
+    Ok(Shown {
+        whole: 0.5 * (first.whole + second.whole),
+        processor: first.processor.zip(second.processor).map(|(a, b)| 0.5 * (a + b)),
+        ..second
+    })
 }
 
 /// The scripted chase at a share from 0 to 1 of its way, and what it passes through: from far, in through the inner edge, out over the disk, down through

@@ -63,7 +63,8 @@ impl Bench {
     /// Draws a frame by configuration `number`, the disk alone before black; None draws no disk at all. With a size it brings linear light back,
     /// drawn at that size.
     pub fn frame(&mut self, number: Option<usize>, camera: Camera, time: f64, picture: Option<[u32; 2]>) -> Result<Frame, PictureError> {
-        let config = &self.configs[number.unwrap_or_default()];
+        // Without a disk any of them will do; the last is the cheapest to bring its disk back.
+        let config = &self.configs[number.unwrap_or(self.configs.len() - 1)];
         let held = self.renderers.iter_mut().find(|held| held.representation == config.disk.representation);
         let Some(Held { renderer, taken_up, .. }) = held else { return Err(PictureError::Nothing) };
         if *taken_up != number || number.is_none() {

@@ -11,11 +11,11 @@ const GREATEST: f32 = 3.0;
 pub struct Textures {
     /// In 8 bits, (value + 3)/6 in all channels: the format that software rasterisers are fastest with.
     pub far: wgpu::TextureView,
-    /// One halving at a time.
+    /// One halving at a time: two are twice the work.
     pub far_sampler: wgpu::Sampler,
     /// In 16-bit floats, for close looks.
     pub near: wgpu::TextureView,
-    /// Between halvings too.
+    /// One halving at a time, too.
     pub near_sampler: wgpu::Sampler,
 }
 
@@ -40,7 +40,7 @@ impl Textures {
             far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &levels, &bytes),
             far_sampler: sampler("gas from far", wgpu::MipmapFilterMode::Nearest),
             near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
-            near_sampler: sampler("gas from near", wgpu::MipmapFilterMode::Linear),
+            near_sampler: sampler("gas from near", wgpu::MipmapFilterMode::Nearest),
         }
     }
 }

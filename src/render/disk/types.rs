@@ -2,9 +2,6 @@
 
 use bytemuck::{Pod, Zeroable};
 
-/// Generations of streaks that a frame may show.
-pub const GENERATIONS: usize = 16;
-
 /// `DiskFrame` in WGSL.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
@@ -19,7 +16,7 @@ pub struct DiskFrame {
     pub regions: [u32; 4],
     pub room: [u32; 4],
     pub sprites: [f32; 4],
-    pub offsets: [[f32; 4]; GENERATIONS],
+    pub offset: [f32; 4],
 }
 
 /// `Circle` in WGSL.

@@ -1,27 +1,34 @@
 //! What a frame needs to know of the disk, in f64: its axes as the camera sees them, the circles to draw in each order, the streaks' generations.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
-use crate::scene::disk::{DISK_UNIT, RENEWAL, SHEARED};
+use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
 use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
-/// Rings whose images are narrower than this where they are widest, in pixels, are drawn together: between two circles the place in the gas goes
-/// straight, which is off by an eighth of the square of a ring's share of the radius, under half a pixel for such rings. A rasteriser works in
-/// squares of pixels, and narrower triangles leave most of each empty.
-const LEAST_RING: f64 = 12.0;
-/// The same for the length of an arc, on the outermost circle: halving finds what is lost.
-const LEAST_ARC: f64 = 32.0;
-/// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide.
-const CLOSE: f64 = 4.0;
+/// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this.
+const STRAIGHT: f64 = 0.4;
+/// Light does so too: as long as it is off by no more than this share of the brightest ring's.
+const STRAIGHT_LIGHT: f64 = 0.015;
+/// And optical depth.
+const STRAIGHT_DEPTH: f64 = 0.02;
+/// Azimuths at which that is tried, on one side, for both sides are alike.
+const AZIMUTHS: usize = 12;
+/// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
+const GREEN: f64 = 26_160.0;
+/// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
+const LEAST_ARC: f64 = 64.0;
+/// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide. They fade in from here on, as
+/// shaders/disk/draw.wgsl has it.
+const CLOSE: f64 = 3.0;
 /// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
 const DETOUR: f64 = 60.0;
 
@@ -56,10 +63,14 @@ impl DiskView {
 
         let mut circles = Vec::new();
         let mut rings = Vec::new();
-        for order in 1..=input.settings.orders.min(3) {
-            let chosen = chosen_rings(disk, camera, slice, width, order);
+        for order in 1..=3 {
+            // The third is drawn unasked where it is wider than the pixel budget.
+            let unasked = order > input.settings.orders;
+            if unasked && (order < 3 || widest(disk, camera, slice, width, order) < f64::from(input.settings.pixel_error)) {
+                continue;
+            }
             let first = circles.len() as u32;
-            let (rows, pairs) = rows_of(disk, chosen);
+            let (rows, pairs) = rows(disk, camera, slice, width, order);
             let last = first + rows.len() as u32 - 1;
             circles.extend(rows.into_iter().map(|r| circle(disk, r, level, l, [order, first, last, 0])));
             rings.extend(pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
@@ -68,10 +79,7 @@ impl DiskView {
         // Streaks: time at the camera counted from the first generation that can be seen.
         let nearest = (l - end).max(0.0);
         let base = ((input.time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
-        let offsets = std::array::from_fn(|k| {
-            let [x, y] = disk.gas.offset(base as i64 + k as i64);
-            [x as f32, y as f32, 0.0, 0.0]
-        });
+        let [x, y] = disk.gas.offset(base as i64);
         let cuts = chosen_cuts(disk, camera, width);
         let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
         let close = camera.position.z.abs() < CLOSE && l < end + CLOSE;
@@ -86,7 +94,7 @@ impl DiskView {
                 regions: [0; 4],
                 room: [0, u32::from(close), (disk.gas.thickness as f32).to_bits(), 0],
                 sprites: [(0.7 * disk.sprite_radius()) as f32, DISK_UNIT as f32, 0.0, 0.0],
-                offsets,
+                offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
             },
             circles,
             cuts: cuts.iter().map(|azimuth| (azimuth - origin) as f32).collect(),
@@ -96,14 +104,97 @@ impl DiskView {
     }
 }
 
-/// The radii to draw and the pairs of them with gas between, for `count` rings.
-fn rows_of(disk: &Disk, count: usize) -> (Vec<f64>, Vec<[u32; 2]>) {
-    let all = disk.arcs.rings.len();
-    if count >= all || disk.config.gap > 0.0 {
-        return (disk.arcs.circles.clone(), disk.arcs.rings.clone());
+/// The radii to draw in an order and the pairs of them with gas between.
+fn rows(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
+    let circles = &disk.arcs.circles;
+    if disk.config.gap > 0.0 {
+        return (circles.clone(), disk.arcs.rings.clone());
     }
-    let rows = (0..=count).map(|k| disk.arcs.circles[k * all / count]).collect();
-    (rows, (0..count as u32).map(|k| [k, k + 1]).collect())
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let seen: Vec<SeenCircle> = circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
+    let brightest = seen.iter().map(|circle| circle.light).fold(1e-300, f64::max);
+    let straight = |a: usize, b: usize| {
+        // Middle and quarters.
+        [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
+            let m = (a * (n - k) + b * k) / n;
+            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest)
+        })
+    };
+    let mut chosen = vec![0];
+    for k in 1..circles.len() {
+        let last = *chosen.last().unwrap_or(&0);
+        if k + 1 == circles.len() || !straight(last, k + 1) {
+            chosen.push(k);
+        }
+    }
+    let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
+    (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
+}
+
+/// The width of the image of an order where it is widest, in pixels.
+fn widest(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> f64 {
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let [inner, outer] = disk.gas.extent().map(|r| SeenCircle::new(disk, camera, slice, order, r));
+    let widths = inner.places.iter().zip(&outer.places).map(|(a, b)| a.angle_to(*b).abs() / pixel);
+    widths.fold(0.0, f64::max)
+}
+
+/// A circle as an order shows it.
+struct SeenCircle {
+    radius: f64,
+    /// Azimuth by which its pattern is ahead, in rad.
+    lag: f64,
+    /// The radius that its pattern comes from.
+    pattern: f64,
+    light: f64,
+    depth: f64,
+    /// For each azimuth the place, direction times light path, in the half plane that holds the ray: outward and across.
+    places: [DVec2; AZIMUTHS],
+}
+
+impl SeenCircle {
+    fn new(disk: &Disk, camera: &Camera, slice: &Slice, order: u32, r: f64) -> SeenCircle {
+        let radial = &disk.gas.radial;
+        let l = camera.radius();
+        let n = camera.position / l;
+        let level = (1.0 - n.z * n.z).max(0.0).sqrt();
+        let places = std::array::from_fn(|k| {
+            // Closest where the disk comes closest to the camera.
+            let share = (k as f64 + 0.5) / AZIMUTHS as f64;
+            let (sine, cosine) = (PI * share * share).sin_cos();
+            let (along, across) = (r * cosine * level, r * (n.z * cosine).hypot(sine));
+            let ray = lens_lookup_at(slice, (along - l) as f32, across as f32, along as f32, order);
+            DVec2::new(f64::from(ray.cos_psi), f64::from(ray.sin_psi)) * if ray.valid { f64::from(ray.delay) } else { f64::NAN }
+        });
+        SeenCircle {
+            radius: r,
+            lag: radial.lag(r),
+            pattern: radial.pattern_radius(r),
+            light: (-GREEN / radial.temperature(r)).exp() * radial.depth(r).min(1.0),
+            depth: radial.depth(r),
+            places,
+        }
+    }
+
+    /// Whether this circle looks as it should where one draws straight on from `a` to `b`.
+    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64) -> bool {
+        (0..AZIMUTHS).all(|k| {
+            let [here, start, end] = [self.places[k], a.places[k], b.places[k]];
+            // Where the straight line is seen in this circle's direction.
+            let (before, after) = (here.perp_dot(start), here.perp_dot(end));
+            let t = before / (before - after);
+            let off = |value: f64, from: f64, to: f64| (from + t * (to - from) - value).abs();
+            // Pixels for each r_s across the ring, and along it.
+            let across = start.angle_to(end).abs() / (b.radius - a.radius) / pixel;
+            let along = self.radius / here.length() / pixel;
+            t > 0.0
+                && t < 1.0
+                && off(self.pattern, a.pattern, b.pattern) * across < STRAIGHT
+                && off(self.lag, a.lag, b.lag) * along < STRAIGHT
+                && off(self.light, a.light, b.light) < STRAIGHT_LIGHT * brightest
+                && off(self.depth, a.depth, b.depth) < STRAIGHT_DEPTH
+        })
+    }
 }
 
 /// The cuts between arcs long enough to be told apart.
@@ -120,34 +211,10 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
 }
 
-/// How many rings of an order are wide enough to be told apart.
-fn chosen_rings(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> usize {
-    let all = disk.arcs.rings.len();
-    let [start, end] = disk.gas.extent();
-    let l = camera.radius();
-    if order == 1 && l < 1.5 * end {
-        return all;
-    }
-    let n = camera.position / l;
-    let level = (1.0 - n.z * n.z).max(0.0).sqrt();
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-    let psi = |r: f64, theta: f64| {
-        let (sine, cosine) = theta.sin_cos();
-        let (along, across) = (r * cosine * level, r * (n.z * cosine).hypot(sine));
-        let ray = lens_lookup_at(slice, (along - l) as f32, across as f32, along as f32, order);
-        f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi))
-    };
-    let widest =
-        (0..12).map(|k| TAU * (f64::from(k) + 0.5) / 12.0).map(|theta| (psi(start, theta) - psi(end, theta)).abs()).fold(0.0, f64::max);
-    // Aberration can make it twice as wide.
-    let rings = (2.0 * widest / pixel / LEAST_RING).ceil();
-    if rings.is_finite() { (rings as usize).clamp(4.min(all), all) } else { all }
-}
-
 fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
     let radial = &disk.gas.radial;
     let [outward, along] = radial.momentum(r);
-    let pattern = radial.pattern_radius(r).ln() / crate::scene::disk::PATTERN_HEIGHT;
+    let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
     Circle {
         gas: [r as f32, radial.lag(r) as f32, radial.temperature(r).ln() as f32, radial.depth(r) as f32],
         motion: [outward as f32, along as f32, disk.gas.half_height(r) as f32, pattern as f32],

@@ -35,6 +35,9 @@ pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
 pub const DISK_UNIT: f64 = 4.0;
 /// Octaves for close looks: the pattern again, this many times finer, this strong.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);
+/// From one generation's place in the pattern to the next one's, in turns and heights: powers of the plastic number's inverse (Roberts 2018), of
+/// which no small multiple comes near to a whole number in both.
+pub const OFFSET_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// Standard deviation of ln density at turbulence 1.
 const FULL_TURBULENCE: f64 = 0.95;
 
@@ -142,10 +145,11 @@ impl Gas {
             .sum()
     }
 
-    /// Where in the pattern a generation begins, in turns and heights.
+    /// Where in the pattern a generation begins, in turns and heights: steps of [`OFFSET_STEP`], which never come back to where they were.
     pub fn offset(&self, generation: i64) -> [f64; 2] {
-        let bits = noise::hash(generation as u64, u64::from(self.seed));
-        [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64].map(|half| half / 4_294_967_296.0)
+        let bits = noise::hash(0, u64::from(self.seed));
+        let first = [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64].map(|half| half / 4_294_967_296.0);
+        std::array::from_fn(|k| (first[k] + (generation as f64 * OFFSET_STEP[k]).rem_euclid(1.0)).fract())
     }
 
     /// Rain-frame momentum per mass of the gas at `position` in the plane z = 0 (r_s): a circular orbit, or the plunge from the last of them.
