@@ -3,13 +3,15 @@
 use std::path::Path;
 use std::time::Instant;
 
+use glam::DVec3;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::compare::displacement::{Point, Probe};
 use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
-use crate::reference::picture::{Disk, Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
+use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
@@ -180,6 +182,24 @@ impl Case {
         picture(&self.world(ships), &setting, &self.camera, quality, done)
     }
 
+    /// The point of its body that a pixel of a picture shows, in the body's axes and the model's unit; the origin where it shows none.
+    pub fn body(&self, layer: &Layer) -> DVec3 {
+        let Some(object) = (layer.object as usize).checked_sub(1).and_then(|k| self.assembly.objects.get(k)) else { return DVec3::ZERO };
+        self.on_model(object.model, layer.triangle as usize, layer.barycentrics.map(f64::from))
+    }
+
+    fn on_model(&self, model: usize, triangle: usize, weights: [f64; 3]) -> DVec3 {
+        let model = &self.assembly.models[model];
+        let corners = model.triangles[triangle].map(|index| DVec3::from(model.vertices[index as usize].position.map(f64::from)));
+        (0..3).map(|k| corners[k] * weights[k]).sum()
+    }
+
+    /// The judge, to be asked anywhere on the screen.
+    pub fn probe(&self, tolerance: f64) -> impl Probe + '_ {
+        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
+        Asked { case: self, world: self.world(&ships), tolerance }
+    }
+
     /// How the game develops its pictures.
     pub fn development(&self) -> Development {
         let render = &self.config.render;
@@ -187,6 +207,36 @@ impl Case {
             bloom: render.bloom as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         }
+    }
+}
+
+/// A case's judge between the pixels.
+struct Asked<'a> {
+    case: &'a Case,
+    world: World<'a>,
+    tolerance: f64,
+}
+
+impl Probe for Asked<'_> {
+    fn at(&self, x: f64, y: f64) -> Option<Point> {
+        let camera = &self.case.camera;
+        match self.world.look(camera.position, camera.look(x, y).0, self.tolerance) {
+            Seen::Hit(hit) => {
+                let thing = &self.world.things[hit.object];
+                let body = self.case.on_model(thing.model, hit.triangle, hit.barycentrics);
+                Some(Point { object: thing.id, order: hit.order, body })
+            }
+            _ => None,
+        }
+    }
+
+    fn body(&self, layer: &Layer) -> DVec3 {
+        self.case.body(layer)
+    }
+
+    fn radius(&self, object: u32) -> f64 {
+        let thing = self.world.things.iter().find(|thing| thing.id == object);
+        thing.map_or(1.0, |thing| f64::from(self.case.assembly.models[thing.model].radius()))
     }
 }
 
