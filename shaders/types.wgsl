@@ -118,6 +118,14 @@ struct SeenVertex {
     leaving: vec4<f32>,
     /// x, y: texture coordinates; z: placement, w: material (bits).
     surface: vec4<f32>,
+    /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer edge
+    /// that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
+    fan: vec4<f32>,
+}
+
+/// Texture coordinates of a vertex.
+fn texture_point(vertex: SeenVertex) -> vec2<f32> {
+    return mix(vertex.fan.xy, vertex.surface.xy, vec2<f32>(vertex.fan.z));
 }
 
 /// A part of a triangle on its way from the object stage to the mesh stage. Corners are barycentric coordinates in the model triangle,

@@ -157,8 +157,8 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         }
         known = s;
         let missing = elapsed - result.ray.delay;
-        // A time in which the object moves less than a tenth of a pixel need not be found.
-        if i > 0u && abs(missing) * length(placement.velocity.xyz) < 0.1 * frame.size.z * result.ray.delay {
+        // A time in which the object moves less than a fiftieth of a pixel need not be found.
+        if i > 0u && abs(missing) * length(placement.velocity.xyz) < 0.02 * frame.size.z * result.ray.delay {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.

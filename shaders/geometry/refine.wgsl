@@ -151,8 +151,7 @@ fn refine_fan(piece: Piece) {
     }
     let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
     let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
-    // The arc is where two orders meet, each with arcs of its own: held to an eighth of the budget, so that the overlap covers the difference.
-    let arc = level_for(8.0 * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
+    let arc = level_for(CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }
