@@ -49,11 +49,11 @@ struct Placement {
     velocity: vec4<f32>,
     /// Rain-frame momentum per mass; w: γ.
     momentum: vec4<f32>,
-    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction.
+    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction. w: d²x/dT² of the centre.
     shape_x: vec4<f32>,
     shape_y: vec4<f32>,
     shape_z: vec4<f32>,
-    /// d(shape)/dT.
+    /// d(shape)/dT; w: the angular velocity in 1/T, rain axes.
     shape_rate_x: vec4<f32>,
     shape_rate_y: vec4<f32>,
     shape_rate_z: vec4<f32>,

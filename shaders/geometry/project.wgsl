@@ -84,7 +84,10 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
 fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let still = placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
     let turning = placement.shape_rate_x.xyz * body.x + placement.shape_rate_y.xyz * body.y + placement.shape_rate_z.xyz * body.z;
-    return still + (placement.velocity.xyz + turning) * s;
+    // Second order: the centre's acceleration, and what turning bends. A ship that turns while light crosses it would be off by a pixel.
+    let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
+    let spin = vec3<f32>(placement.shape_rate_x.w, placement.shape_rate_y.w, placement.shape_rate_z.w);
+    return still + (placement.velocity.xyz + turning) * s + (acceleration + cross(spin, cross(spin, still))) * (0.5 * s * s);
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.

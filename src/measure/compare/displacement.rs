@@ -55,11 +55,27 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<O
             let wanted = DVec3::from(shown.body.map(f64::from));
             let centre = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
             let here = Point { object: layer.object, order: layer.order, body: probe.body(layer) };
-            measure(probe, here, centre, wanted)
+            let there = measure(probe, here, centre, centre, wanted);
+            if !matches!(there, Some(Measured::Pixels(d)) if d > DOUBTFUL) {
+                return there;
+            }
+            // Where one part of a body stands before another its map tears. The point is looked for from both sides of the tear.
+            let sides = (0..8).map(|k| centre + DVec2::from_angle(std::f64::consts::FRAC_PI_4 * f64::from(k)) * 0.75);
+            let found = sides.filter_map(|start| {
+                let point = probe.at(start.x, start.y).filter(|p| (p.object, p.order) == (here.object, here.order))?;
+                match measure(probe, point, start, centre, wanted)? {
+                    Measured::Pixels(d) => Some(d),
+                    Measured::Apart => None,
+                }
+            });
+            let Some(Measured::Pixels(d)) = there else { return there };
+            Some(Measured::Pixels(found.fold(d, f64::min)))
         })
         .collect()
 }
 
+/// From this many pixels on a displacement is measured from several starts.
+const DOUBTFUL: f64 = 0.5;
 /// Steps of Newton: the map is smooth but for the edges of triangles, where its slope jumps.
 const STEPS: usize = 12;
 /// The longest step, in pixels: beyond it the slope says little.
@@ -67,12 +83,12 @@ const LONGEST: f64 = 4.0;
 /// Half the span over which the slope is taken, in pixels: the judge's rays are right to 1e-9 of that.
 const SPAN: f64 = 1.0 / 64.0;
 
-/// How far from `centre`, in pixels, the judge sees the point `wanted`. Where the image ends before it is reached the slope at its end
+/// How far from `centre`, in pixels, the judge sees the point `wanted`, looked for from `start`, which shows `here`. Where the image ends before it is reached the slope at its end
 /// extends it.
-fn measure(probe: &dyn Probe, here: Point, centre: DVec2, wanted: DVec3) -> Option<Measured> {
+fn measure(probe: &dyn Probe, here: Point, start: DVec2, centre: DVec2, wanted: DVec3) -> Option<Measured> {
     let same = |place: DVec2| probe.at(place.x, place.y).filter(|p| (p.object, p.order) == (here.object, here.order)).map(|p| p.body);
     let resolution = RESOLUTION * probe.radius(here.object);
-    let (mut place, mut body) = (centre, here.body);
+    let (mut place, mut body) = (start, here.body);
     let mut best = f64::INFINITY;
     for _ in 0..STEPS {
         let slope = |axis: DVec2| {
