@@ -57,7 +57,7 @@ struct Placement {
     shape_rate_x: vec4<f32>,
     shape_rate_y: vec4<f32>,
     shape_rate_z: vec4<f32>,
-    /// Columns of the rotation from body axes to rain axes, for normals.
+    /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,
     turn_z: vec4<f32>,

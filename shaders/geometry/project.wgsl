@@ -87,7 +87,10 @@ fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     // Second order: the centre's acceleration, and what turning bends. A ship that turns while light crosses it would be off by a pixel.
     let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
     let spin = vec3<f32>(placement.shape_rate_x.w, placement.shape_rate_y.w, placement.shape_rate_z.w);
-    return still + (placement.velocity.xyz + turning) * s + (acceleration + cross(spin, cross(spin, still))) * (0.5 * s * s);
+    // Third order matters inside the horizon, where a fall steepens while light crosses the ship.
+    let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
+    let bent = acceleration + cross(spin, cross(spin, still)) + jerk * (s / 3.0);
+    return still + (placement.velocity.xyz + turning) * s + bent * (0.5 * s * s);
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.

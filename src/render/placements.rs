@@ -245,6 +245,7 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
     let [(earlier, earlier_body), (later, later_body)] = [at(emission - 0.5 * span), at(emission + 0.5 * span)];
     let rate = (contraction(later.momentum) * later_body - contraction(earlier.momentum) * earlier_body) * (1.0 / span);
     let acceleration = (later.velocity - earlier.velocity) / span;
+    let jerk = (later.velocity + earlier.velocity - 2.0 * sample.velocity) * (4.0 / (span * span));
     let spin = (later.attitude * earlier.attitude.conjugate()).to_scaled_axis() / span;
     let still = !view.settings.light_delay;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
@@ -255,7 +256,7 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         momentum: row(momentum, gamma(momentum)),
         shape: columns_and(shape, acceleration),
         shape_rate: columns_and(rate, spin),
-        turn: columns(DMat3::from_quat(sample.attitude)),
+        turn: columns_and(DMat3::from_quat(sample.attitude), jerk),
         light: light_rows(&object.light),
         triangles: [0, 0, 0, if object.two_sided { TWO_SIDED } else { 0 }],
         ..Placement::default()
