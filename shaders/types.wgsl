@@ -171,7 +171,7 @@ struct Star {
 }
 
 struct SeenStar {
-    /// x, y: centre in NDC; z: half the side of its square in pixels (a faint star ends sooner); w unused.
+    /// x, y: centre in NDC; z: radius of its spot in pixels (a faint star ends sooner); w unused.
     place: vec4<f32>,
     /// Linear light of the whole star, to be spread over its spot.
     colour: vec4<f32>,

@@ -155,7 +155,7 @@ struct ChartFrameArgs {
     /// The time T, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
 }
@@ -178,7 +178,7 @@ struct ChartDiskArgs {
     /// Places along the chase.
     #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(2..=1000))]
     steps: u16,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
 }
@@ -202,7 +202,7 @@ struct ShotArgs {
     /// Adds object id, image order, travel time and g to an .exr.
     #[arg(long)]
     layers: bool,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The picture: .png or .exr.
@@ -238,7 +238,7 @@ struct TraceArgs {
     /// Adds what each pixel shows to an .exr.
     #[arg(long)]
     layers: bool,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The picture: .png or .exr.
@@ -270,7 +270,7 @@ struct CompareArgs {
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
     tolerance: f64,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The game's picture, the judge's and their difference, side by side.
@@ -286,7 +286,7 @@ struct CompareArgs {
 struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     scene: String,
-    /// The game's configuration [default: built in, as the game.toml that comes with the game].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// The last T, in r_s/c [default: the chase's time limit, or 100 when no ship has an AI].
@@ -407,8 +407,8 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::disk::bench::Bench;
     use lensrunner::render::frame::Camera;
     use lensrunner::render::{Gpu, shot};
-    let config = match args.config.as_deref().map(scene::config::load).transpose() {
-        Ok(config) => config.unwrap_or_default(),
+    let config = match scene::config::find(args.config.as_deref()) {
+        Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
     let request = Request {
@@ -425,19 +425,19 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     let adapter = gpu.adapter.name.clone();
     let mut bench = None;
     finish_chart(run(&request, &config, &adapter, &mut |number, eye, time, picture| {
-        let configs = || contestants(&config).into_iter().map(|contestant| contestant.config);
+        let configs = || contestants(&config).into_iter().map(|contestant| contestant.config).collect();
         let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
         let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
-        let (whole, passes, picture) = bench.frame(number, camera, time, picture).map_err(|error| error.to_string())?;
-        Ok(Shown { whole, passes, picture })
+        let frame = bench.frame(number, camera, time, picture).map_err(|error| error.to_string())?;
+        Ok(Shown { whole: frame.whole, processor: frame.processor, passes: frame.passes, picture: frame.picture })
     }))
 }
 
 #[cfg(feature = "game")]
 fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
     use lensrunner::render::bench;
-    let config = match args.config.as_deref().map(scene::config::load).transpose() {
-        Ok(config) => config.unwrap_or_default(),
+    let config = match scene::config::find(args.config.as_deref()) {
+        Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
     let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at };
@@ -563,7 +563,7 @@ fn run_simulate(args: &SimulateArgs) -> ExitCode {
 }
 
 fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
-    let config = args.config.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
+    let config = scene::config::find(args.config.as_deref())?;
     let scene = scene::load(&args.scene)?;
     let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
     request.check(&scene, &config)?;

@@ -17,8 +17,9 @@ mod reference_bvh_robust;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;
-#[cfg(feature = "game")]
 mod render_aurora;
+#[cfg(feature = "game")]
+mod render_branches;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]

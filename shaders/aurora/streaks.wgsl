@@ -129,7 +129,7 @@ fn streak_of(index: u32) -> Streak {
     let turn = number & 3u;
     streak.kind = select(select(PROMPT, RED, turn == 3u), GREEN, turn < 2u);
     streak.share = select(4.0, 2.0, turn < 2u) / f32(max(range.z, 1u));
-    streak.south = (aurora.history.w & AURORA_BOTH_POLES) != 0u && ((number >> 2u) & 1u) == 1u;
+    streak.south = ((aurora.history.w & AURORA_BOTH_POLES) != 0u) & (((number >> 2u) & 1u) == 1u);
     return streak;
 }
 

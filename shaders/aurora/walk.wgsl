@@ -57,7 +57,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     } else {
         lines.z = photons.z;
     }
-    let count = aurora.counts.z;
+    let count = min(aurora.counts.z, arrayLength(&splats));
     let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
     // A streak of twice the energy stands for half as many electrons: the flux of energy is what is given.
     let power = light * glow * streak.share * segment.light.x / f32(count);
@@ -69,7 +69,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let top = chords[first].apparent;
     let foot = chords[first + chord_count].apparent;
     let is_linear = (aurora.history.w & AURORA_LINEAR) != 0u;
-    if is_linear && (top.w * foot.w == 0.0 || top.z > -frame.projection.z || foot.z > -frame.projection.z) {
+    if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.projection.z)) {
         return;
     }
     var upper = height_of(fall.x, streak.kind, 0.0);
@@ -94,14 +94,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         let east = screen_step(c, mix(a.east.xyz, b.east.xyz, s), focal);
         let north = screen_step(c, mix(a.north.xyz, b.north.xyz, s), focal);
-        var fallen = screen_step(c, down, focal);
-        if is_linear {
-            // Linear on the screen between top and foot.
-            let t = (range.x - height) / (range.x - range.y);
-            let p = mix(top.xy / -top.z, foot.xy / -foot.z, t);
-            c = vec3<f32>(p * -c.z, c.z);
-            fallen = focal * (foot.xy / -foot.z - top.xy / -top.z) / (range.x - range.y);
-        }
+        // Linear on the screen between top and foot, if paper 3's way is asked for.
+        let t = (range.x - height) / (range.x - range.y);
+        let p = mix(top.xy / -top.z, foot.xy / -foot.z, t);
+        let fallen = select(screen_step(c, down, focal), focal * (foot.xy / -foot.z - top.xy / -top.z) / (range.x - range.y), is_linear);
+        c = select(c, vec3<f32>(p * -c.z, c.z), is_linear);
         // The blob, seen through the derivative of the projection: σ² J Jᵀ.
         let j = vec3<f32>(dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.x, north.x, fallen.x)),
             dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.y, north.y, fallen.y)),

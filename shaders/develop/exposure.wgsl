@@ -24,15 +24,9 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         }
         let metered = total.x / max(total.y, 1e-9);
         let wanted = clamp(frame.sky_x.w / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
-        var exposure = adaptation.x;
-        if (frame.switches.x & FLAG_HOLD_EXPOSURE) == 0u {
-            if adaptation.z == 0.0 {
-                exposure = wanted;
-            } else {
-                // In stops, as the eye does it.
-                exposure = exp(mix(log(max(exposure, 1e-12)), log(wanted), frame.exposure.z));
-            }
-        }
+        // In stops, as the eye does it; the first frame starts where it should be.
+        let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.exposure.z, 1.0, adaptation.z == 0.0)));
+        let exposure = select(nearer, adaptation.x, (frame.switches.x & FLAG_HOLD_EXPOSURE) != 0u);
         adaptation = vec4<f32>(exposure, metered, 1.0, 0.0);
     }
 }

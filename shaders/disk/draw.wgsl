@@ -5,8 +5,9 @@
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
-    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.xyw, seen.light.w), vec4<f32>(seen.light.rgb, seen.apparent.w),
-        seen.slope.xyz, seen.thin);
+    let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
+    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.xyw, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
+        seen.more.zw);
 }
 
 /// The part of a pixel that a thin image covers: a box of the least width, `d` pixels from its middle.

@@ -1,23 +1,21 @@
 // The light of the gas at a vertex, and how it changes with temperature.
 
 struct GasLight {
-    /// ln of the temperature that is seen, in K.
-    ln_temperature: f32,
     /// Linear light in the scene's unit.
     rgb: vec3<f32>,
     /// d ln rgb/d ln T.
     slope: vec3<f32>,
 }
 
-/// Gas of this ln T seen at g: the black body at gT. With the shift of colour or of brightness switched off the other stays as it is.
-fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
+/// Gas of this ln T seen at this ln g: the black body at gT. With the shift of colour or of brightness switched off the other stays as it is.
+fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
     let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
-    let shifted = ln_temperature + log(g);
+    let shifted = ln_temperature + ln_g;
     let shown = select(ln_temperature, shifted, doppler);
     let rgb = blackbody_rgb(exp(shown));
     var gain = disk.sprites.y;
-    if doppler != beaming {
+    if (doppler != beaming) & (ln_g != 0.0) {
         let bright = luminance(blackbody_rgb(exp(select(ln_temperature, shifted, beaming))));
         gain *= bright / max(luminance(rgb), 1e-30);
     }
@@ -27,5 +25,5 @@ fn gas_light(ln_temperature: f32, g: f32) -> GasLight {
     // the table's blue, held above zero where there is hardly any, would be steeper.
     let steep = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
     let slope = min(steep, steep.x * vec3<f32>(1.0, 1.12, 1.33));
-    return GasLight(shown, min(rgb * gain, vec3<f32>(6e4)), slope);
+    return GasLight(min(rgb * gain, vec3<f32>(6e4)), slope);
 }

@@ -56,7 +56,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let ratio = gas_ratio(apparent, r, ray.emission_slope > 0.0, gas);
     let alpha = 1.0 - exp(-gas.a.y * disk_slant(ratio.y, path, gas.b.y));
-    let light = gas_light(gas.a.x, ratio.x).rgb;
+    let light = gas_light(gas.a.x, log(ratio.x)).rgb;
     // Spots that together cover the disk about once, face on.
     let radius = clamp(disk.sprites.x / path / frame.size.z, 0.5, 32.0);
     let slot = atomicAdd(&sprite_draw.instances, 1u);

@@ -43,13 +43,8 @@ struct DiskVertex {
     /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the ray
     /// (close look: straight through).
     gas: vec4<f32>,
-    /// x, y, z: light of gas of mean density, linear; w: |cos| to the normal, in the frame of the gas.
-    light: vec4<f32>,
-    /// x, y, z: d ln light/d ln T.
-    slope: vec4<f32>,
-    /// x: distance from the middle of a thin image, y: its half width, both in pixels.
-    thin: vec2<f32>,
-    unused: vec2<f32>,
+    /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in pixels.
+    more: vec4<f32>,
 }
 
 struct Counters {
@@ -57,9 +52,10 @@ struct Counters {
     vertices: atomic<u32>,
     /// Indices of each order.
     indices: array<atomic<u32>, 3>,
-    /// Arcs drawn; arcs drawn coarser than asked; results that were not finite; unused.
+    /// Arcs drawn; arcs drawn coarser than asked; results that were not finite.
     arcs: atomic<u32>,
     coarse: atomic<u32>,
     caught: atomic<u32>,
-    unused: u32,
+    /// 1 once the vertices of the grid are there.
+    stage: u32,
 }

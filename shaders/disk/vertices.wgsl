@@ -1,17 +1,25 @@
-// Stage 1: one thread per place of the grid, the ends and the middle of every arc on both its circles.
+// Stages 1 and 3, in two dispatches of one pipeline: one thread per vertex. The first works out the places of the grid, the ends and the middle of
+// every arc on both its circles; the second, the mesh stage, the places that halving asks for.
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let columns = disk.sizes.x;
-    if id.x >= columns * disk.sizes.z {
+    let arcs = disk.sizes.y;
+    let grid = columns * disk.sizes.z;
+    let halved = disk_counters.stage == 1u;
+    if id.x >= select(grid, min(atomicLoad(&disk_counters.vertices), disk.room.x - grid), halved) {
         return;
     }
-    let row = id.x / columns;
-    let column = id.x % columns;
-    let cut = column / 2u;
-    var theta = cuts[cut];
-    if column % 2u == 1u {
-        theta = theta_between(theta, cuts[cut + 1u], 0.5);
+    // x: arc of a circle, counted along all rows; y of z: how far along it.
+    var job = vec3<u32>(id.x / columns * arcs + id.x % columns / 2u, id.x % columns % 2u, 2u);
+    var slot = id.x;
+    if halved {
+        job = jobs[id.x].xyz;
+        slot += grid;
+    } else if id.x % columns == columns - 1u {
+        // The last column ends the last arc.
+        job = vec3<u32>(job.x - 1u, 2u, 2u);
     }
-    disk_vertices[id.x] = disk_vertex(row, theta);
+    let cut = job.x % arcs;
+    disk_vertices[slot] = disk_vertex(job.x / arcs, theta_between(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z)));
 }

@@ -24,14 +24,11 @@ fn luminance(rgb: vec3<f32>) -> f32 {
 /// three numbers do not hold a spectrum. Radiance per frequency goes as g³ (Liouville: I_ν/ν³ is conserved).
 fn shifted_colour(rgb: vec3<f32>, g: f32, doppler: bool, beaming: bool) -> vec3<f32> {
     var colour = rgb;
-    if doppler {
+    if doppler & (g != 1.0) {
         let shift = log(g);
         colour = vec3<f32>(spectrum_at(rgb, LN_RED + shift), spectrum_at(rgb, LN_GREEN + shift), spectrum_at(rgb, LN_BLUE + shift));
     }
-    if beaming {
-        colour *= g * g * g;
-    }
-    return colour;
+    return colour * select(1.0, g * g * g, beaming);
 }
 
 // ln of the channels' dominant wavelengths in nm: 611, 549, 464 (sRGB primaries).

@@ -66,29 +66,28 @@ fn log1p(x: f32) -> f32 {
     let z = x / (2.0 + x);
     if abs(z) < 0.1 {
         let y = z * z;
-        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y / 9.0))));
+        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y * (1.0 / 9.0)))));
     }
     return log(1.0 + x);
-}
-
-fn arsinh(x: f32) -> f32 {
-    let y = abs(x);
-    let v = log1p(y + y * y / (1.0 + sqrt(1.0 + y * y)));
-    return select(v, -v, x < 0.0);
 }
 
 fn point_axis(cam: LensCamera, c: f32, room: f32) -> f32 {
     return (log(c + cam.soft) - 2.0 * sqrt(max(room, 0.0)) - cam.start) * cam.scale;
 }
 
-fn sweep_raw(sweep: f32, s: f32) -> f32 {
-    return sweep + 0.3 * arsinh((sweep - HALF_TURN) / s) + arsinh(sweep * 10.0);
+fn opened(x: f32) -> f32 {
+    let root = sqrt(1.0 + x * x);
+    return select(root + x, 1.0 / (root - x), x < 0.0);
 }
 
+const SWEEP_END: f32 = 5.23910259165662;
+
 fn sweep_axis(cam: LensCamera, c: f32, sweep: f32) -> f32 {
-    let s = 2.8 * sqrt(cam.a / (1.0 + cam.a) + c);
-    let first = sweep_raw(0.0, s);
-    return (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first);
+    let over = 1.0 / (2.8 * sqrt(cam.a / (1.0 + cam.a) + c));
+    let first = opened(HALF_TURN * over);
+    let here = first * opened((sweep - HALF_TURN) * over);
+    let length = LARGEST_SWEEP + SWEEP_END + 0.3 * log(first * opened(2.0 * HALF_TURN * over));
+    return (sweep + 0.3 * log(here) + log(opened(10.0 * sweep))) / length;
 }
 
 fn bent_sweep(sweep: f32) -> f32 {
@@ -104,13 +103,13 @@ fn basis(cam: LensCamera, sweep: f32) -> vec2<f32> {
     let x = cam.rate * sweep;
     if x < 0.3 {
         let y = cam.bend * sweep * sweep;
-        let s = sweep * (1.0 + y / 6.0 * (1.0 + y / 20.0 * (1.0 + y / 42.0)));
-        let k = 0.5 * sweep * sweep * (1.0 + y / 12.0 * (1.0 + y / 30.0 * (1.0 + y / 56.0)));
+        let s = sweep * (1.0 + y * (1.0 / 6.0) * (1.0 + y * (1.0 / 20.0) * (1.0 + y * (1.0 / 42.0))));
+        let k = 0.5 * sweep * sweep * (1.0 + y * (1.0 / 12.0) * (1.0 + y * (1.0 / 30.0) * (1.0 + y * (1.0 / 56.0))));
         return vec2<f32>(s, k);
     }
     if cam.bend < 0.0 {
         let h = sin(0.5 * x) / cam.rate;
-        return vec2<f32>(sin(x) / cam.rate, 2.0 * h * h);
+        return vec2<f32>(2.0 * h * cos(0.5 * x), 2.0 * h * h);
     }
     let up = exp(x);
     let down = 1.0 / up;
@@ -156,13 +155,16 @@ fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
 }
 
 fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
-    let n = 1.0 / sqrt(u * u + guess * guess);
-    let c0 = -guess * n;
-    let s0 = u * n;
-    let ct = cos(turn);
-    let st = sin(turn);
-    let sine = max(s0 * ct + c0 * st, 1e-12);
-    return -u * (c0 * ct - s0 * st) / sine;
+    // tan(turn/2) = p/q by Padé's approximant.
+    let x = 0.5 * turn;
+    let y = x * x;
+    let p = x * (945.0 - y * (105.0 - y));
+    let q = 945.0 - y * (420.0 - 15.0 * y);
+    // Cosine and sine of the turn, both times p² + q², which cancels.
+    let ct = q * q - p * p;
+    let st = 2.0 * p * q;
+    let sine = max(u * ct - guess * st, 1e-6 * u);
+    return u * (guess * ct + u * st) / sine;
 }
 
 fn emission_scale(cam: LensCamera, c: f32) -> f32 {
@@ -191,14 +193,11 @@ fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e
     }
     let q = x * x - excess * (h + y);
     let fall = dr / (root_r + root_l);
-    var rate_in = 1.0 / (root_l * (1.0 + root_l));
-    var rate_log = 2.0 / l;
+    var mean = 1.0 + 3.0 / l;
     if abs(dr) > 1e-6 * l {
-        rate_in = 2.0 * log1p(fall / (1.0 + root_l)) / dr;
-        rate_log = 2.0 * log1p(dr / l) / dr;
+        mean = 1.0 + 3.0 * log1p(dr / l) / dr;
     }
-    let mean = 1.0 + 1.5 * rate_log;
-    let rain = (2.0 / (root_r + root_l) + 0.5 * rate_log - rate_in) * dr;
+    let rain = root_l * (1.0 + root_r) / (root_r * (1.0 + root_l));
     let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
     let chord = sqrt(mean * mean * dr * dr + across);
     var out = 0.0;
@@ -216,7 +215,7 @@ fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e
     let a4 = a * a * a * a;
     let c4 = c * c * c * c;
     let factor = e / sqrt(e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4));
-    return vec3<f32>(2.0 * log(out * back) - rain, chord - 2.0 * log(0.5 * h), factor);
+    return vec3<f32>(2.0 * (log(out * back * rain) - fall), chord - 2.0 * log(0.5 * h), factor);
 }
 
 fn angle(sine: f32, cosine: f32) -> f32 {
@@ -231,17 +230,22 @@ fn angle(sine: f32, cosine: f32) -> f32 {
 fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
     let square = along * along + across * across;
     let r = sqrt(height * height + across * across);
-    let phi = angle(across / r, height / r);
+    let inverse = 1.0 / r;
+    let phi = angle(across * inverse, height * inverse);
     if square < 0.25 * cam.l * cam.l {
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        return Place(r, cam.room + dr / (r * cam.l), dr, phi);
+        return Place(r, cam.room + dr * inverse * cam.a, dr, phi);
     }
-    return Place(r, (r - 1.0) / r, r - cam.l, phi);
+    return Place(r, (r - 1.0) * inverse, r - cam.l, phi);
 }
+
+const SIXTH: f32 = 0.166666666666667;
 
 fn spline_weights(t: f32) -> vec4<f32> {
     let s = 1.0 - t;
-    return vec4<f32>(s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0);
+    let t2 = t * t;
+    let s2 = s * s;
+    return vec4<f32>(SIXTH * s2 * s, 4.0 * SIXTH + t2 * (0.5 * t - 1.0), 4.0 * SIXTH + s2 * (0.5 * s - 1.0), SIXTH * t2 * t);
 }
 
 fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32> {
@@ -401,7 +405,8 @@ fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f
     if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
         return no_ray();
     }
-    return LensRay(-radial / frequency, cam.a / frequency, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
+    let inverse = 1.0 / frequency;
+    return LensRay(-radial * inverse, cam.a * inverse, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
 }
 
 fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
@@ -418,7 +423,7 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
     if room > 0.0 {
         room = max(room, 1e-4);
         let bent = bent_sweep(swept);
-        let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
+        let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
         let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
         let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
         w = ray.x;

@@ -130,7 +130,7 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
     var known = 0.0;
     var back = 0.0;
     let moves = placement.velocity.w != 0.0;
-    let steps = select(EMISSION_STEPS, EMISSION_STEPS_INSIDE, (frame.switches.x & FLAG_INSIDE) != 0u);
+    let steps = select(0u, select(EMISSION_STEPS, EMISSION_STEPS_INSIDE, (frame.switches.x & FLAG_INSIDE) != 0u), moves);
     for (var i = 0u; i <= steps; i++) {
         var along = query.along;
         var across = query.across;

@@ -68,17 +68,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let flags = frame.switches.x;
     let rest = blackbody_rgb(star.colour.x);
-    var light = rest;
-    if (flags & FLAG_DOPPLER) != 0u {
-        light = blackbody_rgb(star.colour.x * g);
-    }
+    var light = blackbody_rgb(star.colour.x * select(1.0, g, (flags & FLAG_DOPPLER) != 0u));
     // The catalogue gives light as seen: a black body at T of that luminance. At gT it is as much brighter as the black body is.
     light /= max(luminance(select(light, rest, (flags & FLAG_BEAMING) != 0u)), 1e-30);
     let colour = light * flux;
-    // Six vertices a star, and one instance: software drivers pay for each instance.
-    let slot = atomicAdd(&star_draw.vertices, 6u) / 6u;
+    // Three vertices a star, and one instance: software drivers pay for each instance.
+    let slot = atomicAdd(&star_draw.vertices, 3u) / 3u;
     if slot >= arrayLength(&seen_stars) {
-        atomicSub(&star_draw.vertices, 6u);
+        atomicSub(&star_draw.vertices, 3u);
         return;
     }
     seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * adaptation.x < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));

@@ -4,7 +4,7 @@
 use wide::f32x8;
 
 use super::lookup::{LensRay, lens_lookup_aged};
-use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, LARGEST_SWEEP, SMALLEST_SWEEP};
+use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, LARGEST_SWEEP, SMALLEST_SWEEP, SWEEP_END};
 use super::slice::{HEADER, Slice};
 
 /// Points in a batch.
@@ -86,12 +86,6 @@ fn log1p(x: f32x8) -> f32x8 {
     z.abs().simd_lt(all(0.1)).select(series, (all(1.0) + x).ln())
 }
 
-fn arsinh(x: f32x8) -> f32x8 {
-    let y = x.abs();
-    let v = log1p(y + y * y / (all(1.0) + (all(1.0) + y * y).sqrt()));
-    x.simd_lt(all(0.0)).select(-v, v)
-}
-
 fn angle(sine: f32x8, cosine: f32x8) -> f32x8 {
     let y = sine * sine;
     let x = sine * (all(1.0) + y * (all(1.0 / 6.0) + y * (all(3.0 / 40.0) + y * (all(15.0 / 336.0) + y * all(105.0 / 3456.0)))));
@@ -100,7 +94,7 @@ fn angle(sine: f32x8, cosine: f32x8) -> f32x8 {
 }
 
 /// r, 1 − 1/r, r − L, φ.
-fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
+pub(crate) fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
     let l = all(cam.l);
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
@@ -112,14 +106,17 @@ fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4]
     [r, room, near.select(dr, r - l), phi]
 }
 
+fn opened(x: f32x8) -> f32x8 {
+    let root = (all(1.0) + x * x).sqrt();
+    x.simd_lt(all(0.0)).select(all(1.0) / (root - x), root + x)
+}
+
 fn sweep_axis(cam: &Camera, c: f32x8, sweep: f32x8) -> f32x8 {
-    // Twice the stretched ends of the axis need no logarithm: arsinh(10 Φ) there is a constant.
-    const END: f32 = 5.239_102_6;
-    let s = all(1.0) / (all(2.8) * (all(cam.a / (1.0 + cam.a)) + c).sqrt());
-    let first = all(-0.3) * arsinh(all(HALF_TURN) * s);
-    let last = all(LARGEST_SWEEP + END) + all(0.3) * arsinh(all(LARGEST_SWEEP - HALF_TURN) * s);
-    let here = sweep + all(0.3) * arsinh((sweep - all(HALF_TURN)) * s) + arsinh(sweep * all(10.0));
-    (here - first) / (last - first)
+    let over = all(1.0) / (all(2.8) * (all(cam.a / (1.0 + cam.a)) + c).sqrt());
+    let first = opened(all(HALF_TURN) * over);
+    let here = first * opened((sweep - all(HALF_TURN)) * over);
+    let length = all(LARGEST_SWEEP + SWEEP_END) + all(0.3) * (first * opened(all(2.0 * HALF_TURN) * over)).ln();
+    (sweep + all(0.3) * here.ln() + opened(all(10.0) * sweep).ln()) / length
 }
 
 fn bent_sweep(sweep: f32x8) -> f32x8 {
@@ -175,10 +172,12 @@ fn slope_guess(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
 }
 
 fn turned_slope(guess: f32x8, u: f32x8, turn: f32x8) -> f32x8 {
-    // −u cot(θ₀ + turn) with the lengths of the numerator and denominator left out, as they cancel; the floor keeps the scalar's meaning.
-    let (st, ct) = turn.sin_cos();
-    let n = (u * u + guess * guess).sqrt();
-    let sine = (u * ct - guess * st).fast_max(all(1e-12) * n);
+    let x = all(0.5) * turn;
+    let y = x * x;
+    let p = x * (all(945.0) - y * (all(105.0) - y));
+    let q = all(945.0) - y * (all(420.0) - all(15.0) * y);
+    let (ct, st) = (q * q - p * p, all(2.0) * p * q);
+    let sine = (u * ct - guess * st).fast_max(all(1e-6) * u);
     u * (guess * ct + u * st) / sine
 }
 
@@ -220,12 +219,9 @@ fn delay_parts(cam: &Camera, [r, room, dr]: [f32x8; 3], c: f32x8, bent: f32x8, [
     let excess = ahead.select(other, sum);
     let q = x * x - excess * (h + y);
     let fall = dr / (root_r + root_l);
-    let over = all(1.0) / dr;
     let far = dr.abs().simd_gt(all(1e-6 * l));
-    let rate_in = far.select(all(2.0) * log1p(fall / (all(1.0) + root_l)) * over, all(1.0) / (root_l * (all(1.0) + root_l)));
-    let rate_log = far.select(all(2.0) * log1p(dr * a) * over, all(2.0) * a);
-    let mean = all(1.0) + all(1.5) * rate_log;
-    let rain = (all(2.0) / (root_r + root_l) + all(0.5) * rate_log - rate_in) * dr;
+    let mean = all(1.0) + far.select(all(3.0) * log1p(dr * a) / dr, all(3.0) * a);
+    let rain = root_l * (all(1.0) + root_r) / (root_r * (all(1.0) + root_l));
     let across = mean * (all(1.0) + all(3.0) * c) * (room + k * c * c * a * all(1.0 / (1.0 + cam.a))) * r * all(l) * q;
     let chord = (mean * mean * dr * dr + across).sqrt();
     let zero = all(0.0);
@@ -234,7 +230,7 @@ fn delay_parts(cam: &Camera, [r, room, dr]: [f32x8; 3], c: f32x8, bent: f32x8, [
     let a4 = cam.a * cam.a * cam.a * cam.a;
     let c4 = c * c * c * c;
     let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(a4 / (1.0 + a4))).sqrt();
-    [all(2.0) * (out * back).ln() - rain, chord - all(2.0) * (all(0.5) * h).ln(), factor]
+    [all(2.0) * ((out * back * rain).ln() - fall), chord - all(2.0) * (all(0.5) * h).ln(), factor]
 }
 
 /// The three residuals of each point at coordinates in 0..=1, clamped.
@@ -269,7 +265,7 @@ fn residuals(slice: &Slice, x: f32x8, y: f32x8) -> [f32x8; 3] {
 fn spline_weights(t: f32x8) -> [f32x8; 4] {
     let s = all(1.0) - t;
     let sixth = all(1.0 / 6.0);
-    let inner = |t: f32x8| (all(4.0) - all(6.0) * t * t + all(3.0) * t * t * t) * sixth;
+    let inner = |t: f32x8| all(4.0 / 6.0) + t * t * (all(0.5) * t - all(1.0));
     [s * s * s * sixth, inner(t), inner(s), t * t * t * sixth]
 }
 

@@ -71,19 +71,12 @@ pub fn camera(l: f64) -> Camera {
     }
 }
 
-/// asinh, odd to the last bit.
-pub fn arsinh(x: Real) -> Real {
-    let y = x.abs();
-    let v = log1p(y + y * y / (1.0 + (1.0 + y * y).sqrt()));
-    if x < 0.0 { -v } else { v }
-}
-
 /// ln(1 + x), accurate for small x.
 pub fn log1p(x: Real) -> Real {
     let z = x / (2.0 + x);
     if z.abs() < 0.1 {
         let y = z * z;
-        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y / 9.0))));
+        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y * (1.0 / 9.0)))));
     }
     (1.0 + x).ln()
 }
@@ -94,16 +87,23 @@ pub fn point_axis(cam: &Camera, c: Real, room: Real) -> Real {
     ((c + cam.soft).ln() - 2.0 * room.max(0.0).sqrt() - cam.start) * cam.scale
 }
 
-/// The table's second coordinate before scaling: Φ, stretched around π by the width `s` of the Einstein ring and near 0.
-pub fn sweep_raw(sweep: Real, s: Real) -> Real {
-    sweep + 0.3 * arsinh((sweep - HALF_TURN) / s) + arsinh(sweep * 10.0)
+/// e to the arsinh x: sums of arsinh go under one logarithm.
+pub fn opened(x: Real) -> Real {
+    let root = (1.0 + x * x).sqrt();
+    if x < 0.0 { 1.0 / (root - x) } else { root + x }
 }
 
-/// The table's second coordinate, 0 to 1 over Φ from 0 to 3π.
+/// arsinh(10 Φ) at the end of the table, Φ = 3π.
+pub const SWEEP_END: Real = 5.239_102_591_656_62;
+
+/// The table's second coordinate, 0 to 1 over Φ from 0 to 3π: Φ + 0.3 arsinh((Φ − π)/s) + arsinh(10 Φ), stretched around π by the
+/// width `s` of the Einstein ring and near 0, less what it is at 0 and over its length.
 pub fn sweep_axis(cam: &Camera, c: Real, sweep: Real) -> Real {
-    let s = 2.8 * (cam.a / (1.0 + cam.a) + c).sqrt();
-    let first = sweep_raw(0.0, s);
-    (sweep_raw(sweep, s) - first) / (sweep_raw(LARGEST_SWEEP, s) - first)
+    let over = 1.0 / (2.8 * (cam.a / (1.0 + cam.a) + c).sqrt());
+    let first = opened(HALF_TURN * over);
+    let here = first * opened((sweep - HALF_TURN) * over);
+    let length = LARGEST_SWEEP + SWEEP_END + 0.3 * (first * opened(2.0 * HALF_TURN * over)).ln();
+    (sweep + 0.3 * here.ln() + opened(10.0 * sweep).ln()) / length
 }
 
 /// Φ as the closed forms see it: itself up to `BEND_START`, then levelling off, four times differentiable.
@@ -121,13 +121,14 @@ pub fn basis(cam: &Camera, sweep: Real) -> [Real; 2] {
     let x = cam.rate * sweep;
     if x < 0.3 {
         let y = cam.bend * sweep * sweep;
-        let s = sweep * (1.0 + y / 6.0 * (1.0 + y / 20.0 * (1.0 + y / 42.0)));
-        let k = 0.5 * sweep * sweep * (1.0 + y / 12.0 * (1.0 + y / 30.0 * (1.0 + y / 56.0)));
+        let s = sweep * (1.0 + y * (1.0 / 6.0) * (1.0 + y * (1.0 / 20.0) * (1.0 + y * (1.0 / 42.0))));
+        let k = 0.5 * sweep * sweep * (1.0 + y * (1.0 / 12.0) * (1.0 + y * (1.0 / 30.0) * (1.0 + y * (1.0 / 56.0))));
         return [s, k];
     }
     if cam.bend < 0.0 {
-        let h = (0.5 * x).sin() / cam.rate;
-        return [x.sin() / cam.rate, 2.0 * h * h];
+        let (sine, cosine) = (0.5 * x).sin_cos();
+        let h = sine / cam.rate;
+        return [2.0 * h * cosine, 2.0 * h * h];
     }
     let up = x.exp();
     let down = 1.0 / up;
@@ -179,13 +180,18 @@ pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Rea
     (u * u - e * e) / (beta * e - w)
 }
 
-/// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn`: how the table corrects a closed form.
+/// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn` (at most 2 radians either way): how the table corrects a
+/// closed form.
 pub fn turned_slope(guess: Real, u: Real, turn: Real) -> Real {
-    let n = 1.0 / (u * u + guess * guess).sqrt();
-    let (c0, s0) = (-guess * n, u * n);
-    let (ct, st) = (turn.cos(), turn.sin());
-    let sine = (s0 * ct + c0 * st).max(1e-12);
-    -u * (c0 * ct - s0 * st) / sine
+    // tan(turn/2) = p/q by Padé's approximant of order 5 over 4: off by 1e-7 at the largest turn, and no sine is called.
+    let x = 0.5 * turn;
+    let y = x * x;
+    let p = x * (945.0 - y * (105.0 - y));
+    let q = 945.0 - y * (420.0 - 15.0 * y);
+    // Cosine and sine of the turn, both times p² + q², which cancels.
+    let (ct, st) = (q * q - p * p, 2.0 * p * q);
+    let sine = (u * ct - guess * st).max(1e-6 * u);
+    u * (guess * ct + u * st) / sine
 }
 
 /// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
@@ -209,10 +215,11 @@ pub fn delay_parts(
     let (l, a) = (cam.l, cam.a);
     let c = 1.0 / r;
     let (root_r, root_l) = (r.sqrt(), l.sqrt());
-    let x = 2.0 * (0.5 * bent).sin();
+    let (sine, cosine) = (0.5 * bent).sin_cos();
+    let x = 2.0 * sine;
     let k = 0.5 * x * x;
     // Half the chord's fall: 2 cos(Φ/2), kept positive beyond π as in the lens equation.
-    let y = 2.0 * (0.5 * bent).cos();
+    let y = 2.0 * cosine;
     let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
     let reach = (y * y + soft).sqrt();
     let h = if y > 0.0 {
@@ -226,18 +233,11 @@ pub fn delay_parts(
         0.5 * (reach - y)
     };
     let q = x * x - excess * (h + y);
-    // The radial rates, exact along Φ = 0.
     let fall = dr / (root_r + root_l);
-    let (rate_in, rate_log) = if dr.abs() > 1e-6 * l {
-        (
-            2.0 * log1p(fall / (1.0 + root_l)) / dr,
-            2.0 * log1p(dr / l) / dr,
-        )
-    } else {
-        (1.0 / (root_l * (1.0 + root_l)), 2.0 / l)
-    };
-    let mean = 1.0 + 1.5 * rate_log;
-    let rain = (2.0 / (root_r + root_l) + 0.5 * rate_log - rate_in) * dr;
+    // 1 + 3 ln(r/L)/(r − L): exact along Φ = 0.
+    let mean = if dr.abs() > 1e-6 * l { 1.0 + 3.0 * log1p(dr / l) / dr } else { 1.0 + 3.0 / l };
+    // Of the fall with the rain, what is not a logarithm is 2 (√r − √L).
+    let rain = root_l * (1.0 + root_r) / (root_r * (1.0 + root_l));
     let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
     let chord = (mean * mean * dr * dr + across).sqrt();
     let out = if w_e > 0.0 {
@@ -254,7 +254,7 @@ pub fn delay_parts(
     let c4 = c * c * c * c;
     let factor = e / (e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4)).sqrt();
     [
-        2.0 * (out * back).ln() - rain,
+        2.0 * ((out * back * rain).ln() - fall),
         chord - 2.0 * (0.5 * h).ln(),
         factor,
     ]

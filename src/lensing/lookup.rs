@@ -1,5 +1,7 @@
 //! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 
+use wide::f32x4;
+
 use super::inside::inside;
 use super::single::*;
 use super::slice::{HEADER, Slice};
@@ -74,18 +76,22 @@ pub fn angle(sine: f32, cosine: f32) -> f32 {
 pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
-    let phi = angle(across / r, height / r);
+    let inverse = 1.0 / r;
+    let phi = angle(across * inverse, height * inverse);
     if square < 0.25 * cam.l * cam.l {
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        return Place { r, room: cam.room + dr / (r * cam.l), dr, phi };
+        return Place { r, room: cam.room + dr * inverse * cam.a, dr, phi };
     }
-    Place { r, room: (r - 1.0) / r, dr: r - cam.l, phi }
+    Place { r, room: (r - 1.0) * inverse, dr: r - cam.l, phi }
 }
+
+const SIXTH: f32 = 1.0 / 6.0;
 
 /// The weights of the four B-spline coefficients around the place `t` in 0..=1 between two nodes.
 pub fn spline_weights(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
-    [s * s * s / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * s * s + 3.0 * s * s * s) / 6.0, t * t * t / 6.0]
+    let (t2, s2) = (t * t, s * s);
+    [SIXTH * s2 * s, 4.0 * SIXTH + t2 * (0.5 * t - 1.0), 4.0 * SIXTH + s2 * (0.5 * s - 1.0), SIXTH * t2 * t]
 }
 
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
@@ -97,16 +103,18 @@ pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
     let j = (py as u32).min(ny - 2);
     let wx = spline_weights(px - i as f32);
     let wy = spline_weights(py - j as f32);
-    let mut sum = [0.0; 3];
+    // Four channels at once: a texel is one register.
+    let mut sum = f32x4::ZERO;
     for (b, weight) in wy.into_iter().enumerate() {
         let at = HEADER + ((j + b as u32) * (nx + 2) + i) as usize;
-        let t = &slice.texels[at..at + 4];
-        for h in 0..3 {
-            let row = wx[0] * t[0][h] + wx[1] * t[1][h] + wx[2] * t[2][h] + wx[3] * t[3][h];
-            sum[h] += weight * row;
+        let mut row = f32x4::ZERO;
+        for (texel, weight) in slice.texels[at..at + 4].iter().zip(wx) {
+            row += f32x4::from(*texel) * f32x4::splat(weight);
         }
+        sum += row * f32x4::splat(weight);
     }
-    sum
+    let [turn, delay, emission_turn, _] = sum.to_array();
+    [turn, delay, emission_turn]
 }
 
 /// Whether a number is neither NaN nor infinite.
@@ -153,7 +161,7 @@ pub(crate) fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, res
     if room > 0.0 {
         room = room.max(1e-4);
         let bent = bent_sweep(swept);
-        let guess = slope_guess(cam, -at.dr / (at.r * cam.l), bent);
+        let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
         let table = residuals(point_axis(cam, c, room), sweep_axis(cam, c, swept));
         [w, e, w_e] =
             joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
@@ -177,9 +185,10 @@ pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> 
     if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
         return NOTHING;
     }
+    let inverse = 1.0 / frequency;
     LensRay {
-        cos_psi: -radial / frequency,
-        sin_psi: cam.a / frequency,
+        cos_psi: -radial * inverse,
+        sin_psi: cam.a * inverse,
         delay,
         frequency,
         emission_radial: leaving,

@@ -41,7 +41,7 @@ pub use table::{Scheme, Table, TableError, load_or_bake};
 /// The camera radii of a full-size bake (`bake::size`).
 pub const FULL_NODES: usize = 112;
 /// The camera radii of the small committed table.
-pub const SMALL_NODES: usize = 78;
+pub const SMALL_NODES: usize = 96;
 
 /// Bakes a table of `scheme` with `nodes` (at least 5) along each axis; `done` is called with finished shares that add up to 1.
 pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {

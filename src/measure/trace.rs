@@ -251,7 +251,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
     if layers && ending == Some("png") {
         return Err(TraceError::Input("--layers needs an .exr: a PNG holds the developed picture alone".into()));
     }
-    let config = config.map(scene::config::load).transpose()?.unwrap_or_default();
+    let config = scene::config::find(config)?;
     let scene = scene::load(&request.scene)?;
     let case = Case::new(scene, config, request.at, request.size);
     for warning in &case.assembly.warnings {

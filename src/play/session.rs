@@ -7,8 +7,6 @@ use thiserror::Error;
 
 use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
 
-/// The configuration's file where none is named: beside the assets, as the game comes.
-pub const CONFIG_FILE: &str = "game.toml";
 /// The scene where none is named.
 pub const SCENE: &str = "chase";
 
@@ -42,10 +40,7 @@ pub struct Session {
 impl Session {
     /// Reads configuration and scene. Without a named configuration, `game.toml` is read where there is one.
     pub fn load(config: Option<&Path>, scene: Option<&str>, seed: u64) -> Result<Session, SessionError> {
-        let config_file = config.map(Path::to_path_buf).or_else(|| {
-            let beside_assets = scene::assets_folder().join("..").join(CONFIG_FILE);
-            [PathBuf::from(CONFIG_FILE), beside_assets].into_iter().find(|file| file.is_file())
-        });
+        let config_file = scene::config::file(config);
         let config = config_file.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
         let scene = scene::load(scene.unwrap_or(SCENE))?;
         if scene.ships.is_empty() {

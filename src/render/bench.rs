@@ -137,12 +137,13 @@ fn quantile(values: &mut [f64], q: f64) -> f64 {
     values.get(((values.len().max(1) - 1) as f64 * q).round() as usize).copied().unwrap_or(f64::NAN)
 }
 
-/// Milliseconds that all threads of this process have run so far, on Linux.
-fn processor_time() -> Option<f64> {
-    let status = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // Fields 14 and 15, counted behind the name in brackets: user and system time in ticks of 10 ms (USER_HZ is 100 on every Linux).
-    let mut fields = status.rsplit_once(')')?.1.split_whitespace().skip(11);
-    let ticks: f64 = fields.next()?.parse().ok()?;
-    let system: f64 = fields.next()?.parse().ok()?;
-    Some((ticks + system) * 10.0)
+/// Milliseconds that all threads of this process that still run have run so far, on Linux.
+pub fn processor_time() -> Option<f64> {
+    let mut sum = 0.0;
+    for task in std::fs::read_dir("/proc/self/task").ok()? {
+        // The first field is the time on a processor, in ns. A thread may end while we read.
+        let Ok(text) = std::fs::read_to_string(task.ok()?.path().join("schedstat")) else { continue };
+        sum += text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-6;
+    }
+    Some(sum)
 }

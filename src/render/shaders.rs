@@ -71,12 +71,10 @@ pub enum Pass {
     Exposure,
     /// Exposes, blooms, encodes.
     Develop,
-    /// Projects the places of the disk's arcs.
+    /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices,
     /// Decides how often arcs are halved.
     DiskSegments,
-    /// Projects what halving asks for.
-    DiskMesh,
     /// Joins the arcs' points by triangles.
     DiskStrips,
     /// Turns the disk's counts into indirect arguments.
@@ -93,7 +91,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 28] = [
+    pub const ALL: [Pass; 27] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -115,7 +113,6 @@ impl Pass {
         Pass::Develop,
         Pass::DiskVertices,
         Pass::DiskSegments,
-        Pass::DiskMesh,
         Pass::DiskStrips,
         Pass::DiskArguments,
         Pass::DiskDraw,
@@ -156,7 +153,6 @@ impl Pass {
             Pass::Develop => include_str!("../../shaders/develop/develop.wgsl"),
             Pass::DiskVertices => include_str!("../../shaders/disk/vertices.wgsl"),
             Pass::DiskSegments => include_str!("../../shaders/disk/segments.wgsl"),
-            Pass::DiskMesh => include_str!("../../shaders/disk/mesh.wgsl"),
             Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
             Pass::DiskArguments => include_str!("../../shaders/disk/arguments.wgsl"),
             Pass::DiskDraw => include_str!("../../shaders/disk/draw.wgsl"),
@@ -176,24 +172,11 @@ impl Pass {
             Pass::AuroraResolve => vec![],
             Pass::Compose | Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
-            Pass::DiskVertices | Pass::DiskMesh => {
-                vec![
-                    TYPES,
-                    BINDINGS,
-                    SEES_OUTSIDE,
-                    LENSING,
-                    LENSING_CAMERA,
-                    CLIP,
-                    COLOUR,
-                    DISK,
-                    DISK_TYPES,
-                    DISK_BINDINGS,
-                    DISK_LIGHT,
-                    DISK_PLACE,
-                ]
+            Pass::DiskVertices => {
+                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
-            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, DISK, DISK_TYPES, DISK_GAS],
+            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],
             Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
             Pass::DiskSprites => {
                 vec![

@@ -123,7 +123,7 @@ pub fn for_comparison(
 
 /// Draws the picture into a file, with the configuration of `config`.
 pub fn shot_to_file(request: &Request, config: Option<&Path>, output: &Path) -> Result<(), ShotError> {
-    let config = config.map(scene::config::load).transpose()?.unwrap_or_default();
+    let config = scene::config::find(config)?;
     // A wrong name is said before the work.
     if !matches!(output.extension().and_then(|extension| extension.to_str()), Some("png" | "exr")) {
         return Err(PictureError::Format(output.display().to_string()).into());

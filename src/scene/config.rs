@@ -1,6 +1,6 @@
 //! `game.toml`: every tunable value, with unit, default and allowed range, said once in [`config_fields`](super::config_fields).
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use toml::de::{DeTable, DeValue};
 
@@ -11,6 +11,22 @@ use super::document::{complain, syntax};
 use super::error::{Complaint, ConfigError};
 pub use super::setting::{Allowed, Setting, Value, is_key};
 use super::ship::Fault;
+
+/// The configuration's file where none is named.
+pub const FILE: &str = "game.toml";
+
+/// The file to read: the named one, else `game.toml` in the folder that the program is started in, else the one that the game comes with.
+pub fn file(named: Option<&Path>) -> Option<PathBuf> {
+    named.map(Path::to_path_buf).or_else(|| {
+        let beside_assets = super::assets_folder().join("..").join(FILE);
+        [PathBuf::from(FILE), beside_assets].into_iter().find(|file| file.is_file())
+    })
+}
+
+/// Reads the named file, or the one that [`file`] finds; where there is none, every value is its default.
+pub fn find(named: Option<&Path>) -> Result<GameConfig, ConfigError> {
+    Ok(file(named).as_deref().map(load).transpose()?.unwrap_or_default())
+}
 
 /// Reads `path`. Keys that are left out keep their default; unknown keys, wrong types and values out of range are errors.
 pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {

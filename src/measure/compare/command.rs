@@ -47,7 +47,7 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
     }
-    let config = config.map(scene::config::load).transpose().map_err(TraceError::from)?.unwrap_or_default();
+    let config = scene::config::find(config).map_err(TraceError::from)?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
     let case = Case::new(scene, config, request.at, request.size);
     let frame = contestant(&case).map_err(CompareError::Contestant)?;

@@ -48,14 +48,17 @@ pub struct Contestant {
 pub struct Shown {
     /// The whole frame on the clock, in ms.
     pub whole: f64,
+    /// The processor time of all threads, in ms, where a software adapter draws.
+    pub processor: Option<f64>,
     /// Passes with their times by the adapter's timestamps, in ms.
     pub passes: Vec<(String, f64)>,
     /// Linear light, if it was asked for.
     pub picture: Vec<[f32; 3]>,
 }
 
-/// Draws a frame of a contestant (by its number) for an eye at a time T; with a size it also brings the picture back, drawn at that size.
-pub type Draw<'a> = dyn FnMut(usize, &Eye, f64, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
+/// Draws a frame of a contestant (by its number; None: without a disk) for an eye at a time T; with a size it brings the picture back, drawn at that
+/// size.
+pub type Draw<'a> = dyn FnMut(Option<usize>, &Eye, f64, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
 
 /// Why there is no chart.
 #[derive(Debug, thiserror::Error)]
@@ -73,6 +76,8 @@ pub enum ChartError {
 
 /// Passes that are the disk's own.
 const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
+/// What ratios are told against.
+const REFERENCE: &str = "arcs 4200";
 /// T of all frames, in r_s/c.
 const TIME: f64 = 100.0;
 
@@ -126,7 +131,16 @@ fn portrait() -> Eye {
     eye(position, -position)
 }
 
-fn own(shown: &Shown) -> f64 {
+/// What the disk costs: the passes that are its own by timestamps. A software adapter draws on the processor, where other programs run as well and
+/// passes overlap: there it is the processor time of the frame less that of a frame without a disk.
+fn own(shown: &Shown, without: &Shown) -> f64 {
+    match (shown.processor, without.processor) {
+        (Some(with), Some(without)) => with - without,
+        _ => passes(shown),
+    }
+}
+
+fn passes(shown: &Shown) -> f64 {
     shown.passes.iter().filter(|(label, _)| DISK_PASSES.contains(&label.as_str())).map(|(_, time)| time).sum()
 }
 
@@ -136,39 +150,60 @@ fn median(values: &mut [f64]) -> f64 {
 }
 
 fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["contestant", "family", "disk_ms", "frame_ms", "psnr_db", "flip", "mean_difference"]);
+    let mut sheet = Sheet::new(&[
+        "contestant",
+        "family",
+        "disk_ms",
+        "passes_ms",
+        "frame_ms",
+        "against_arcs_4200",
+        "psnr_db",
+        "flip",
+        "mean_difference",
+    ]);
     sheet.notes = Provenance::now(adapter).notes();
     let eye = portrait();
     let base = &contestants[0].config;
-    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, base.render.orders, 4);
-    let mut times = vec![(Vec::new(), Vec::new()); contestants.len()];
+    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, base.render.orders, 6);
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
-        let shown = draw(number, &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;
+        let shown = draw(Some(number), &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;
         errors.push(compare(&shown.picture, &truth, request.error_size));
     }
-    for round in 0..request.rounds + 2 {
-        for (number, (own_times, whole)) in times.iter_mut().enumerate() {
-            let shown = draw(number, &eye, TIME, None).map_err(ChartError::Draw)?;
-            // Timestamps come a frame late; the first frames of a size also make its targets.
-            if round > 1 {
-                own_times.push(own(&shown));
-                whole.push(shown.whole);
-            }
+    let mut times = vec![[const { Vec::new() }; 3]; contestants.len()];
+    for _ in 0..request.rounds {
+        let without = timed(None, &eye, draw)?;
+        for (number, [own_times, pass_times, whole]) in times.iter_mut().enumerate() {
+            let shown = timed(Some(number), &eye, draw)?;
+            own_times.push(own(&shown, &without));
+            pass_times.push(passes(&shown));
+            whole.push(shown.whole);
         }
     }
-    for ((contestant, error), (own_times, whole)) in contestants.iter().zip(errors).zip(&mut times) {
+    let reference = contestants.iter().position(|contestant| contestant.name == REFERENCE).unwrap_or_default();
+    let against = times[reference][0].clone();
+    for ((contestant, error), [own_times, pass_times, whole]) in contestants.iter().zip(errors).zip(&mut times) {
+        // Round by round, for what else runs on the machine changes from round to round.
+        let mut ratios: Vec<f64> = own_times.iter().zip(&against).map(|(own, reference)| own / reference).collect();
         sheet.push([
             contestant.name.clone(),
             contestant.family.to_string(),
             format!("{:.3}", median(own_times)),
+            format!("{:.3}", median(pass_times)),
             format!("{:.3}", median(whole)),
+            format!("{:.3}", median(&mut ratios)),
             format!("{:.2}", error.psnr),
             format!("{:.4}", error.flip),
             format!("{:.4}", error.relative),
         ]);
     }
     Ok(sheet)
+}
+
+/// A frame, after one that makes targets and whose timestamps are another's.
+fn timed(number: Option<usize>, eye: &Eye, draw: &mut Draw) -> Result<Shown, ChartError> {
+    draw(number, eye, TIME, None).map_err(ChartError::Draw)?;
+    draw(number, eye, TIME, None).map_err(ChartError::Draw)
 }
 
 /// The scripted chase at a share from 0 to 1 of its way, and what it passes through: from far, in through the inner edge, out over the disk, down through
@@ -203,24 +238,17 @@ fn chase(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     let steps = request.steps.max(2);
     for step in 0..steps {
         let (eye, situation) = script((step as f64 + 0.5) / steps as f64);
+        let without = timed(None, &eye, draw)?;
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3) {
-            let mut frames = Vec::new();
-            let mut last = Shown::default();
-            // The middle of three, after one whose timestamps are the place before's.
-            for turn in 0..4 {
-                last = draw(number, &eye, TIME, None).map_err(ChartError::Draw)?;
-                if turn > 0 {
-                    frames.push(last.whole);
-                }
-            }
-            let pass = |label: &str| last.passes.iter().find(|(name, _)| name == label).map_or(0.0, |(_, time)| *time);
+            let shown = timed(Some(number), &eye, draw)?;
+            let pass = |label: &str| shown.passes.iter().find(|(name, _)| name == label).map_or(0.0, |(_, time)| *time);
             sheet.push([
                 contestant.name.clone(),
                 contestant.family.to_string(),
                 step.to_string(),
                 situation.to_owned(),
-                format!("{:.3}", median(&mut frames)),
-                format!("{:.3}", own(&last)),
+                format!("{:.3}", shown.processor.unwrap_or(shown.whole)),
+                format!("{:.3}", own(&shown, &without)),
                 format!("{:.3}", pass(DISK_PASSES[0])),
                 format!("{:.3}", pass(DISK_PASSES[1])),
                 format!("{:.3}", pass(DISK_PASSES[2])),
@@ -241,7 +269,7 @@ fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
     });
     let scatter = Scatter {
         title: "Speed against error, disk alone".into(),
-        x: Axis::log("passes of the disk, ms"),
+        x: Axis::log("disk alone, ms"),
         y: Axis::linear("FLIP against the exact picture, mean"),
         points: points.collect(),
         families,

@@ -13,7 +13,7 @@ use crate::spacetime::light::{self, Branch, Order};
 pub use analytic::{Approximation, Flat};
 pub use exact::Exact;
 pub use integrate::Integrate;
-pub use paper::Paper;
+pub use paper::{Paper, PaperBatch};
 pub use residual::{Interpolation, Residual, Texels};
 pub use slice::{Batch, Newton, Table};
 
@@ -146,6 +146,7 @@ pub const CATALOGUE: &[Entry] = &[
     entry("paper1-32", 1, "the same, 32 nodes"),
     entry("paper1-64", 1, "the same, 64 nodes"),
     entry("paper1-128", 1, "the same, 128 nodes"),
+    entry("paper1-128-batch", 1, "the same, eight points at once in SIMD registers"),
     entry("paper1-uniform-16", 1, "paper 1 on uniform meshes, 16 nodes an axis"),
     entry("paper1-uniform-32", 1, "the same, 32 nodes"),
     entry("paper1-uniform-64", 1, "the same, 64 nodes"),
@@ -183,6 +184,7 @@ pub fn named(name: &str) -> Option<Box<dyn Projector>> {
         "residual-cubic-f16" => Box::new(Residual::<[half::f16; 3]>::new(&full(), Interpolation::Cubic)),
         "residual-linear-f32" => Box::new(Residual::<[f32; 3]>::new(&full(), Interpolation::Linear)),
         "residual-linear-f16" => Box::new(Residual::<[half::f16; 3]>::new(&full(), Interpolation::Linear)),
+        "paper1-128-batch" => Box::new(PaperBatch(Paper(table("tables/paper-128.lut", Scheme::Paper, 128)))),
         "beloborodov" => Box::new(Approximation::Beloborodov),
         "poutanen" => Box::new(Approximation::Poutanen),
         "flat" => Box::new(Flat),

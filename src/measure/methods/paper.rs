@@ -1,7 +1,10 @@
 //! Paper 1's tables as a game would fetch from them: what depends on the camera's radius alone computed once a frame, one logarithm for
 //! each of r and φ, eight corners, all in f32.
 
+use wide::f32x8;
+
 use super::{Frame, Projector, Query, Sight, Vertex, each};
+use crate::lensing::batch::{self, LANES};
 use crate::lensing::lookup::place;
 use crate::lensing::single::{Camera, camera};
 use crate::lensing::{Table, paper};
@@ -79,8 +82,14 @@ impl Paper {
         let (i, x) = half.radial.cell(if inside { at.r - half.first } else { at.dr }, n);
         let (j, y) = half.angular.cell(at.phi, n);
         let channel = if inside { 0 } else { 4 } + 2 * (usize::from(order.number()) - 1);
+        self.corners([i, j, half.layer], [x, y, half.share], channel)
+    }
+
+    /// ψ and the delay between the eight nodes around a place.
+    fn corners(&self, [i, j, layer]: [usize; 3], [x, y, share]: [f32; 3], channel: usize) -> [f32; 2] {
+        let n = self.0.size[0] as usize;
         let mut sum = [0.0f32; 2];
-        for (k, wz) in [(half.layer, 1.0 - half.share), (half.layer + 1, half.share)] {
+        for (k, wz) in [(layer, 1.0 - share), (layer + 1, share)] {
             for (j, wy) in [(j, 1.0 - y), (j + 1, y)] {
                 let base = ((k * n + j) * n + i) * paper::CHANNELS + channel;
                 let corner = &self.0.values[base..base + paper::CHANNELS + 2];
@@ -94,10 +103,77 @@ impl Paper {
     }
 }
 
+/// The same fetch for eight points at once: places and logarithms in SIMD registers, corners lane by lane.
+pub struct PaperBatch(pub Paper);
+
+/// Where the points of a batch lie along one of the axes, in cells.
+fn cells(axis: [Axis; LANES], offset: f32x8, nodes: usize) -> ([f32; LANES], [f32; LANES]) {
+    let of = |field: fn(&Axis) -> f32| f32x8::from(axis.each_ref().map(field));
+    let x = of(|a| a.factor) * offset.fast_max(f32x8::ZERO);
+    let z = if axis[0].uniform { x } else { (f32x8::ONE + x).ln() * of(|a| a.cells) };
+    let z = z.fast_max(f32x8::ZERO).fast_min(f32x8::splat((nodes - 1) as f32));
+    let cell = z.floor().fast_min(f32x8::splat((nodes - 2) as f32));
+    (cell.to_array(), (z - cell).to_array())
+}
+
+impl PaperBatch {
+    fn fetch(&self, ready: &Ready, points: &[Vertex], order: Order) -> [[f32; 2]; LANES] {
+        let n = self.0.0.size[0] as usize;
+        let last = points.len() - 1;
+        let of = |field: fn(&Vertex) -> f32| f32x8::from(std::array::from_fn(|i| field(&points[i.min(last)])));
+        let [r, _, dr, phi] = batch::place(&ready.cam, of(|p| p.along), of(|p| p.across), of(|p| p.height));
+        let beyond = dr.simd_gt(f32x8::ZERO);
+        let side = beyond.to_bitmask();
+        let halves: [&Half; LANES] = std::array::from_fn(|i| &ready.halves[(side >> i & 1) as usize]);
+        let first = f32x8::from(halves.map(|half| half.first));
+        let (i, x) = cells(halves.map(|half| half.radial), beyond.select(dr, r - first), n);
+        let (j, y) = cells(halves.map(|half| half.angular), phi, n);
+        std::array::from_fn(|lane| {
+            let (half, x, y) = (halves[lane], x[lane], y[lane]);
+            let channel = if side >> lane & 1 == 0 { 0 } else { 4 } + 2 * (usize::from(order.number()) - 1);
+            let (i, j) = (i[lane] as usize, j[lane] as usize);
+            self.0.corners([i, j, half.layer], [x, y, half.share], channel)
+        })
+    }
+}
+
+struct Batches<'a>(&'a PaperBatch, Ready);
+
+impl Frame for Batches<'_> {
+    fn look_up(&self, points: &[Vertex], order: Order) {
+        for points in points.chunks(LANES) {
+            std::hint::black_box(self.0.fetch(&self.1, points, order));
+        }
+    }
+}
+
+impl Projector for PaperBatch {
+    fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
+        if !answers(query, order) {
+            return None;
+        }
+        let [psi, delay] = self.fetch(&self.0.ready(query.camera), &[query.into()], order)[0].map(f64::from);
+        Some(Sight::from_static(psi, delay, query.camera))
+    }
+
+    fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
+        Box::new(Batches(self, self.0.ready(l)))
+    }
+
+    fn memory(&self) -> usize {
+        self.0.memory()
+    }
+}
+
+/// Whether the tables of paper 1 reach so far.
+fn answers(query: Query, order: Order) -> bool {
+    let [l_low, l_high, r_low, r_high, ..] = paper::RANGES;
+    order.number() <= 2 && (l_low..=l_high).contains(&query.camera) && (r_low..=r_high).contains(&query.r)
+}
+
 impl Projector for Paper {
     fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
-        let [l_low, l_high, r_low, r_high, ..] = paper::RANGES;
-        if order.number() > 2 || !(l_low..=l_high).contains(&query.camera) || !(r_low..=r_high).contains(&query.r) {
+        if !answers(query, order) {
             return None;
         }
         let [psi, delay] = self.fetch(&self.ready(query.camera), &query.into(), order).map(f64::from);

@@ -20,7 +20,6 @@ pub struct ArcPass {
     group_layout: wgpu::BindGroupLayout,
     vertices: wgpu::ComputePipeline,
     segments: wgpu::ComputePipeline,
-    mesh: wgpu::ComputePipeline,
     strips: wgpu::ComputePipeline,
     before_mesh: wgpu::ComputePipeline,
     before_draw: wgpu::ComputePipeline,
@@ -70,7 +69,6 @@ impl ArcPass {
         ArcPass {
             vertices: stage("disk vertices", Pass::DiskVertices),
             segments: stage("disk segments", Pass::DiskSegments),
-            mesh: stage("disk mesh", Pass::DiskMesh),
             strips: stage("disk strips", Pass::DiskStrips),
             before_mesh: argument("before_mesh"),
             before_draw: argument("before_draw"),
@@ -150,7 +148,7 @@ impl ArcPass {
     pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
         let Some((group, _)) = &self.groups else { return };
         pass.set_bind_group(1, group, &[]);
-        pass.set_pipeline(&self.mesh);
+        pass.set_pipeline(&self.vertices);
         pass.dispatch_workgroups_indirect(&self.arguments, 0);
         pass.set_pipeline(&self.strips);
         pass.dispatch_workgroups(self.threads[2].div_ceil(64), 1, 1);

@@ -1,7 +1,8 @@
-//! Frames of a disk alone, for the chart: one renderer for each way to draw it, all on one device.
+//! Frames of a disk alone, for the chart: one renderer for each representation, all on one device.
 
 use std::time::Instant;
 
+use crate::render::bench::processor_time;
 use crate::render::frame::{Camera, FrameInput};
 use crate::render::readback::PictureError;
 use crate::render::renderer::Surroundings;
@@ -12,54 +13,84 @@ use crate::scene::GameConfig;
 
 use super::Disk;
 
-/// Renderers by number.
+/// Renderers by representation. One for each configuration would be more shaders than a software driver keeps compiled.
 #[derive(Debug)]
 pub struct Bench {
     gpu: Gpu,
     size: [u32; 2],
-    renderers: Vec<(Renderer, GameConfig)>,
+    configs: Vec<GameConfig>,
+    renderers: Vec<Held>,
     output: wgpu::TextureView,
 }
 
-/// A frame: the whole of it on the clock and its passes by timestamps, in ms; its linear light if it was asked for.
-pub type Frame = (f64, Vec<(String, f64)>, Vec<[f32; 3]>);
+/// A renderer, what it can draw, and which configuration it has taken up.
+#[derive(Debug)]
+struct Held {
+    representation: String,
+    renderer: Renderer,
+    taken_up: Option<usize>,
+}
+
+/// A frame drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Frame {
+    /// The whole of it on the clock, in ms.
+    pub whole: f64,
+    /// The time that all threads spent on it, in ms, where the adapter is a software one and the system tells it.
+    pub processor: Option<f64>,
+    /// Its passes by timestamps, in ms.
+    pub passes: Vec<(String, f64)>,
+    /// Its linear light, if it was asked for.
+    pub picture: Vec<[f32; 3]>,
+}
 
 impl Bench {
-    /// A renderer for each configuration, for frames of `size`.
-    pub fn new(gpu: Gpu, surroundings: &Surroundings, configs: impl IntoIterator<Item = GameConfig>, size: [u32; 2]) -> Bench {
+    /// For frames of `size` by these configurations.
+    pub fn new(gpu: Gpu, surroundings: &Surroundings, configs: Vec<GameConfig>, size: [u32; 2]) -> Bench {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let renderers = configs
-            .into_iter()
-            .map(|config| {
-                let mut renderer = Renderer::new(&gpu, surroundings, format, size);
-                renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
-                (renderer, config)
-            })
-            .collect();
+        let mut renderers: Vec<Held> = Vec::new();
+        for config in &configs {
+            let representation = config.disk.representation.clone();
+            if renderers.iter().all(|held| held.representation != representation) {
+                let renderer = Renderer::new(&gpu, surroundings, format, size);
+                renderers.push(Held { representation, renderer, taken_up: None });
+            }
+        }
         let (_, output) = target(&gpu.device, "bench", size, format);
-        Bench { gpu, size, renderers, output }
+        Bench { gpu, size, configs, renderers, output }
     }
 
-    /// Draws a frame of renderer `number`; with a size the disk alone before black, brought back as linear light.
-    pub fn frame(&mut self, number: usize, camera: Camera, time: f64, picture: Option<[u32; 2]>) -> Result<Frame, PictureError> {
-        let (renderer, config) = &mut self.renderers[number];
-        let mut settings = settings(config);
-        if let Some(size) = picture {
-            settings.stars = false;
-            settings.milky_way = false;
-            renderer.resize(size);
-            let drawn = renderer.picture(&FrameInput { camera, time, placed: Vec::new(), aurora: None, settings }, false);
-            renderer.resize(self.size);
-            return Ok((0.0, Vec::new(), drawn?.linear.iter().map(|p| [p[0], p[1], p[2]]).collect()));
+    /// Draws a frame by configuration `number`, the disk alone before black; None draws no disk at all. With a size it brings linear light back,
+    /// drawn at that size.
+    pub fn frame(&mut self, number: Option<usize>, camera: Camera, time: f64, picture: Option<[u32; 2]>) -> Result<Frame, PictureError> {
+        let config = &self.configs[number.unwrap_or_default()];
+        let held = self.renderers.iter_mut().find(|held| held.representation == config.disk.representation);
+        let Some(Held { renderer, taken_up, .. }) = held else { return Err(PictureError::Nothing) };
+        if *taken_up != number || number.is_none() {
+            *taken_up = number;
+            renderer.set_disk(number.map(|_| Disk::new(config.disk.clone(), config)));
         }
+        let mut settings = settings(config);
+        settings.stars = false;
+        settings.milky_way = false;
+        let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
+        if let Some(size) = picture {
+            renderer.resize(size);
+            let drawn = renderer.picture(&input, false);
+            renderer.resize(self.size);
+            return Ok(Frame { picture: drawn?.linear.iter().map(|p| [p[0], p[1], p[2]]).collect(), ..Frame::default() });
+        }
+        let software = self.gpu.adapter.device_type == wgpu::DeviceType::Cpu;
+        let spent = processor_time().filter(|_| software);
         let begin = Instant::now();
-        renderer.prepare(&FrameInput { camera, time, placed: Vec::new(), aurora: None, settings });
+        renderer.prepare(&input);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &self.output);
         self.gpu.queue.submit([encoder.finish()]);
         self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let whole = begin.elapsed().as_secs_f64() * 1e3;
+        let processor = spent.zip(processor_time()).map(|(before, after)| after - before);
         let passes = renderer.timing().latest().iter().map(|&(label, time)| (label.to_owned(), f64::from(time))).collect();
-        Ok((whole, passes, Vec::new()))
+        Ok(Frame { whole, processor, passes, picture: Vec::new() })
     }
 }

@@ -40,10 +40,7 @@ pub struct Circle {
 pub struct DiskVertex {
     pub apparent: [f32; 4],
     pub gas: [f32; 4],
-    pub light: [f32; 4],
-    pub slope: [f32; 4],
-    pub thin: [f32; 2],
-    pub unused: [f32; 2],
+    pub more: [f32; 4],
 }
 
 /// `Counters` in WGSL.
@@ -56,7 +53,7 @@ pub struct DiskCounters {
     pub arcs: u32,
     pub coarse: u32,
     pub caught: u32,
-    pub unused: u32,
+    pub stage: u32,
 }
 
 /// Bytes of `DiskArguments` in WGSL.

@@ -83,7 +83,6 @@ fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[
 /// The catalogue on the GPU and the two passes over it.
 #[derive(Debug)]
 pub struct Stars {
-    count: u32,
     clusters: Vec<Cluster>,
     /// Clusters that may be on the screen: first star, how many, order.
     listed: Growing,
@@ -129,25 +128,7 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars {
-            count: stars.len() as u32,
-            clusters,
-            listed,
-            groups: 0,
-            project_layout,
-            catalogue,
-            seen,
-            project,
-            project_group,
-            draw,
-            draw_group,
-            arguments,
-        }
-    }
-
-    /// Number of stars in the catalogue.
-    pub fn count(&self) -> u32 {
-        self.count
+        Stars { clusters, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
     }
 
     /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's for
