@@ -51,7 +51,7 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 
 /// How much of the budget a chord may use. What a patch shows inside is off by more than its sides are: in a triangle by up to 4/3 of it
 /// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
-const CHORD_SHARE: f32 = 0.5;
+const CHORD_SHARE: f32 = 0.4;
 /// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
 const ARC_SHARE: f32 = 0.03125;
 
