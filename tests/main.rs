@@ -23,6 +23,7 @@ mod render_branches;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
+mod render_horizon;
 mod render_lookup;
 #[cfg(feature = "game")]
 mod render_pictures;

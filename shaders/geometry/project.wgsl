@@ -115,22 +115,24 @@ fn query_body(body: vec3<f32>) -> Query {
     return Query(body, false, 0.0, 0.0, 0.0, vec3<f32>(0.0));
 }
 
-/// Steps of Newton on the emission time: each squares the error, which starts as the part of c at which the object turns or accelerates
-/// while light crosses it. Inside the horizon a vertex may have no ray at the time of its centre, and must be found further back.
-const EMISSION_STEPS: u32 = 4u;
-const EMISSION_STEPS_INSIDE: u32 = 10u;
+/// Most steps on the emission time. Newton squares the error, which starts as the part of c at which the object turns or accelerates while light
+/// crosses it, so two or three do; next to the horizon the first guesses may have no ray at all, and halving comes before Newton.
+const EMISSION_STEPS: u32 = 16u;
+/// Before any time, and after all.
+const NEVER: f32 = 3e38;
 
 /// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s for light of E > 0
-/// and decreases for E < 0, since no emitter outruns light, so Newton with its slope held off zero converges from any start. There is one
-/// call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
+/// and decreases for E < 0, since no emitter outruns light, so there is one solution between what is too early and what is too late; Newton's steps
+/// are held in between. There is one call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
 fn answer(placement: Placement, query: Query, order: u32) -> Answer {
     var result: Answer;
     var s = 0.0;
-    // The latest s at which the point was in the camera's past.
-    var known = 0.0;
+    // Known to be too early, and too late.
+    var early = -NEVER;
+    var late = NEVER;
     var back = 0.0;
     let moves = placement.velocity.w != 0.0;
-    let steps = select(0u, select(EMISSION_STEPS, EMISSION_STEPS_INSIDE, (frame.switches.x & FLAG_INSIDE) != 0u), moves);
+    let steps = select(0u, EMISSION_STEPS, moves);
     for (var i = 0u; i <= steps; i++) {
         var along = query.along;
         var across = query.across;
@@ -157,25 +159,29 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         }
         if !result.ray.valid && i < steps {
             // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
+            late = s;
             back = select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0);
-            s = select(s - back, 0.5 * (s + known), known < s);
+            s = select(s - back, 0.5 * (early + s), early > -NEVER);
             continue;
         }
-        known = s;
         let missing = elapsed - result.ray.delay;
+        let speed = length(placement.velocity.xyz);
         // A time in which the object moves less than a fiftieth of a pixel need not be found.
-        if i > 0u && abs(missing) * length(placement.velocity.xyz) < 0.02 * frame.size.z * result.ray.delay {
+        if i > 0u && abs(missing) * speed < 0.02 * frame.size.z * result.ray.delay {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
         let energy = result.ray.energy;
         let step = missing * clamp(energy / (energy - dot(placement.velocity.xyz, result.ray.leaving.xyz)), -20.0, 20.0);
         if i == steps {
-            // A point whose time was not found within the size of the object (next to the horizon, or where its image ends) is not drawn.
-            let size = distance(result.position - placement.velocity.xyz * s, placement.position.xyz);
-            result.ray.valid = result.ray.valid && abs(step) * length(placement.velocity.xyz) <= 0.5 * size;
+            // A point whose time was not found is not drawn: it would stand where it never was.
+            result.ray.valid = result.ray.valid && abs(step) * speed < 4.0 * frame.size.z * result.ray.delay;
+            break;
         }
-        s += step;
+        early = select(early, s, step > 0.0);
+        late = select(s, late, step > 0.0);
+        let next = s + step;
+        s = select(select(next, 0.5 * (early + late), early > -NEVER && late < NEVER), next, next > early && next < late);
     }
     return result;
 }

@@ -1,0 +1,33 @@
+//! What is seen where the camera comes to the horizon: light from there climbs slowly, and each point of a ship is seen at a very different time.
+
+use lensrunner::measure::compare::command::case;
+use lensrunner::measure::trace::Case;
+use lensrunner::play::contestant;
+use lensrunner::reference::picture::Quality;
+use lensrunner::scene::{self, GameConfig};
+
+/// The camera of `plunge` at r = 1.12, 1.02 and 0.97: which ship a pixel shows is the judge's answer for all but rims. A pixel next to another
+/// ship's is a rim, where a hundredth of a pixel decides; of what is left one in fifty may differ, for parts narrower than a pixel.
+#[test]
+fn ships_are_whole_where_the_camera_crosses_the_horizon() {
+    let size = [96, 54];
+    for at in [1.1, 1.2, 1.25] {
+        let case = case(Case::new(scene::load("plunge").unwrap(), GameConfig::default(), at, size));
+        let frame = contestant::draw(&case).unwrap();
+        let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
+        let wanted = |x: usize, y: usize| judge.layers[y * size[0] as usize + x].object;
+        let (mut inner, mut wrong) = (0, 0);
+        for y in 1..size[1] as usize - 1 {
+            for x in 1..size[0] as usize - 1 {
+                let object = wanted(x, y);
+                if [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)].iter().any(|&(x, y)| wanted(x, y) != object) {
+                    continue;
+                }
+                inner += u32::from(object != 0);
+                wrong += u32::from(frame.shown[y * size[0] as usize + x].object != object);
+            }
+        }
+        assert!(inner > 150, "T = {at}: only {inner} pixels show ships");
+        assert!(50 * wrong <= inner, "T = {at}: {wrong} pixels show another ship than the judge's, {inner} show ships");
+    }
+}
