@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Instant;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::compare::displacement::{Point, Probe};
@@ -14,6 +14,7 @@ use crate::reference::picture::sky::{Background, stars};
 use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
+use crate::scene::planet::Planet;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::{History, Moment};
 
@@ -90,6 +91,18 @@ impl Request {
     }
 }
 
+/// A planet in closed form, at every T.
+impl Worldline for Planet {
+    fn at(&self, time: f64) -> Pose {
+        // A circular orbit outside r = 3/2 has a state at any T, and no other planet is let in from a file.
+        self.state(time).map_or(Pose { position: DVec3::ZERO, momentum: DVec3::ZERO, attitude: DQuat::IDENTITY }, |state| Pose {
+            position: state.position,
+            momentum: state.momentum,
+            attitude: state.attitude,
+        })
+    }
+}
+
 impl Worldline for History {
     fn at(&self, time: f64) -> Pose {
         let sample = History::at(self, time);
@@ -140,8 +153,15 @@ impl Case {
                     let line = *ships.get(index)?;
                     (Motion::Flying(line), line.at(self.time).position)
                 }
+                Body::Planet => {
+                    let planet: &dyn Worldline = self.scene.planet.as_ref()?;
+                    (Motion::Flying(planet), planet.at(self.time).position)
+                }
             };
-            let light = lighting::at(position, has_ships, self.config.render.ambient as f32);
+            let light = match object.body {
+                Body::Planet => lighting::on_planet(position, self.scene.disk(&self.config).is_some()),
+                _ => lighting::at(position, has_ships, self.config.render.ambient as f32),
+            };
             Some(Thing { model: object.model, scale: object.scale, motion, light, id: number as u32 + 1 })
         });
         World::new(&self.assembly.models, things.collect(), self.time, self.config.render.lensing)

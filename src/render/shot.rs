@@ -92,7 +92,7 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
 }
 
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each of the
-/// `marked` sets of models.
+/// `marked` sets of models. Auroras have a judge of their own and are left out.
 pub fn for_comparison(
     scene: &Scene,
     assembly: &Assembly,
@@ -106,6 +106,9 @@ pub fn for_comparison(
     let moment = Moment::new(scene, config, at, 0);
     let with = settings(config);
     let without = Settings { stars: false, milky_way: false, ..with };
+    let mut config = config.clone();
+    config.aurora.enabled = false;
+    let config = &config;
     let mut draw = |models: Option<Vec<Model>>, settings: &Settings| {
         let layers = models.is_some();
         let mut assembly = assembly.clone();
