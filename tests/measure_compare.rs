@@ -222,3 +222,43 @@ milky_way = false
     let found = faults(&case, &judge, &Frame::of(&broken, &case));
     assert!(found.iter().any(|fault| fault.contains("quarry order 1")), "{found:?}");
 }
+
+#[test]
+fn the_planet_is_seen_where_it_was_when_its_light_left() {
+    let text = "
+[camera]
+position = [30.0, 0.0, 8.0]
+[planet]
+orbit_radius = 20.0
+phase = 0.05
+radius = 1.5
+day = 40.0
+aurora = \"none\"
+";
+    let scene = Scene::from_toml(Path::new("test.toml"), text).unwrap();
+    let mut config = GameConfig::default();
+    config.render.lensing = false;
+    let case = Case::new(scene, config, 0.0, [160, 90]);
+    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
+    let pixels: Vec<usize> = (0..picture.layers.len()).filter(|&i| picture.layers[i].object == 1).collect();
+    let planet = case.scene.planet.unwrap();
+    // Straight light: the emission time by iteration, which converges as the planet is slow.
+    let mut emission = 0.0;
+    for _ in 0..60 {
+        emission = -planet.state(emission).unwrap().position.distance(case.camera.position);
+    }
+    let look = |time: f64| planet.state(time).unwrap().position - case.camera.position;
+    let centre = case.camera.seen_at(look(emission).normalize()).unwrap().0;
+    let mean = |part: &dyn Fn(usize) -> usize| pixels.iter().map(|&i| part(i) as f64 + 0.5).sum::<f64>() / pixels.len() as f64;
+    let mean = [mean(&|i| i % 160), mean(&|i| i / 160)];
+    let off = (mean[0] - centre[0]).hypot(mean[1] - centre[1]);
+    assert!(off < 0.4, "{mean:?} {centre:?}");
+    // Where it is now is elsewhere.
+    let now = case.camera.seen_at(look(0.0).normalize()).unwrap().0;
+    assert!((now[0] - centre[0]).hypot(now[1] - centre[1]) > 3.0, "{now:?} {centre:?}");
+    // Its size, within the pixels of its rim.
+    let radius = 160.0 / (2.0 * (30f64.to_radians()).tan()) * planet.radius / look(emission).length();
+    let area = std::f64::consts::PI * radius * radius;
+    assert!((pixels.len() as f64 / area - 1.0).abs() < 0.08, "{} pixels, {area}", pixels.len());
+    assert!(pixels.iter().all(|&i| (picture.layers[i].delay + emission).abs() < planet.radius * 1.1));
+}
