@@ -227,7 +227,7 @@ milky_way = false
 fn the_planet_is_seen_where_it_was_when_its_light_left() {
     let text = "
 [camera]
-position = [30.0, 0.0, 8.0]
+position = [30.0, 0.0, 2.0]
 [planet]
 orbit_radius = 20.0
 phase = 0.05
