@@ -231,7 +231,7 @@ position = [30.0, 0.0, 2.0]
 [planet]
 orbit_radius = 20.0
 phase = 0.05
-radius = 1.5
+radius = 0.6
 day = 40.0
 aurora = \"none\"
 ";
@@ -248,7 +248,7 @@ aurora = \"none\"
         emission = -planet.state(emission).unwrap().position.distance(case.camera.position);
     }
     let look = |time: f64| planet.state(time).unwrap().position - case.camera.position;
-    let centre = case.camera.seen_at(look(emission).normalize()).unwrap().0;
+    let (centre, blue) = case.camera.seen_at(look(emission).normalize()).unwrap();
     let mean = |part: &dyn Fn(usize) -> usize| pixels.iter().map(|&i| part(i) as f64 + 0.5).sum::<f64>() / pixels.len() as f64;
     let mean = [mean(&|i| i % 160), mean(&|i| i / 160)];
     let off = (mean[0] - centre[0]).hypot(mean[1] - centre[1]);
@@ -256,8 +256,8 @@ aurora = \"none\"
     // Where it is now is elsewhere.
     let now = case.camera.seen_at(look(0.0).normalize()).unwrap().0;
     assert!((now[0] - centre[0]).hypot(now[1] - centre[1]) > 3.0, "{now:?} {centre:?}");
-    // Its size, within the pixels of its rim.
-    let radius = 160.0 / (2.0 * (30f64.to_radians()).tan()) * planet.radius / look(emission).length();
+    // Its size, within the pixels of its rim: aberration makes what is seen red larger.
+    let radius = 160.0 / (2.0 * (30f64.to_radians()).tan()) * planet.radius / look(emission).length() / blue;
     let area = std::f64::consts::PI * radius * radius;
     assert!((pixels.len() as f64 / area - 1.0).abs() < 0.08, "{} pixels, {area}", pixels.len());
     assert!(pixels.iter().all(|&i| (picture.layers[i].delay + emission).abs() < planet.radius * 1.1));
