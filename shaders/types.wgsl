@@ -49,15 +49,15 @@ struct Placement {
     velocity: vec4<f32>,
     /// Rain-frame momentum per mass; w: γ.
     momentum: vec4<f32>,
-    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction.
+    /// Columns of the matrix from body offsets to offsets on the slice at T₀: size, attitude, contraction. w: d²x/dT² of the centre.
     shape_x: vec4<f32>,
     shape_y: vec4<f32>,
     shape_z: vec4<f32>,
-    /// d(shape)/dT.
+    /// d(shape)/dT; w: the angular velocity in 1/T, rain axes.
     shape_rate_x: vec4<f32>,
     shape_rate_y: vec4<f32>,
     shape_rate_z: vec4<f32>,
-    /// Columns of the rotation from body axes to rain axes, for normals.
+    /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,
     turn_z: vec4<f32>,
@@ -118,6 +118,14 @@ struct SeenVertex {
     leaving: vec4<f32>,
     /// x, y: texture coordinates; z: placement, w: material (bits).
     surface: vec4<f32>,
+    /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer edge
+    /// that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
+    fan: vec4<f32>,
+}
+
+/// Texture coordinates of a vertex.
+fn texture_point(vertex: SeenVertex) -> vec2<f32> {
+    return mix(vertex.fan.xy, vertex.surface.xy, vec2<f32>(vertex.fan.z));
 }
 
 /// A part of a triangle on its way from the object stage to the mesh stage. Corners are barycentric coordinates in the model triangle,

@@ -314,3 +314,31 @@ fn stars_are_seen_where_shooting_sees_them() {
     }
     assert!(seen[1] > 10 && seen[2] > 10, "{seen:?}");
 }
+
+#[test]
+fn crossings_of_the_disk_are_those_of_the_closed_form() {
+    use lensrunner::spacetime::light::{Branch, connect};
+    let world = World::new(&[], Vec::new(), 0.0, true);
+    let mut rng = StdRng::seed_from_u64(23);
+    let (mut checked, mut second) = (0, 0);
+    for _ in 0..700 {
+        let position = any_direction(&mut rng) * rng.random_range(1.6..40.0);
+        let mut crossings = Vec::new();
+        world.look_through(position, any_direction(&mut rng), TOLERANCE, &mut |crossing| crossings.push(crossing));
+        for (k, crossing) in crossings.iter().enumerate().take(2) {
+            let (r, camera) = (crossing.position.length(), position.length());
+            if !(1.2..100.0).contains(&r) {
+                continue;
+            }
+            assert_eq!(crossing.position.z, 0.0);
+            // A ray meets the plane once in each half turn.
+            let phi = crossing.position.angle_between(position);
+            let rays = [phi, 2.0 * PI - phi].map(|swept| connect(1.0 / r, swept, 1.0 / camera, Branch::Plus));
+            let off = rays.iter().flatten().map(|ray| (ray.delay - crossing.delay).abs()).fold(f64::INFINITY, f64::min);
+            assert!(off < 1e-8 * (1.0 + crossing.delay), "{position:?} {crossing:?}: {off:e}");
+            checked += 1;
+            second += k;
+        }
+    }
+    assert!(checked > 200 && second > 2, "{checked} {second}");
+}

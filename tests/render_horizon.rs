@@ -1,6 +1,5 @@
 //! What is seen where the camera comes to the horizon: light from there climbs slowly, and each point of a ship is seen at a very different time.
 
-use lensrunner::measure::compare::command::case;
 use lensrunner::measure::trace::Case;
 use lensrunner::play::contestant;
 use lensrunner::reference::picture::Quality;
@@ -12,7 +11,7 @@ use lensrunner::scene::{self, GameConfig};
 fn ships_are_whole_where_the_camera_crosses_the_horizon() {
     let size = [96, 54];
     for at in [1.1, 1.2, 1.25] {
-        let case = case(Case::new(scene::load("plunge").unwrap(), GameConfig::default(), at, size));
+        let case = Case::new(scene::load("plunge").unwrap(), GameConfig::default(), at, size);
         let frame = contestant::draw(&case).unwrap();
         let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
         let wanted = |x: usize, y: usize| judge.layers[y * size[0] as usize + x].object;

@@ -164,7 +164,7 @@ fn the_settings_of_geometry_do_what_they_say() {
     assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);
     assert_ne!(first(Settings { coarse_below: 1.0, ..quiet() }).model.triangles, stand_in.triangles);
     assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).placement.triangles[3] & THIN, THIN);
-    assert_eq!(first(Settings { thin_below: 1.0, ..quiet() }).placement.triangles[3] & THIN, 0);
+    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).placement.triangles[3] & THIN, 0);
 }
 
 /// The rings of orders 2 and 3 of a ball before the hole, a twentieth of a pixel wide, are unbroken lines.

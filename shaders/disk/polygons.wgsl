@@ -5,14 +5,15 @@
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let found = seen[index];
-    let r = max(found.surface.y, 1.0);
+    let place_in_disk = texture_point(found);
+    let r = max(place_in_disk.y, 1.0);
     let gas = radial_gas(r);
-    let turn = 6.28318531 * found.surface.x;
+    let turn = 6.28318531 * place_in_disk.x;
     let outward = dot(found.leaving.xyz, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
     let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
     let light = gas_light(gas.a.x, log(ratio.x));
     let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
-    let place = vec4<f32>(found.surface.x - gas.b.x / 6.28318531, exp2(4.0 * gas.b.z), depth, ratio.y);
+    let place = vec4<f32>(place_in_disk.x - gas.b.x / 6.28318531, exp2(4.0 * gas.b.z), depth, ratio.y);
     return Gas(clip_position(found.apparent.xyz), place, vec4<f32>(light.rgb, found.apparent.w), light.slope, vec2<f32>(0.0, 1e6));
 }
 

@@ -53,3 +53,5 @@ const VERTEX_UNSEEN: f32 = -1.0;
 
 const EDGE_CUT: u32 = 1u;
 const EDGE_UNSEEN: u32 = 2u;
+/// The edge may be an outline.
+const EDGE_LIMB: u32 = 4u;

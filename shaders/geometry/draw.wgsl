@@ -28,7 +28,7 @@ fn layers_fragment(in: Surface) -> Layers {
         discard;
     }
     let ids = placements[in.which.x].ids;
-    return Layers(vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w), vec4<f32>(in.uv.xy, in.coverage, 0.0));
+    return Layers(vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage, 0.0));
 }
 
 @vertex

@@ -70,5 +70,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement), 1.0)), bitcast<f32>(0u), 0.0, error);
+    let limb = on_limb(seen[placement.ids.z + edge.x], seen[placement.ids.z + edge.y]);
+    let strict = strictness(placement) * select(1.0, LIMB_STRICTNESS, limb);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strict, 1.0)), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
 }

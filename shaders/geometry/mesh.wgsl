@@ -15,6 +15,14 @@ fn snapped(i: u32, n: u32, level: u32) -> f32 {
     return round(f32(i) * f32(level) / f32(n)) / f32(level);
 }
 
+/// How far from the axis a vertex of a fan lies, as a part of the way to the outer edge: below 0 past the axis.
+var<private> fan_place: f32;
+
+/// Whether the axis at this height is the outer border of the order's image: Φ = (order − 1)π.
+fn axis_is_outside(height: f32, order: u32) -> bool {
+    return (order == 2u && height < 0.0) || (order == 3u && height > 0.0);
+}
+
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
 /// served one item would leave most of its lanes idle.
 @compute @workgroup_size(64)
@@ -38,7 +46,12 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     } else {
         corner = triangle_point(item, k);
     }
-    seen[index] = vertex_at(item, placement, triangle, corner, s);
+    fan_place = s;
+    var vertex = vertex_at(item, placement, triangle, corner, s);
+    if item.piece.what.z == PIECE_FAN {
+        vertex.fan = vec4<f32>(texture_coordinates(placement, triangle, item.piece.corner_0.xyz), fan_place, 0.0);
+    }
+    seen[index] = vertex;
 }
 
 /// One group per work item: joins its vertices to triangles.
@@ -155,6 +168,16 @@ fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
     return vec4<f32>(side_point(c1, c2, column, columns, level), s);
 }
 
+/// Texture coordinates of barycentric coordinates in a model triangle.
+fn texture_coordinates(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
+    let first = placement.vertices.x;
+    let v0 = model_vertices[first + triangle.vertices.x];
+    let v1 = model_vertices[first + triangle.vertices.y];
+    let v2 = model_vertices[first + triangle.vertices.z];
+    return vec2<f32>(v0.position.w, v0.normal.w) * corner.x + vec2<f32>(v1.position.w, v1.normal.w) * corner.y
+        + vec2<f32>(v2.position.w, v2.normal.w) * corner.z;
+}
+
 /// The seen vertex of a point of a model triangle (s = 1), or of one between a fan's axis and that point (s < 1). A corner of the model
 /// itself is taken from the first stage, to the last bit.
 fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
@@ -174,10 +197,13 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         } else if k == 2u {
             query = query_fan(apex, found.offset, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
-            if s == 0.0 {
-                // A quarter of a pixel past the axis: the next order begins there with arcs cut at other points, and between two chords of
-                // one circle a pixel could be missed.
-                query.across = -0.25 * frame.size.z * length(apex);
+            if s == 0.0 && axis_is_outside(query.height, placement.ids.x) {
+                // Past the axis, where the order before begins with arcs cut at other points: between two chords of one circle a pixel could
+                // be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more than they sag.
+                // Near the ring an image moves by half of what its source does, the third order's by a twentieth.
+                let past = 2.5 * ARC_SHARE * frame.size.w * length(apex) * select(1.0, 10.0, placement.ids.x == 3u);
+                fan_place = -min(past / max(query_fan(apex, found.offset, 1.0).across, 1e-9), 0.5);
+                query.across = -past;
             }
         }
         let next = answer(placement, query, placement.ids.x);
@@ -194,9 +220,8 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
     let v1 = model_vertices[first + triangle.vertices.y];
     let v2 = model_vertices[first + triangle.vertices.z];
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
-    let u = v0.position.w * corner.x + v1.position.w * corner.y + v2.position.w * corner.z;
     var vertex = seen_vertex(placement, item.piece.what.x, found, normal_of(placement, normal.xyz),
-        vec2<f32>(u, normal.w), v0.info.x + placement.triangles.z);
+        texture_coordinates(placement, triangle, point), v0.info.x + placement.triangles.z);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);

@@ -26,6 +26,7 @@ fn seen_vertex(placement: Placement, index: u32, found: Answer, normal: vec3<f32
     vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
     vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
+    vertex.fan = vec4<f32>(uv, 1.0, 0.0);
     return vertex;
 }
 
@@ -48,10 +49,16 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// The level that brings the error of a chord under the budget: the error falls as the square of the number of segments. A whole edge of
-/// the model may be halved `switches.y` times; `part` is how much of it the chord spans, so that both sides of it agree.
+/// How much of the budget a chord may use. What a patch shows inside is off by more than its sides are: in a triangle by up to 4/3 of it
+/// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
+const CHORD_SHARE: f32 = 0.4;
+/// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
+const ARC_SHARE: f32 = 0.03125;
+
+/// The level that brings the error of a chord under its share of the budget: the error falls as the square of the number of segments. A whole
+/// edge of the model may be halved `switches.y` times; `part` is how much of it the chord spans, so that both sides of it agree.
 fn level_for(error: f32, part: f32) -> u32 {
-    let n = ceil(sqrt(error / frame.size.w));
+    let n = ceil(sqrt(error / (CHORD_SHARE * frame.size.w)));
     // Not-a-number compares false.
     if n > 1.0 {
         return u32(clamp(n, 1.0, max(part * f32(1u << frame.switches.y), 1.0)));
@@ -69,6 +76,17 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 /// sag and growth together stay under a pixel.
 fn strictness(placement: Placement) -> f32 {
     return select(1.0, 4.0, (placement.triangles.w & PLACEMENT_THIN) != 0u);
+}
+
+/// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
+const LIMB_STRICTNESS: f32 = 8.0;
+/// An edge may be an outline where the surface is seen under a cosine below this: a sphere of 400 triangles has edges of 0.2 radians.
+const LIMB_COSINE: f32 = 0.2;
+
+/// Whether an edge between two seen vertices may be an outline, by the normals of the surface.
+fn on_limb(a: SeenVertex, b: SeenVertex) -> bool {
+    let facing = vec2<f32>(dot(a.normal.xyz, a.leaving.xyz), dot(b.normal.xyz, b.leaving.xyz));
+    return facing.x * facing.y < 0.0 || min(abs(facing.x), abs(facing.y)) < LIMB_COSINE;
 }
 
 /// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.

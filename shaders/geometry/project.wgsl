@@ -84,7 +84,13 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
 fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let still = placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
     let turning = placement.shape_rate_x.xyz * body.x + placement.shape_rate_y.xyz * body.y + placement.shape_rate_z.xyz * body.z;
-    return still + (placement.velocity.xyz + turning) * s;
+    // Second order: the centre's acceleration, and what turning bends. A ship that turns while light crosses it would be off by a pixel.
+    let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
+    let spin = vec3<f32>(placement.shape_rate_x.w, placement.shape_rate_y.w, placement.shape_rate_z.w);
+    // Third order matters inside the horizon, where a fall steepens while light crosses the ship.
+    let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
+    let bent = acceleration + cross(spin, cross(spin, still)) + jerk * (s / 3.0);
+    return still + (placement.velocity.xyz + turning) * s + bent * (0.5 * s * s);
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
@@ -160,8 +166,8 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         }
         let missing = elapsed - result.ray.delay;
         let speed = length(placement.velocity.xyz);
-        // A time in which the object moves less than a tenth of a pixel need not be found.
-        if i > 0u && abs(missing) * speed < 0.1 * frame.size.z * result.ray.delay {
+        // A time in which the object moves less than a fiftieth of a pixel need not be found.
+        if i > 0u && abs(missing) * speed < 0.02 * frame.size.z * result.ray.delay {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.

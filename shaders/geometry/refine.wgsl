@@ -13,8 +13,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let triangle = model_triangles[piece.what.y];
     strict = strictness(placement);
     measure(piece, placement, triangle);
-    model_levels = vec3<u32>(bitcast<u32>(edge_states[placement.ids.w + triangle.edges.x].x),
-        bitcast<u32>(edge_states[placement.ids.w + triangle.edges.y].x), bitcast<u32>(edge_states[placement.ids.w + triangle.edges.z].x));
+    for (var k = 0u; k < 3u; k++) {
+        let state = edge_states[placement.ids.w + triangle.edges[k]];
+        model_levels[k] = bitcast<u32>(state.x);
+        limb[k] = (bitcast<u32>(state.y) & EDGE_LIMB) != 0u;
+    }
     if unseen && (frame.switches.x & FLAG_INSIDE) != 0u {
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
@@ -34,20 +37,22 @@ var<private> unseen: bool;
 
 /// `strictness` of the placement.
 var<private> strict: f32;
-/// Levels of the model triangle's edges, from the stage of edges.
+/// Levels of the model triangle's edges, and whether they may be outlines, from the stage of edges.
 var<private> model_levels: vec3<u32>;
+var<private> limb: array<bool, 3>;
 
 /// The level of the edge between two corners: a whole edge of the model has the level that its other triangle knows too.
 fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
-    if !whole {
-        return level_for(error * strict, part_between(a, b));
-    }
+    // The edge of the model triangle that it lies on, opposite to the corner that has no weight.
     let absent = a + b;
-    if absent.x == 0.0 {
-        return model_levels.x;
+    var edge = 3u;
+    if absent.x == 0.0 { edge = 0u; } else if absent.y == 0.0 { edge = 1u; } else if absent.z == 0.0 { edge = 2u; }
+    if whole {
+        return model_levels[min(edge, 2u)];
     }
-    return select(model_levels.z, model_levels.y, absent.y == 0.0);
+    let closer = edge < 3u && limb[min(edge, 2u)];
+    return level_for(error * strict * select(1.0, LIMB_STRICTNESS, closer), part_between(a, b));
 }
 
 /// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
@@ -151,8 +156,7 @@ fn refine_fan(piece: Piece) {
     }
     let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
     let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
-    // The arc is where two orders meet, each with arcs of its own: held to an eighth of the budget, so that the overlap covers the difference.
-    let arc = level_for(8.0 * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
+    let arc = level_for(CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

@@ -18,12 +18,18 @@ struct Surface {
     @location(1) leaving: vec4<f32>,
     @location(2) uv: vec3<f32>,
     @location(3) coverage: f32,
-    @location(4) @interpolate(flat) which: vec2<u32>,
+    @location(4) fan: vec3<f32>,
+    @location(5) @interpolate(flat) which: vec2<u32>,
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
-    return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage,
+    return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
         vec2<u32>(bitcast<u32>(vertex.surface.z), bitcast<u32>(vertex.surface.w)));
+}
+
+/// `texture_point` at a pixel.
+fn texture_place(in: Surface) -> vec2<f32> {
+    return mix(in.fan.xy, in.uv.xy, vec2<f32>(in.fan.z));
 }
 
 fn shaded(in: Surface) -> vec3<f32> {
@@ -32,7 +38,7 @@ fn shaded(in: Surface) -> vec3<f32> {
     var base = material.base.rgb;
     var emitted = material.emissive.rgb;
     // Sampled by all pixels, so that the level comes from differences between them.
-    let texel = textureSample(surface_textures, surface_sampler, in.uv.xy, i32(max(material.surface.y, 0.0))).rgb;
+    let texel = textureSample(surface_textures, surface_sampler, texture_place(in), i32(max(material.surface.y, 0.0))).rgb;
     if material.surface.y >= 0.0 {
         base *= texel;
         emitted *= texel;

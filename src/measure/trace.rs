@@ -3,15 +3,18 @@
 use std::path::Path;
 use std::time::Instant;
 
+use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::compare::displacement::{Point, Probe};
 use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
-use crate::reference::picture::{Disk, Motion, Picture, Pose, Quality, Setting, Thing, World, Worldline, picture};
+use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
+use crate::scene::planet::Planet;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::{History, Moment};
 
@@ -88,6 +91,18 @@ impl Request {
     }
 }
 
+/// A planet in closed form, at every T.
+impl Worldline for Planet {
+    fn at(&self, time: f64) -> Pose {
+        // A circular orbit outside r = 3/2 has a state at any T, and no other planet is let in from a file.
+        self.state(time).map_or(Pose { position: DVec3::ZERO, momentum: DVec3::ZERO, attitude: DQuat::IDENTITY }, |state| Pose {
+            position: state.position,
+            momentum: state.momentum,
+            attitude: state.attitude,
+        })
+    }
+}
+
 impl Worldline for History {
     fn at(&self, time: f64) -> Pose {
         let sample = History::at(self, time);
@@ -138,8 +153,15 @@ impl Case {
                     let line = *ships.get(index)?;
                     (Motion::Flying(line), line.at(self.time).position)
                 }
+                Body::Planet => {
+                    let planet: &dyn Worldline = self.scene.planet.as_ref()?;
+                    (Motion::Flying(planet), planet.at(self.time).position)
+                }
             };
-            let light = lighting::at(position, has_ships, self.config.render.ambient as f32);
+            let light = match object.body {
+                Body::Planet => lighting::on_planet(position, self.scene.disk(&self.config).is_some()),
+                _ => lighting::at(position, has_ships, self.config.render.ambient as f32),
+            };
             Some(Thing { model: object.model, scale: object.scale, motion, light, id: number as u32 + 1 })
         });
         World::new(&self.assembly.models, things.collect(), self.time, self.config.render.lensing)
@@ -180,6 +202,24 @@ impl Case {
         picture(&self.world(ships), &setting, &self.camera, quality, done)
     }
 
+    /// The point of its body that a pixel of a picture shows, in the body's axes and the model's unit; the origin where it shows none.
+    pub fn body(&self, layer: &Layer) -> DVec3 {
+        let Some(object) = (layer.object as usize).checked_sub(1).and_then(|k| self.assembly.objects.get(k)) else { return DVec3::ZERO };
+        self.on_model(object.model, layer.triangle as usize, layer.barycentrics.map(f64::from))
+    }
+
+    fn on_model(&self, model: usize, triangle: usize, weights: [f64; 3]) -> DVec3 {
+        let model = &self.assembly.models[model];
+        let corners = model.triangles[triangle].map(|index| DVec3::from(model.vertices[index as usize].position.map(f64::from)));
+        (0..3).map(|k| corners[k] * weights[k]).sum()
+    }
+
+    /// The judge, to be asked anywhere on the screen.
+    pub fn probe(&self, tolerance: f64) -> impl Probe + '_ {
+        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
+        Asked { case: self, world: self.world(&ships), tolerance }
+    }
+
     /// How the game develops its pictures.
     pub fn development(&self) -> Development {
         let render = &self.config.render;
@@ -187,6 +227,36 @@ impl Case {
             bloom: render.bloom as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         }
+    }
+}
+
+/// A case's judge between the pixels.
+struct Asked<'a> {
+    case: &'a Case,
+    world: World<'a>,
+    tolerance: f64,
+}
+
+impl Probe for Asked<'_> {
+    fn at(&self, x: f64, y: f64) -> Option<Point> {
+        let camera = &self.case.camera;
+        match self.world.look(camera.position, camera.look(x, y).0, self.tolerance) {
+            Seen::Hit(hit) => {
+                let thing = &self.world.things[hit.object];
+                let body = self.case.on_model(thing.model, hit.triangle, hit.barycentrics);
+                Some(Point { object: thing.id, order: hit.order, body })
+            }
+            _ => None,
+        }
+    }
+
+    fn body(&self, layer: &Layer) -> DVec3 {
+        self.case.body(layer)
+    }
+
+    fn radius(&self, object: u32) -> f64 {
+        let thing = self.world.things.iter().find(|thing| thing.id == object);
+        thing.map_or(1.0, |thing| f64::from(self.case.assembly.models[thing.model].radius()))
     }
 }
 

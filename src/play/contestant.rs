@@ -1,20 +1,28 @@
 //! The game's renderer before the judge.
 
+use crate::measure::compare::command::marked;
 use crate::measure::compare::{Frame, Shown};
 use crate::measure::trace::Case;
-use crate::render::shot::with_and_without_sky;
+use crate::render::readback::Picture;
+use crate::render::shot::for_comparison;
 
-/// Draws the case as the game does.
+/// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
 pub fn draw(case: &Case) -> Result<Frame, String> {
-    let [sky, bare] = with_and_without_sky(&case.scene, case.assembly.clone(), &case.config, case.time, case.camera.size)
-        .map_err(|error| error.to_string())?;
+    let [sky, bare, first, second] =
+        for_comparison(&case.scene, &case.assembly, marked(&case.assembly.models), &case.config, case.time, case.camera.size)
+            .map_err(|error| error.to_string())?;
     let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
-    let shown = bare.layers.iter().zip(&bare.surface).enumerate().map(|(i, (what, surface))| Shown {
+    let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
+    Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+}
+
+fn shown(first: &Picture, second: &Picture, i: usize) -> Shown {
+    let [what, surface] = [first.layers[i], first.surface[i]];
+    Shown {
         object: what[0] as u32,
         order: what[1] as u32,
-        uv: [surface[0], surface[1]],
+        body: [surface[0], surface[1], second.surface[i][0]],
         // Thin images add up.
-        coverage: if surface[2] < 1.0 { bare.thin.get(i).map_or(0.0, |sum| sum.min(1.0)) } else { 1.0 },
-    });
-    Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+        coverage: if surface[2] < 1.0 { first.thin.get(i).map_or(0.0, |sum| sum.min(1.0)) } else { 1.0 },
+    }
 }

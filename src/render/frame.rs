@@ -136,7 +136,7 @@ impl Default for Settings {
             halvings: 13,
             vertex_budget: 600_000,
             min_width: 1.0,
-            thin_below: 2.0,
+            thin_below: 1.0,
             coarse_below: 6.0,
             least_width: 0.05,
             doppler: true,

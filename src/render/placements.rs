@@ -200,6 +200,11 @@ fn columns(m: DMat3) -> [[f32; 4]; 3] {
     [row(m.x_axis, 0.0), row(m.y_axis, 0.0), row(m.z_axis, 0.0)]
 }
 
+/// Columns with a vector in what is left of them.
+fn columns_and(m: DMat3, v: DVec3) -> [[f32; 4]; 3] {
+    [row(m.x_axis, v.x), row(m.y_axis, v.y), row(m.z_axis, v.z)]
+}
+
 fn light_rows(light: &Surroundings) -> [[f32; 4]; 3] {
     std::array::from_fn(|c| {
         let [x, y, z] = light.directed[c];
@@ -235,10 +240,13 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
     };
     let (sample, body) = at(emission);
     let shape = contraction(sample.momentum) * body;
-    // The change of the shape over a short while: turning and acceleration. The while is that of light across the object, or a step.
+    // Rates of shape and motion over the while in which light crosses the object: in its middle differences are right to second order.
     let span = object.scale.max_element().max(1e-3);
-    let (later, later_body) = at(emission + span);
-    let rate = (contraction(later.momentum) * later_body - shape) * (1.0 / span);
+    let [(earlier, earlier_body), (later, later_body)] = [at(emission - 0.5 * span), at(emission + 0.5 * span)];
+    let rate = (contraction(later.momentum) * later_body - contraction(earlier.momentum) * earlier_body) * (1.0 / span);
+    let acceleration = (later.velocity - earlier.velocity) / span;
+    let jerk = (later.velocity + earlier.velocity - 2.0 * sample.velocity) * (4.0 / (span * span));
+    let spin = (later.attitude * earlier.attitude.conjugate()).to_scaled_axis() / span;
     let still = !view.settings.light_delay;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
     let placement = Placement {
@@ -246,9 +254,9 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         position: row(sample.position, 0.0),
         velocity: row(sample.velocity, if still { 0.0 } else { 1.0 }),
         momentum: row(momentum, gamma(momentum)),
-        shape: columns(shape),
-        shape_rate: columns(rate),
-        turn: columns(DMat3::from_quat(sample.attitude)),
+        shape: columns_and(shape, acceleration),
+        shape_rate: columns_and(rate, spin),
+        turn: columns_and(DMat3::from_quat(sample.attitude), jerk),
         light: light_rows(&object.light),
         triangles: [0, 0, 0, if object.two_sided { TWO_SIDED } else { 0 }],
         ..Placement::default()

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::lensing;
 pub use crate::scene::picture_size as size;
-use crate::scene::{self, Assembly, ConfigError, GameConfig, Scene, SceneError};
+use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
 pub use crate::sim::Moment;
 
 use super::frame::Settings;
@@ -91,26 +91,37 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     Ok(renderer.picture(&frame, request.layers)?)
 }
 
-/// Draws a scene with models made elsewhere, once with its sky and once without, both with layers: for comparing with the judge's picture.
-pub fn with_and_without_sky(
+/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each of the
+/// `marked` sets of models. Auroras have a judge of their own and are left out.
+pub fn for_comparison(
     scene: &Scene,
-    assembly: Assembly,
+    assembly: &Assembly,
+    marked: [Vec<Model>; 2],
     config: &GameConfig,
     at: f64,
     size: [u32; 2],
-) -> Result<[Picture; 2], ShotError> {
+) -> Result<[Picture; 4], ShotError> {
     let gpu = Gpu::headless()?;
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::of(&mut renderer, scene, assembly, config);
     let moment = Moment::new(scene, config, at, 0);
-    let camera = stage.camera(moment.time(), &moment.ships());
     let with = settings(config);
     let without = Settings { stars: false, milky_way: false, ..with };
-    let mut draw = |settings| {
-        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, &settings);
-        renderer.picture(&frame, true)
+    let mut config = config.clone();
+    config.aurora.enabled = false;
+    let config = &config;
+    let mut draw = |models: Option<Vec<Model>>, settings: &Settings| {
+        let layers = models.is_some();
+        let mut assembly = assembly.clone();
+        if let Some(models) = models {
+            assembly.models = models;
+        }
+        let stage = Stage::of(&mut renderer, scene, assembly, config);
+        let camera = stage.camera(moment.time(), &moment.ships());
+        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, settings);
+        renderer.picture(&frame, layers)
     };
-    Ok([draw(with)?, draw(without)?])
+    let [first, second] = marked;
+    Ok([draw(None, &with)?, draw(None, &without)?, draw(Some(first), &without)?, draw(Some(second), &without)?])
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -34,17 +34,9 @@ pub struct Stage {
     has_ships: bool,
     planet: Option<Planet>,
     has_disk: bool,
-    /// The planet's model, and the coarse one.
-    globe: [ModelRange; 2],
     /// Shared, because a stage is only read when it makes a frame.
     show: Arc<Mutex<Option<Show>>>,
 }
-
-/// Light on a planet's night side, where only stars shine; and on its day side, if a disk shines on it.
-const NIGHT: f32 = 0.004;
-const DAY: f32 = 0.35;
-/// A scene without a disk is lit by the stars beyond the hole, gathered by its lensing: just enough to see the planet by.
-const STARLIGHT: f32 = 0.015;
 
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
@@ -71,11 +63,6 @@ impl Stage {
             let range = ranges[object.model];
             (object, range)
         });
-        let globe = scene.planet.as_ref().map_or_else(Default::default, |planet| {
-            let model = planet.model();
-            let fine = renderer.add_model(&model);
-            [fine, coarse(&model).map_or(fine, |model| renderer.add_model(&model))]
-        });
         Stage {
             objects: objects.collect(),
             reaches,
@@ -86,7 +73,6 @@ impl Stage {
             has_ships: !scene.ships.is_empty(),
             planet: scene.planet,
             has_disk: scene.disk(config).is_some(),
-            globe,
             show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
         }
     }
@@ -113,6 +99,9 @@ impl Stage {
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
         let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
+        // Light of the higher orders goes once round the hole.
+        let back = |planet: &Planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
+        let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back(planet), DQuat::IDENTITY));
         for (number, (object, model)) in self.objects.iter().enumerate() {
             let (motion, position) = match object.body {
                 Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
@@ -120,6 +109,14 @@ impl Stage {
                     Some(history) if hidden != Some(index) => (Motion::Flying(history), history.at(time).position),
                     _ => continue,
                 },
+                Body::Planet => match &globe {
+                    Some(history) => (Motion::Flying(history), history.at(time).position),
+                    None => continue,
+                },
+            };
+            let light = match object.body {
+                Body::Planet => lighting::on_planet(position, self.has_disk),
+                _ => lighting::at(position, self.has_ships, self.ambient),
             };
             let object = Object {
                 model: model[0],
@@ -129,33 +126,14 @@ impl Stage {
                 scale: DVec3::splat(object.scale),
                 id: number as u32 + 1,
                 two_sided: matches!(object.body, Body::Held { .. }),
-                light: lighting::at(position, self.has_ships, self.ambient),
+                light,
             };
             placed.extend(place(&view, time, &object, settings.orders));
         }
         let mut aurora = None;
         if let Some(planet) = &self.planet {
-            // Light of the higher orders goes once round the hole.
-            let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
-            if let Some(history) = planet_history(planet, time, back, DQuat::IDENTITY) {
-                let position = history.at(time).position;
-                let to_hole = -position.normalize_or_zero();
-                let day = if self.has_disk { DAY } else { STARLIGHT };
-                let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
-                let object = Object {
-                    model: self.globe[0],
-                    coarse: self.globe[1],
-                    motion: Motion::Flying(&history),
-                    reach: planet.radius,
-                    scale: DVec3::splat(2.0 * planet.radius),
-                    id: self.objects.len() as u32 + 1,
-                    two_sided: false,
-                    light: lighting::Surroundings { ambient: [NIGHT, NIGHT, 1.2 * NIGHT], directed },
-                };
-                placed.extend(place(&view, time, &object, settings.orders));
-            }
             let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-            aurora = show.as_mut().and_then(|show| show.frame(&view, time, back, settings.orders));
+            aurora = show.as_mut().and_then(|show| show.frame(&view, time, back(planet), settings.orders));
         }
         let mut settings = *settings;
         settings.stars &= self.sky.0;

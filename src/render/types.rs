@@ -99,6 +99,7 @@ pub struct SeenVertex {
     pub normal: [f32; 4],
     pub leaving: [f32; 4],
     pub surface: [f32; 4],
+    pub fan: [f32; 4],
 }
 
 /// `Material` in WGSL.

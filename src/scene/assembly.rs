@@ -16,7 +16,7 @@ use super::ship::{Ai, ShipSpec};
 pub struct Assembly {
     /// Distinct models, in units of their own.
     pub models: Vec<Model>,
-    /// Every visible thing: ships first, in the scene's order, then props.
+    /// Every visible thing: ships first, in the scene's order, then props, then the planet.
     pub objects: Vec<Object>,
     /// What was wrong with a model; a placeholder stands in its place.
     pub warnings: Vec<String>,
@@ -47,6 +47,8 @@ pub enum Body {
     },
     /// The ship with this index in [`Scene::ships`]: the vertex v is at scale·v in the ship's rest frame and body axes.
     Ship(usize),
+    /// The scene's planet, in its rest frame and the axes of [`super::planet::Planet::state`].
+    Planet,
 }
 
 impl Scene {
@@ -71,6 +73,11 @@ impl Scene {
                 let body = Body::Held { position, attitude: prop.attitude };
                 assembly.objects.push(Object { name: prop.name.clone(), model, scale: prop.size, body });
             }
+        }
+        if let Some(planet) = &self.planet {
+            assembly.models.push(planet.model());
+            let model = assembly.models.len() - 1;
+            assembly.objects.push(Object { name: "planet".into(), model, scale: 2.0 * planet.radius, body: Body::Planet });
         }
         assembly
     }

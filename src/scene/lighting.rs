@@ -37,3 +37,17 @@ pub fn at(position: DVec3, has_ships: bool, ambient: f32) -> Surroundings {
     let tint = |c: f32| (directed.as_vec3() * (0.5 * c)).to_array();
     Surroundings { ambient: colour.map(|c| ambient * 1.5 + 0.25 * total as f32 * c), directed: colour.map(tint) }
 }
+
+/// Light on a planet's night side, where only stars shine; and on its day side, if a disk shines on it.
+const NIGHT: f32 = 0.004;
+const DAY: f32 = 0.35;
+/// A scene without a disk is lit by the stars beyond the hole, gathered by its lensing: just enough to see the planet by.
+const STARLIGHT: f32 = 0.015;
+
+/// What shines on a planet at `position` (r_s): day on the side that faces the hole.
+pub fn on_planet(position: DVec3, has_disk: bool) -> Surroundings {
+    let to_hole = -position.normalize_or_zero();
+    let day = if has_disk { DAY } else { STARLIGHT };
+    let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
+    Surroundings { ambient: [NIGHT, NIGHT, 1.2 * NIGHT], directed }
+}

@@ -12,8 +12,9 @@ use crate::measure::picture_file::{PictureFileError, write_png};
 use crate::measure::trace::{Case, Request, TraceError};
 use crate::reference::picture::{Picture, Quality};
 use crate::scene;
+use crate::scene::Model;
 
-/// Draws the case with the renderer that is to be judged. The models of the case have texture coordinates everywhere.
+/// Draws the case with the renderer that is to be judged.
 pub type Contestant<'a> = dyn Fn(&Case) -> Result<Frame, String> + 'a;
 
 /// Why there is no verdict.
@@ -48,7 +49,7 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     }
     let config = scene::config::find(config).map_err(TraceError::from)?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
-    let case = case(Case::new(scene, config, request.at, request.size));
+    let case = Case::new(scene, config, request.at, request.size);
     let frame = contestant(&case).map_err(CompareError::Contestant)?;
     let bar = ProgressBar::new(u64::from(request.size[0]) * u64::from(request.size[1]));
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
@@ -58,7 +59,7 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     bar.finish_and_clear();
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    let verdict = compare(&judge, &frame, &names, &difference);
+    let verdict = compare(&judge, &frame, &case.probe(request.tolerance), &names, &difference);
     let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
     let faults = verdict.faults(&limits);
     print!("{}", table(&verdict, &faults));
@@ -76,19 +77,15 @@ pub fn difference(judge: &Picture, frame: &Frame) -> Vec<f32> {
     flip(&exposed(&judge.light), &exposed(&frame.light), judge.size)
 }
 
-/// Gives models without texture coordinates some, so that points of their surfaces can be told apart: two slanted views of the body, which
-/// are different at neighbouring points of any surface. Such models have no texture, so nothing looks different.
-pub fn case(mut case: Case) -> Case {
-    for model in &mut case.assembly.models {
-        let plain = model.vertices.iter().all(|vertex| Some(vertex.uv) == model.vertices.first().map(|first| first.uv));
-        if !plain {
-            continue;
+/// The models of a case with the first two of their points' coordinates as texture coordinates, and with the third: a renderer that draws
+/// these shows, in its layer of texture coordinates, which point of a surface is at each pixel.
+pub fn marked(models: &[Model]) -> [Vec<Model>; 2] {
+    let mark = |pick: fn([f32; 3]) -> [f32; 2]| {
+        let mut models = models.to_vec();
+        for vertex in models.iter_mut().flat_map(|model| &mut model.vertices) {
+            vertex.uv = pick(vertex.position);
         }
-        let scale = 1.0 / (4.0 * model.radius().max(1e-9));
-        for vertex in &mut model.vertices {
-            let [x, y, z] = vertex.position;
-            vertex.uv = [0.5 + scale * (x + 0.31 * y + 0.17 * z), 0.5 + scale * (z + 0.43 * y - 0.23 * x)];
-        }
-    }
-    case
+        models
+    };
+    [mark(|[x, y, _]| [x, y]), mark(|[_, _, z]| [z, 0.0])]
 }

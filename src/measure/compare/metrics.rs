@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::{Frame, Shown};
-use crate::reference::picture::{Layer, Picture};
+use super::Frame;
+use super::displacement::{Measured, Probe, displacements};
+use crate::reference::picture::Picture;
 
 /// Displacements between the same surface points in the two pictures, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -16,7 +17,9 @@ pub struct Displacement {
     pub most: f64,
     /// The greatest.
     pub max: f64,
-    /// Pixels counted apart: what they show is magnified so far that f32 cannot tell neighbours, or changes too unevenly to be measured.
+    /// The pixel of the greatest, column and row.
+    pub worst: [u32; 2],
+    /// Pixels counted apart: what they show is magnified so far that f32 cannot tell neighbours.
     pub apart: usize,
 }
 
@@ -50,6 +53,8 @@ pub struct Verdict {
     pub groups: Vec<Group>,
     /// Pixels that show the right object in a wrong order.
     pub wrong_order: usize,
+    /// Of those, the ones where the judge sees that order nowhere within a pixel.
+    pub wrong_beyond_rim: usize,
     /// Pixels without light, in the midst of others, where the judge sees a thing all around.
     pub holes: usize,
     /// Pixels with light of a thing where the judge sees the shadow all around.
@@ -92,7 +97,8 @@ impl Verdict {
                 faults.push(format!("{who}: 99 % of displacements are under {:.2} px, not {}", d.most, limits.most));
             }
             if d.max > limits.max {
-                faults.push(format!("{who}: displacement up to {:.2} px, more than {}", d.max, limits.max));
+                let [x, y] = d.worst;
+                faults.push(format!("{who}: displacement up to {:.2} px (at {x}, {y}), more than {}", d.max, limits.max));
             }
             let allowed = limits.coverage * (group.pixels + group.rim) as f64;
             // One pixel may always fall either way.
@@ -104,9 +110,12 @@ impl Verdict {
                 faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1}"));
             }
         }
-        for (count, what) in
-            [(self.wrong_order, "show the wrong order"), (self.holes, "are holes"), (self.lit, "are lit where there is no light")]
-        {
+        // A pixel that the border of two orders runs through is judged by coverage, like that of any border.
+        for (count, what) in [
+            (self.wrong_beyond_rim, "show an order that is nowhere near"),
+            (self.holes, "are holes"),
+            (self.lit, "are lit where there is no light"),
+        ] {
             if count > 0 {
                 faults.push(format!("{count} pixels {what}"));
             }
@@ -115,19 +124,18 @@ impl Verdict {
     }
 }
 
-/// A thing's surface coordinates resolve this much in f32: a few roundings of a number near 1, at a tenth of a pixel.
-const RESOLUTION: f64 = 4e-6;
-
-/// Compares. `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of each pixel.
-pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f32]) -> Verdict {
+/// Compares. `probe` asks the judge between the pixels; `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of
+/// each pixel.
+pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
     let grid = Grid { width, height };
     let thin = thin_images(judge);
     let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
     let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
-    let (mut wrong_order, mut holes, mut lit) = (0, 0, 0);
+    let (mut wrong_order, mut wrong_beyond_rim, mut holes, mut lit) = (0, 0, 0, 0);
     let mut displaced = vec![f32::NAN; width * height];
+    let measured = displacements(judge, frame, probe);
     for i in 0..width * height {
         let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
         let around = grid.around(i);
@@ -137,7 +145,11 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
             count > 0 && count < around.len()
         };
         let agree = layer.object == shown.object && layer.order == shown.order;
-        wrong_order += usize::from(layer.object > 0 && layer.object == shown.object && layer.order != shown.order);
+        if layer.object > 0 && layer.object == shown.object && layer.order != shown.order {
+            wrong_order += 1;
+            let near = around.iter().any(|&j| (judge.layers[j].object, judge.layers[j].order) == (shown.object, shown.order));
+            wrong_beyond_rim += usize::from(!near);
+        }
         holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0));
         lit += usize::from(frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]));
         for &(object, order, share) in &judge.shares[i] {
@@ -157,9 +169,9 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
                 tally.mismatched += 1;
                 tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
             } else {
-                match displacement(judge, &grid, i, shown) {
+                match measured[i] {
                     Some(Measured::Pixels(d)) => {
-                        tally.displacements.push(d);
+                        tally.displacements.push((d, i));
                         displaced[i] = d as f32;
                     }
                     Some(Measured::Apart) => tally.apart += 1,
@@ -175,9 +187,9 @@ pub fn compare(judge: &Picture, frame: &Frame, names: &[String], difference: &[f
             tally.beyond_rim += usize::from(!rim);
         }
     }
-    let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order)).collect();
+    let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
-    Verdict { groups, wrong_order, holes, lit, flip, displaced }
+    Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced }
 }
 
 /// Objects and orders that nowhere fill a pixel.
@@ -196,22 +208,24 @@ struct Tally {
     rim: usize,
     mismatched: usize,
     beyond_rim: usize,
-    displacements: Vec<f64>,
+    /// Each with its pixel.
+    displacements: Vec<(f64, usize)>,
     apart: usize,
     thin: [f64; 2],
     flip: f64,
 }
 
 impl Tally {
-    fn group(mut self, name: &str, order: u32) -> Group {
-        self.displacements.sort_by(f64::total_cmp);
+    fn group(mut self, name: &str, order: u32, width: usize) -> Group {
+        self.displacements.sort_by(|a, b| a.0.total_cmp(&b.0));
         let d = &self.displacements;
         let count = d.len();
         let displacement = Displacement {
             pixels: count,
-            mean: d.iter().sum::<f64>() / count.max(1) as f64,
-            most: d.get((count * 99 / 100).min(count.saturating_sub(1))).copied().unwrap_or(0.0),
-            max: d.last().copied().unwrap_or(0.0),
+            mean: d.iter().map(|d| d.0).sum::<f64>() / count.max(1) as f64,
+            most: d.get((count * 99 / 100).min(count.saturating_sub(1))).map_or(0.0, |d| d.0),
+            max: d.last().map_or(0.0, |d| d.0),
+            worst: d.last().map_or([0; 2], |d| [(d.1 % width) as u32, (d.1 / width) as u32]),
             apart: self.apart,
         };
         Group {
@@ -240,57 +254,4 @@ impl Grid {
         let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
         (y.saturating_sub(1)..=(y + 1).min(self.height - 1)).flat_map(|y| columns.clone().map(move |x| y * self.width + x)).collect()
     }
-}
-
-enum Measured {
-    Pixels(f64),
-    Apart,
-}
-
-/// How far from the centre of pixel i the judge sees the surface point that the contestant shows there: the difference in texture coordinates
-/// over their change from pixel to pixel. None where no neighbour shows the same image.
-fn displacement(judge: &Picture, grid: &Grid, i: usize, shown: &Shown) -> Option<Measured> {
-    let here = &judge.layers[i];
-    let (x, y) = (i % grid.width, i / grid.width);
-    let slope = |before: Option<usize>, after: Option<usize>| {
-        let step = |j: Option<usize>| {
-            let there: &Layer = &judge.layers[j?];
-            ((there.object, there.order) == (here.object, here.order)).then(|| turns(there.uv, here.uv))
-        };
-        match (step(before), step(after)) {
-            (Some(a), Some(b)) => {
-                let uneven = (a[0] + b[0]).hypot(a[1] + b[1]) > 0.5 * (a[0] - b[0]).hypot(a[1] - b[1]);
-                Some(([0.5 * (b[0] - a[0]), 0.5 * (b[1] - a[1])], uneven))
-            }
-            (Some(a), None) => Some(([-a[0], -a[1]], false)),
-            (None, Some(b)) => Some((b, false)),
-            (None, None) => None,
-        }
-    };
-    let (across, uneven_across) = slope((x > 0).then(|| i - 1), (x + 1 < grid.width).then(|| i + 1))?;
-    let (down, uneven_down) = slope((y > 0).then(|| i - grid.width), (y + 1 < grid.height).then(|| i + grid.width))?;
-    let off = turns(shown.uv, here.uv);
-    // Singular values of the map from pixels to coordinates, and the displacement along each of its directions.
-    let (a, b, c) =
-        (across[0] * across[0] + across[1] * across[1], across[0] * down[0] + across[1] * down[1], down[0] * down[0] + down[1] * down[1]);
-    let angle = 0.5 * (2.0 * b).atan2(a - c);
-    let mut sum = 0.0;
-    for turn in [angle, angle + std::f64::consts::FRAC_PI_2] {
-        let (sine, cosine) = turn.sin_cos();
-        let image = [across[0] * cosine + down[0] * sine, across[1] * cosine + down[1] * sine];
-        let stretch = image[0].hypot(image[1]);
-        if stretch < RESOLUTION {
-            return Some(Measured::Apart);
-        }
-        sum += ((off[0] * image[0] + off[1] * image[1]) / (stretch * stretch)).powi(2);
-    }
-    let pixels = sum.sqrt();
-    // Where the map is far from linear a small displacement is still small; a large one cannot be told from the unevenness.
-    Some(if (uneven_across || uneven_down) && pixels > 0.5 { Measured::Apart } else { Measured::Pixels(pixels) })
-}
-
-/// a − b, with u on a circle.
-fn turns(a: [f32; 2], b: [f32; 2]) -> [f64; 2] {
-    let u = f64::from(a[0]) - f64::from(b[0]);
-    [u - u.round(), f64::from(a[1]) - f64::from(b[1])]
 }

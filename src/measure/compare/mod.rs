@@ -1,13 +1,16 @@
 //! The verdict: a renderer's picture of a scene against the judge's, object by object and order by order.
 //!
 //! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
+//! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
 //! - [`report`]: the numbers as text, the pictures side by side.
 //! - [`command`]: `lensrunner compare`.
 
 pub mod command;
+pub mod displacement;
 pub mod metrics;
 pub mod report;
 
+use crate::measure::trace::Case;
 use crate::reference::picture::Picture;
 
 /// What a pixel of the contestant shows.
@@ -17,8 +20,8 @@ pub struct Shown {
     pub object: u32,
     /// The image order.
     pub order: u32,
-    /// Texture coordinates.
-    pub uv: [f32; 2],
+    /// The point of the body's surface, in its own axes and the model's unit.
+    pub body: [f32; 3],
     /// How much of the pixel it covers: less than 1 only for images narrower than a pixel.
     pub coverage: f32,
 }
@@ -38,11 +41,11 @@ pub struct Frame {
 
 impl Frame {
     /// The judge's own picture as a contestant: what a perfect renderer would hand in, and what tests break on purpose.
-    pub fn of(picture: &Picture) -> Frame {
+    pub fn of(picture: &Picture, case: &Case) -> Frame {
         let shown = picture.layers.iter().map(|layer| Shown {
             object: layer.object,
             order: layer.order,
-            uv: layer.uv,
+            body: if layer.object > 0 { case.body(layer).as_vec3().to_array() } else { [0.0; 3] },
             coverage: if layer.object > 0 { 1.0 } else { 0.0 },
         });
         let bare = picture.light.iter().zip(&picture.open).map(|(rgb, open)| if *open < 1.0 { *rgb } else { [0.0; 3] });

@@ -39,8 +39,8 @@ pub fn table(verdict: &Verdict, faults: &[String]) -> String {
     }
     let _ = writeln!(
         text,
-        "wrong order {} px, holes {} px, lit in the shadow {} px, mean FLIP {:.4}",
-        verdict.wrong_order, verdict.holes, verdict.lit, verdict.flip
+        "wrong order {} px ({} of them beyond the rim), holes {} px, lit in the shadow {} px, mean FLIP {:.4}",
+        verdict.wrong_order, verdict.wrong_beyond_rim, verdict.holes, verdict.lit, verdict.flip
     );
     for fault in faults {
         let _ = writeln!(text, "beyond the limit: {fault}");

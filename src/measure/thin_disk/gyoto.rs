@@ -10,8 +10,10 @@ pub const MISSING: &str = "not installed (Debian: gyoto-bin)";
 
 /// Gyoto's picture.
 pub struct Picture {
-    /// Row by row from the top, as Gyoto has it; see [`oriented`].
+    /// Row by row from the top.
     pub impacts: Vec<Impact>,
+    /// The bolometric flux that Gyoto itself gives for each pixel, in its unit; not a number where it misses the disk.
+    pub fluxes: Vec<f64>,
     /// Rays per second.
     pub rate: f64,
     /// The version.
@@ -35,8 +37,8 @@ pub fn picture(screen: &Screen, ring: &Ring, tolerance: f64) -> Result<Picture, 
     if !run.status.success() {
         return Err(format!("gyoto failed: {}", String::from_utf8_lossy(&run.stderr).lines().last().unwrap_or("")));
     }
-    let impacts = impacts(&fits?, screen)?;
-    Ok(Picture { impacts, rate: (screen.pixels * screen.pixels) as f64 / seconds, version })
+    let (impacts, fluxes) = impacts(&fits?, screen)?;
+    Ok(Picture { impacts, fluxes, rate: (screen.pixels * screen.pixels) as f64 / seconds, version })
 }
 
 /// Its own example, with our numbers; lengths in M = r_s/2.
@@ -55,7 +57,7 @@ fn scenery(screen: &Screen, ring: &Ring, tolerance: f64) -> String {
   <AbsTol>{tolerance:e}</AbsTol>
   <RelTol>{tolerance:e}</RelTol>
   <MinimumTime>-1000.</MinimumTime>
-  <Quantities>Redshift ImpactCoords</Quantities>
+  <Quantities>Redshift User4 ImpactCoords</Quantities>
 </Scenery>
 ",
         2.0 * screen.radius,
@@ -67,22 +69,28 @@ fn scenery(screen: &Screen, ring: &Ring, tolerance: f64) -> String {
     )
 }
 
-/// Radius and redshift of each pixel from the FITS file.
-fn impacts(fits: &[u8], screen: &Screen) -> Result<Vec<Impact>, String> {
-    let count = screen.pixels * screen.pixels;
-    // The first array has the redshift alone. Eight coordinates of the disk's matter, then eight of the light: t, r, θ, φ and their rates.
-    let shift = plane(fits, "SIMPLE", count)?;
+/// Radius, redshift and flux of each pixel from the FITS file.
+///
+/// Nothing is fitted: FITS counts rows from the bottom (standard 4.0, section 3.3.2), and both pictures have the side that comes nearer at the
+/// left. Gyoto's default observer at a finite distance hovers there.
+fn impacts(fits: &[u8], screen: &Screen) -> Result<(Vec<Impact>, Vec<f64>), String> {
+    let n = screen.pixels;
+    let count = n * n;
+    // The first array has the redshift, then the flux. The other: eight coordinates of the disk's matter, then eight of the light: t, r, θ, φ
+    // and their rates.
+    let maps = plane(fits, "SIMPLE", 2 * count)?;
     let coordinates = plane(fits, "Gyoto Impact Coordinates", 16 * count)?;
     Ok((0..count)
-        .map(|i| {
-            let (radius, g) = (0.5 * coordinates[16 * i + 1], shift[i]);
+        .map(|k| {
+            let i = (n - 1 - k / n) * n + k % n;
+            let (radius, g, flux) = (0.5 * coordinates[16 * i + 1], maps[i], maps[count + i]);
             if g > 0.0 && g < 1e10 && radius > 0.0 && radius < 1e10 {
-                Impact { radius, g }
+                (Impact { radius, g }, flux)
             } else {
-                Impact { radius: f64::NAN, g: f64::NAN }
+                (Impact { radius: f64::NAN, g: f64::NAN }, f64::NAN)
             }
         })
-        .collect())
+        .unzip())
 }
 
 /// The numbers of the array whose header has `name` (the first has SIMPLE, extensions a name of their own; FITS standard 4.0, sections 3 and 7.1).
@@ -114,26 +122,4 @@ fn plane(fits: &[u8], name: &str, count: usize) -> Result<Vec<f64>, String> {
         at = start + bytes.next_multiple_of(2880);
     }
     Err(format!("the FITS file has no plane \"{name}\" of {count} numbers"))
-}
-
-/// Turned and mirrored so that it meets `truth` best, its g scaled to a hovering camera's: Gyoto's picture may be that of the other hand, and its
-/// observer counts frequencies at infinity.
-pub fn oriented(truth: &[Impact], picture: &[Impact], pixels: usize) -> Vec<Impact> {
-    let place = |i: usize, way: usize| {
-        let (column, row) = (i % pixels, i / pixels);
-        let column = if way & 1 == 1 { pixels - 1 - column } else { column };
-        let row = if way & 2 == 2 { pixels - 1 - row } else { row };
-        row * pixels + column
-    };
-    let turned = |way: usize| -> Vec<Impact> { (0..picture.len()).map(|i| picture[place(i, way)]).collect() };
-    let unlike = |other: &[Impact]| -> f64 {
-        truth.iter().zip(other).map(|(a, b)| (a.g - b.g).abs()).filter(|d| d.is_finite()).sum::<f64>()
-            + truth.iter().zip(other).filter(|(a, b)| a.g.is_finite() != b.g.is_finite()).count() as f64
-    };
-    let mut best = (0..4).map(turned).min_by(|a, b| unlike(a).total_cmp(&unlike(b))).unwrap_or_default();
-    let mut ratios: Vec<f64> = truth.iter().zip(&best).map(|(a, b)| a.g / b.g).filter(|x| x.is_finite()).collect();
-    ratios.sort_by(f64::total_cmp);
-    let scale = ratios.get(ratios.len() / 2).copied().unwrap_or(1.0);
-    best.iter_mut().for_each(|impact| impact.g *= scale);
-    best
 }

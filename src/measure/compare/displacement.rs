@@ -1,0 +1,138 @@
+//! Where the judge sees the surface point that the contestant shows at a pixel: Newton on the judge's own map from the screen to the surface.
+//!
+//! Points are compared as points of the body, three coordinates in its own axes: texture coordinates have seams and poles.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::Frame;
+use crate::reference::picture::{Layer, Picture};
+
+/// A point of a surface as the judge sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// The number of the thing, from 1.
+    pub object: u32,
+    /// The image order.
+    pub order: u32,
+    /// Where on the body, in its own axes and the model's unit.
+    pub body: DVec3,
+}
+
+/// The judge, asked anywhere on the screen.
+pub trait Probe: Sync {
+    /// What is seen at (x, y), in pixels from the upper left corner.
+    fn at(&self, x: f64, y: f64) -> Option<Point>;
+    /// The point of the body that a pixel of the judge's picture shows.
+    fn body(&self, layer: &Layer) -> DVec3;
+    /// The greatest distance of a point of the body from its centre, in the model's unit.
+    fn radius(&self, object: u32) -> f64;
+}
+
+/// What came of measuring at a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// A distance in pixels.
+    Pixels(f64),
+    /// A pixel's footprint on the surface is below the resolution of f32.
+    Apart,
+}
+
+/// A footprint narrower than this part of the body's radius cannot be measured: the coordinates of a surface point, each a rounded sum of
+/// three rounded products, are right to about 4e-7 of the radius in f32, a tenth of this.
+const RESOLUTION: f64 = 4e-6;
+
+/// The displacement at each pixel where both show the same object in the same order; None elsewhere.
+pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<Option<Measured>> {
+    let width = judge.size[0] as usize;
+    (0..judge.layers.len())
+        .into_par_iter()
+        .map(|i| {
+            let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
+            if layer.object == 0 || (layer.object, layer.order) != (shown.object, shown.order) {
+                return None;
+            }
+            let wanted = DVec3::from(shown.body.map(f64::from));
+            let centre = DVec2::new((i % width) as f64 + 0.5, (i / width) as f64 + 0.5);
+            let here = Point { object: layer.object, order: layer.order, body: probe.body(layer) };
+            let there = measure(probe, here, centre, centre, wanted);
+            if !matches!(there, Some(Measured::Pixels(d)) if d > DOUBTFUL) {
+                return there;
+            }
+            // Where one part of a body stands before another its map tears. The point is looked for from both sides of the tear.
+            let sides = (0..8).map(|k| centre + DVec2::from_angle(std::f64::consts::FRAC_PI_4 * f64::from(k)) * 0.75);
+            let found = sides.filter_map(|start| {
+                let point = probe.at(start.x, start.y).filter(|p| (p.object, p.order) == (here.object, here.order))?;
+                match measure(probe, point, start, centre, wanted)? {
+                    Measured::Pixels(d) => Some(d),
+                    Measured::Apart => None,
+                }
+            });
+            let Some(Measured::Pixels(d)) = there else { return there };
+            Some(Measured::Pixels(found.fold(d, f64::min)))
+        })
+        .collect()
+}
+
+/// From this many pixels on a displacement is measured from several starts.
+const DOUBTFUL: f64 = 0.5;
+/// Steps of Newton: the map is smooth but for the edges of triangles, where its slope jumps.
+const STEPS: usize = 12;
+/// The longest step, in pixels: beyond it the slope says little.
+const LONGEST: f64 = 4.0;
+/// Half the span over which the slope is taken, in pixels: the judge's rays are right to 1e-9 of that.
+const SPAN: f64 = 1.0 / 64.0;
+
+/// How far from `centre`, in pixels, the judge sees the point `wanted`, looked for from `start`, which shows `here`. Where the image ends before it is reached the slope at its end
+/// extends it.
+fn measure(probe: &dyn Probe, here: Point, start: DVec2, centre: DVec2, wanted: DVec3) -> Option<Measured> {
+    let same = |place: DVec2| probe.at(place.x, place.y).filter(|p| (p.object, p.order) == (here.object, here.order)).map(|p| p.body);
+    let resolution = RESOLUTION * probe.radius(here.object);
+    let (mut place, mut body) = (start, here.body);
+    let mut best = f64::INFINITY;
+    for _ in 0..STEPS {
+        let slope = |axis: DVec2| {
+            let (before, after) = (same(place - axis * SPAN), same(place + axis * SPAN));
+            match (before, after) {
+                (Some(a), Some(b)) => Some((b - a) / (2.0 * SPAN)),
+                (Some(a), None) => Some((body - a) / SPAN),
+                (None, Some(b)) => Some((b - body) / SPAN),
+                (None, None) => None,
+            }
+        };
+        // An image thinner than this has no inside to be displaced in.
+        let (Some(across), Some(down)) = (slope(DVec2::X), slope(DVec2::Y)) else { break };
+        let Some(step) = solve(across, down, wanted - body, resolution) else { return Some(Measured::Apart) };
+        best = (place + step).distance(centre);
+        if step.length() < 2e-3 {
+            break;
+        }
+        let mut step = step.clamp_length_max(LONGEST);
+        let next = (0..4).find_map(|_| {
+            let found = same(place + step);
+            step *= if found.is_none() { 0.5 } else { 1.0 };
+            found
+        });
+        let Some(found) = next else { break };
+        (place, body) = (place + step, found);
+    }
+    best.is_finite().then_some(Measured::Pixels(best))
+}
+
+/// The step on the screen that brings the surface point nearest to `off` away; None where a direction of the screen is magnified so far that a
+/// pixel covers less than `resolution`.
+fn solve(across: DVec3, down: DVec3, off: DVec3, resolution: f64) -> Option<DVec2> {
+    let (a, b, c) = (across.length_squared(), across.dot(down), down.length_squared());
+    let angle = 0.5 * (2.0 * b).atan2(a - c);
+    let mut step = DVec2::ZERO;
+    for turn in [angle, angle + std::f64::consts::FRAC_PI_2] {
+        let direction = DVec2::from_angle(turn);
+        let image = across * direction.x + down * direction.y;
+        let stretch = image.length_squared();
+        if stretch < resolution * resolution {
+            return None;
+        }
+        step += direction * (off.dot(image) / stretch);
+    }
+    Some(step)
+}
