@@ -27,8 +27,7 @@ fn layers_fragment(in: Surface) -> Layers {
     if hidden(in) {
         discard;
     }
-    let ids = placements[in.which.x].ids;
-    return Layers(vec4<f32>(f32(ids.y), f32(ids.x), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage, 0.0));
+    return Layers(vec4<f32>(f32(in.which.x), f32(in.which.y), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage, 0.0));
 }
 
 @vertex

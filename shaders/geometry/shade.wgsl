@@ -19,12 +19,26 @@ struct Surface {
     @location(2) uv: vec3<f32>,
     @location(3) coverage: f32,
     @location(4) fan: vec3<f32>,
-    @location(5) @interpolate(flat) which: vec2<u32>,
+    /// Object id and image order; z: texture layer + 1.
+    @location(5) @interpolate(flat) which: vec3<u32>,
+    // What the placement and the material say, read once a vertex: software drivers pay for each word that each pixel reads from a buffer.
+    @location(6) @interpolate(flat) light_red: vec4<f32>,
+    @location(7) @interpolate(flat) light_green: vec4<f32>,
+    @location(8) @interpolate(flat) light_blue: vec4<f32>,
+    /// Linear base colour; w: metallic.
+    @location(9) @interpolate(flat) base: vec4<f32>,
+    /// Emitted light; w: roughness.
+    @location(10) @interpolate(flat) emissive: vec4<f32>,
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
+    let placement = bitcast<u32>(vertex.surface.z);
+    let material = bitcast<u32>(vertex.surface.w);
+    let ids = placements[placement].ids;
+    let kind = materials[material].surface;
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
-        vec2<u32>(bitcast<u32>(vertex.surface.z), bitcast<u32>(vertex.surface.w)));
+        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placements[placement].light_red, placements[placement].light_green,
+        placements[placement].light_blue, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
 }
 
 /// `texture_point` at a pixel.
@@ -33,13 +47,11 @@ fn texture_place(in: Surface) -> vec2<f32> {
 }
 
 fn shaded(in: Surface) -> vec3<f32> {
-    let placement = placements[in.which.x];
-    let material = materials[in.which.y];
-    var base = material.base.rgb;
-    var emitted = material.emissive.rgb;
+    var base = in.base.rgb;
+    var emitted = in.emissive.rgb;
     // Sampled by all pixels, so that the level comes from differences between them.
-    let texel = textureSample(surface_textures, surface_sampler, texture_place(in), i32(max(material.surface.y, 0.0))).rgb;
-    if material.surface.y >= 0.0 {
+    let texel = textureSample(surface_textures, surface_sampler, texture_place(in), i32(max(in.which.z, 1u) - 1u)).rgb;
+    if in.which.z > 0u {
         base *= texel;
         emitted *= texel;
     }
@@ -48,33 +60,31 @@ fn shaded(in: Surface) -> vec3<f32> {
     if dot(n, leaving) < 0.0 {
         n = -n;
     }
-    let light = irradiance(placement, n);
-    let metallic = material.surface.x;
-    let roughness = max(material.emissive.w, 0.08);
+    let light = irradiance(in, n);
+    let metallic = in.base.w;
+    let roughness = max(in.emissive.w, 0.08);
     var colour = emitted + base * light * (1.0 - metallic);
     // What a glossy surface mirrors: the surroundings in the mirrored direction, sharpened towards the side the light comes from.
     let mirrored = reflect(-leaving, n);
     let fresnel = mix(vec3<f32>(0.04), base, vec3<f32>(metallic));
     let grazing = 1.0 - max(dot(n, leaving), 0.0);
     let rim = grazing * grazing * grazing * grazing * grazing;
-    let reflected = irradiance(placement, normalize(mix(mirrored, n, vec3<f32>(roughness * roughness))));
-    colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(placement, mirrored, roughness);
+    let reflected = irradiance(in, normalize(mix(mirrored, n, vec3<f32>(roughness * roughness))));
+    colour += (fresnel + (1.0 - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(in, mirrored, roughness);
     let flags = frame.switches.x;
     let g = in.normal.w;
     return min(shifted_colour(colour, g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u), vec3<f32>(6e4));
 }
 
 /// Light that falls on a surface of normal n: ambient and first harmonic of what shines around the object.
-fn irradiance(placement: Placement, n: vec3<f32>) -> vec3<f32> {
-    return max(vec3<f32>(
-        placement.light_red.w + dot(placement.light_red.xyz, n),
-        placement.light_green.w + dot(placement.light_green.xyz, n),
-        placement.light_blue.w + dot(placement.light_blue.xyz, n)), vec3<f32>(0.0));
+fn irradiance(in: Surface, n: vec3<f32>) -> vec3<f32> {
+    return max(vec3<f32>(in.light_red.w + dot(in.light_red.xyz, n), in.light_green.w + dot(in.light_green.xyz, n),
+        in.light_blue.w + dot(in.light_blue.xyz, n)), vec3<f32>(0.0));
 }
 
 /// A highlight towards the main light, narrower on smooth surfaces.
-fn gloss(placement: Placement, direction: vec3<f32>, roughness: f32) -> f32 {
-    let main = placement.light_red.xyz + placement.light_green.xyz + placement.light_blue.xyz;
+fn gloss(in: Surface, direction: vec3<f32>, roughness: f32) -> f32 {
+    let main = in.light_red.xyz + in.light_green.xyz + in.light_blue.xyz;
     let strength = length(main);
     if strength < 1e-9 {
         return 1.0;
