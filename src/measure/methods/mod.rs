@@ -169,7 +169,10 @@ pub fn names() -> String {
 /// One line for each method.
 pub fn help() -> String {
     let lines: Vec<String> = CATALOGUE.iter().map(|entry| format!("{:20} {}", entry.name, entry.about)).collect();
-    format!("Methods:\n  {}", lines.join("\n  "))
+    format!(
+        "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (paper 1's from 1.01), and leave fields empty beyond.",
+        lines.join("\n  ")
+    )
 }
 
 /// The method called `name`, or None. Tables that are not there yet are baked, which stderr is told of, and kept in tables/.
