@@ -53,7 +53,7 @@ fn close_pattern(uv: vec2<f32>, level: f32, share: f32) -> f32 {
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in.gas, in.light.w, in.thin.y < 1e5);
     let fine = 1.0 - smoothstep(FINE.x, FINE.y, in.light.w);
-    let turbulence = at.shares.x * close_pattern(at.young, at.levels.x, fine) + at.shares.y * close_pattern(at.old, at.levels.y, fine);
+    let turbulence = at.shares.x * close_pattern(at.young, at.level, fine) + at.shares.y * close_pattern(at.old, at.level, fine);
     let depth = in.gas.z * disk_slant(in.gas.w, in.light.w, near_half_height(in.gas.y));
     return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
 }

@@ -22,8 +22,7 @@ struct Streaks {
     young: vec2<f32>,
     old: vec2<f32>,
     shares: vec2<f32>,
-    /// Levels of the pattern, of the young and the old.
-    levels: vec2<f32>,
+    level: f32,
 }
 
 /// A pixel may be this much longer than wide in the pattern before the level follows its length: more of it would alias (streaks of a disk that is
@@ -31,13 +30,13 @@ struct Streaks {
 const LONGEST: f32 = 4.0;
 
 /// The level for a pixel with these derivatives across and down, in texels, of which shear has drawn out a generation along the orbit by `shear` for
-/// each texel of height.
-fn streak_level(dx: vec2<f32>, dy: vec2<f32>, shear: f32, longest: f32) -> f32 {
+/// each texel of height. `share` is the part of the square of its longest side that counts.
+fn streak_level(dx: vec2<f32>, dy: vec2<f32>, shear: f32, share: f32) -> f32 {
     let a = vec2<f32>(dx.x + shear * dx.y, dx.y);
     let b = vec2<f32>(dy.x + shear * dy.y, dy.y);
     // Shear does not change the area that a pixel covers.
     let area = abs(dx.x * dy.y - dx.y * dy.x);
-    return 0.5 * log2(max(max(area, max(dot(a, a), dot(b, b)) / (longest * longest)), 1e-12));
+    return 0.5 * log2(max(max(area, max(dot(a, a), dot(b, b)) * share), 1e-12));
 }
 
 /// Where in the pattern a place is, in both generations that are seen there. A thin image shows the mean of all it holds.
@@ -57,10 +56,9 @@ fn streaks_of(gas: vec4<f32>, path: f32, thin: bool) -> Streaks {
     result.young = vec2<f32>(moved, height) + disk.offset.xy + number * disk.offset.zw;
     result.old = result.young - vec2<f32>(rate * disk.renewal.z, 0.0) - disk.offset.zw;
     result.shares = disk_shares(grown);
-    // d rate/d height is −6 ln 2 of the rate.
-    let shear = 4.158883 * rate * size.x / size.y;
-    let longest = select(LONGEST, 1.0, thin);
-    result.levels = vec2<f32>(streak_level(dx, dy, shear * age, longest), streak_level(dx, dy, shear * (age + disk.renewal.z), longest));
+    // d rate/d height is −6 ln 2 of the rate. One level does for both: that of the generation that shows more.
+    let shear = 4.158883 * rate * size.x / size.y * (age + result.shares.y * disk.renewal.z);
+    result.level = streak_level(dx, dy, shear, select(1.0 / (LONGEST * LONGEST), 1.0, thin));
     return result;
 }
 
@@ -71,7 +69,7 @@ fn far_value(uv: vec2<f32>, level: f32) -> f32 {
 /// The streaks of both generations, from far: the finest octaves are smaller than a pixel.
 fn far_turbulence(gas: vec4<f32>, path: f32, thin: bool) -> f32 {
     let at = streaks_of(gas, path, thin);
-    return at.shares.x * far_value(at.young, at.levels.x) + at.shares.y * far_value(at.old, at.levels.y);
+    return at.shares.x * far_value(at.young, at.level) + at.shares.y * far_value(at.old, at.level);
 }
 
 /// Light and opacity of gas whose density is exp(deviation·turbulence) times the mean: premultiplied. Its temperature goes as the fourth root of

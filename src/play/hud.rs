@@ -195,7 +195,9 @@ fn fuel(painter: &Painter, bottom: Pos2, share: Option<f64>) {
     painter.rect_filled(filled, 3.0, colour.gamma_multiply(0.75));
     painter.rect_stroke(bar, 3.0, Stroke::new(1.0, FAINT), StrokeKind::Outside);
     let words = share.map_or("FUEL".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
-    text(painter, bar.center(), Align2::CENTER_CENTER, &words, 10.5, TEXT);
+    // Dark on the bar, light on the shade beside it.
+    let ink = if share.unwrap_or(1.0) > 0.5 { Color32::BLACK } else { TEXT };
+    text(painter, bar.center(), Align2::CENTER_CENTER, &words, 10.5, ink);
 }
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.

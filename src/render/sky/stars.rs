@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::render::Gpu;
 use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST, Camera, blackbody_table};
@@ -143,7 +144,8 @@ impl Stars {
         let aspect = f64::from(size[1]) / f64::from(size[0]);
         let orders = if table.is_empty() { 0 } else { ORDERS };
         let listed: Vec<[u32; 4]> = (1..=orders)
-            .flat_map(|order| self.clusters.iter().map(move |cluster| (order, cluster)))
+            .into_par_iter()
+            .flat_map(|order| self.clusters.par_iter().map(move |cluster| (order, cluster)))
             .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
             .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
             .collect();
