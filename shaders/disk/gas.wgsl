@@ -27,7 +27,7 @@ struct Streaks {
 
 /// A pixel may be this much longer than wide in the pattern before the level follows its length: more of it would alias (streaks of a disk that is
 /// seen edge on became dashes), less would blur what is seen well.
-const LONGEST: f32 = 4.0;
+const LONGEST: f32 = 8.0;
 
 /// The level for a pixel with these derivatives across and down, in texels, of which shear has drawn out a generation along the orbit by `shear` for
 /// each texel of height. `share` is the part of the square of its longest side that counts.
