@@ -11,6 +11,7 @@ use super::renderer::Surroundings;
 use super::shot::{Moment, ShotError, surroundings};
 use super::stage::{Stage, settings};
 use super::targets::target;
+use super::types::Counters;
 use super::{Gpu, Renderer};
 
 /// What to time.
@@ -42,6 +43,8 @@ pub struct FrameTimes {
     pub processor: Option<f64>,
     /// Median of each pass by the GPU's timestamps, where it has them.
     pub passes: Vec<(&'static str, f64)>,
+    /// What the stages of the geometry counted in the last frame.
+    pub counters: Counters,
 }
 
 impl fmt::Display for FrameTimes {
@@ -56,7 +59,9 @@ impl fmt::Display for FrameTimes {
         for (label, time) in &self.passes {
             write!(f, "\n  {label:<12} {time:8.2} ms")?;
         }
-        Ok(())
+        let Counters { model_vertices, vertices, indices, work, thin, .. } = self.counters;
+        write!(f, "\n  {model_vertices} vertices of models, {} of {work} blocks; {} triangles", vertices.saturating_sub(model_vertices), indices / 3)?;
+        write!(f, ", {} thin", thin / 3)
     }
 }
 
@@ -129,6 +134,7 @@ pub fn frame_times(
         prepare: quantile(&mut prepared, 0.5),
         processor,
         passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
+        counters: renderer.counters()?,
     })
 }
 
