@@ -1,11 +1,14 @@
 // One number, one meaning everywhere. Group 0: the frame and its tables. Group 1: geometry. Group 2: images.
+//
+// Tables are textures of numbers, row after row of TABLE_ROW texels (render/layout.rs): a texel of four numbers is fetched at once, where a
+// software driver reads a storage buffer number by number and lane by lane.
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 /// The lensing table sliced at this frame's camera radius (functions/lensing.wgsl says how it is laid out).
-@group(0) @binding(1) var<storage, read> lens_slice: array<vec4<f32>>;
+@group(0) @binding(1) var lens_slice: texture_2d<f32>;
 /// The deflection of light from infinity (functions/sky.wgsl).
-@group(0) @binding(2) var<storage, read> sky_slice: array<vec4<f32>>;
+@group(0) @binding(2) var sky_slice: texture_2d<f32>;
 /// Linear sRGB of a black body over ln T (functions/colour.wgsl).
-@group(0) @binding(3) var<storage, read> blackbody: array<vec4<f32>>;
+@group(0) @binding(3) var blackbody: texture_2d<f32>;
 /// What the last frame measured and chose: x: exposure, y: mean log luminance, z: 1 once it has been set.
 @group(0) @binding(4) var<storage, read_write> adaptation: vec4<f32>;

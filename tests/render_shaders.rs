@@ -28,8 +28,8 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
         compilation_options: Default::default(),
         cache: None,
     });
-    let slice = layout::storage(&GPU, "slice", if tables[0].is_empty() { &[[0.0; 4]] } else { tables[0] });
-    let sky = layout::storage(&GPU, "sky", if tables[1].is_empty() { &[[0.0; 4]] } else { tables[1] });
+    let slice = layout::NumberTable::new(&GPU, "slice", tables[0]);
+    let sky = layout::NumberTable::new(&GPU, "sky", tables[1]);
     let rows = layout::storage(&GPU, "rows", input);
     let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
     let tables_group = pipeline.get_bind_group_layout(0);
@@ -37,9 +37,9 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
         label: None,
         layout: &tables_group,
         entries: &[if tables[0].is_empty() {
-            wgpu::BindGroupEntry { binding: 2, resource: sky.as_entire_binding() }
+            wgpu::BindGroupEntry { binding: 2, resource: sky.binding() }
         } else {
-            wgpu::BindGroupEntry { binding: 1, resource: slice.as_entire_binding() }
+            wgpu::BindGroupEntry { binding: 1, resource: slice.binding() }
         }],
     });
     let group3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);
@@ -164,7 +164,7 @@ fn the_panorama_is_the_same_in_both_languages() {
 @compute @workgroup_size(64)
 fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
     if id.x >= arrayLength(&twin_rows) {{ return; }}
-    twin_out[id.x] = vec4<f32>(panorama_place(twin_rows[id.x].xyz), 0.0 * sky_slice[0].xy);
+    twin_out[id.x] = vec4<f32>(panorama_place(twin_rows[id.x].xyz), 0.0 * textureLoad(sky_slice, vec2<u32>(0u), 0).xy);
 }}"
     );
     let mut random = StdRng::seed_from_u64(5);

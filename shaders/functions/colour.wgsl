@@ -6,12 +6,14 @@ const BLACKBODY_HOTTEST: f32 = 2.0e6;
 
 /// Linear sRGB radiance of a black body, relative to the luminance of one at 5,772 K (the Sun).
 fn blackbody_rgb(temperature: f32) -> vec3<f32> {
-    let last = f32(arrayLength(&blackbody) - 1u);
+    let last = f32(textureDimensions(blackbody).x - 1u);
     let t = clamp(temperature, BLACKBODY_COLDEST, BLACKBODY_HOTTEST);
     let x = log(t / BLACKBODY_COLDEST) / log(BLACKBODY_HOTTEST / BLACKBODY_COLDEST) * last;
     let i = min(u32(x), u32(last) - 1u);
     // The table holds logarithms: radiance spans many powers of ten.
-    return exp(mix(blackbody[i].xyz, blackbody[i + 1u].xyz, vec3<f32>(x - f32(i))));
+    let a = textureLoad(blackbody, vec2<u32>(i, 0u), 0).xyz;
+    let b = textureLoad(blackbody, vec2<u32>(i + 1u, 0u), 0).xyz;
+    return exp(mix(a, b, vec3<f32>(x - f32(i))));
 }
 
 fn luminance(rgb: vec3<f32>) -> f32 {

@@ -17,24 +17,24 @@ fn hermite(a: f32, da: f32, b: f32, db: f32, x: f32) -> vec2<f32> {
 
 /// Swept angle to infinity, and its slope over s.
 fn sky_swept(s: f32) -> vec2<f32> {
-    let last = arrayLength(&sky_slice) - 1u;
+    let last = textureDimensions(sky_slice).x - 1u;
     let step = SKY_S / f32(last);
     let x = clamp(s / step, 0.0, f32(last));
     let i = min(u32(x), last - 1u);
-    let a = sky_slice[i];
-    let b = sky_slice[i + 1u];
+    let a = textureLoad(sky_slice, vec2<u32>(i, 0u), 0);
+    let b = textureLoad(sky_slice, vec2<u32>(i + 1u, 0u), 0);
     let value = hermite(a.x, a.y * step, b.x, b.y * step, x - f32(i));
     return vec2<f32>(value.x, value.y / step);
 }
 
 /// The inverse: s of the ray that sweeps Φ, and its slope.
 fn sky_seen(swept: f32) -> vec2<f32> {
-    let last = arrayLength(&sky_slice) - 1u;
+    let last = textureDimensions(sky_slice).x - 1u;
     let step = SKY_PHI / f32(last);
     let x = clamp(swept / step, 0.0, f32(last));
     let i = min(u32(x), last - 1u);
-    let a = sky_slice[i];
-    let b = sky_slice[i + 1u];
+    let a = textureLoad(sky_slice, vec2<u32>(i, 0u), 0);
+    let b = textureLoad(sky_slice, vec2<u32>(i + 1u, 0u), 0);
     let value = hermite(a.z, a.w * step, b.z, b.w * step, x - f32(i));
     return vec2<f32>(value.x, value.y / step);
 }

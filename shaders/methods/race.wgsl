@@ -5,7 +5,7 @@ struct RaceFrame {
 }
 
 @group(0) @binding(0) var<uniform> frame: RaceFrame;
-@group(0) @binding(1) var<storage, read> lens_slice: array<vec4<f32>>;
+@group(0) @binding(1) var lens_slice: texture_2d<f32>;
 /// Along, across, height, and the order, 4 more for light of any age.
 @group(0) @binding(2) var<storage, read> race_rows: array<vec4<f32>>;
 /// Two for each thread: cos ψ, sin ψ, delay, presence; frequency, momentum and frequency at the point, e.
@@ -31,6 +31,6 @@ fn idle(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let row = race_rows[id.x % arrayLength(&race_rows)];
-    race_out[2u * id.x] = row + vec4<f32>(frame.radial.w * 0.0) + lens_slice[0];
+    race_out[2u * id.x] = row + vec4<f32>(frame.radial.w * 0.0) + lens_texel(0u);
     race_out[2u * id.x + 1u] = row.wzyx;
 }

@@ -124,6 +124,76 @@ impl Growing {
     }
 }
 
+/// Texels in a row of a table that is kept in a texture; `TABLE_ROW` of WGSL.
+pub const TABLE_ROW: usize = 1024;
+
+/// A table of numbers for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels: a texel of four numbers is fetched at once,
+/// where a software driver reads a storage buffer number by number and lane by lane. It grows when more is written to it than it holds.
+#[derive(Debug)]
+pub struct NumberTable {
+    label: &'static str,
+    texture: wgpu::Texture,
+    view: wgpu::TextureView,
+}
+
+impl NumberTable {
+    /// A table that holds `texels`.
+    pub fn new(gpu: &super::Gpu, label: &'static str, texels: &[[f32; 4]]) -> Self {
+        let (texture, view) = number_texture(&gpu.device, label, texels.len());
+        let mut table = NumberTable { label, texture, view };
+        table.write(gpu, texels);
+        table
+    }
+
+    /// Writes the texels, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
+    pub fn write(&mut self, gpu: &super::Gpu, texels: &[[f32; 4]]) -> bool {
+        let (width, height) = (self.texture.width() as usize, self.texture.height() as usize);
+        let replaced = texels.len() > width * height;
+        if replaced {
+            (self.texture, self.view) = number_texture(&gpu.device, self.label, texels.len());
+        }
+        let width = self.texture.width() as usize;
+        // Whole rows, then what is left of one.
+        let (rows, rest) = texels.split_at(texels.len() / width * width);
+        for (part, y, size) in [(rows, 0, [width, rows.len() / width]), (rest, rows.len() / width, [rest.len(), 1])] {
+            if !part.is_empty() {
+                gpu.queue.write_texture(
+                    wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: y as u32, z: 0 }, ..self.texture.as_image_copy() },
+                    bytemuck::cast_slice(part),
+                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * size[0] as u32), rows_per_image: None },
+                    wgpu::Extent3d { width: size[0] as u32, height: size[1] as u32, depth_or_array_layers: 1 },
+                );
+            }
+        }
+        replaced
+    }
+
+    /// For a [`Slot::Numbers`].
+    pub fn binding(&self) -> BindingResource<'_> {
+        BindingResource::TextureView(&self.view)
+    }
+}
+
+/// A texture for a table of `count` texels: as wide as they are, or of so many rows.
+fn number_texture(device: &wgpu::Device, label: &str, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d {
+            width: count.clamp(1, TABLE_ROW) as u32,
+            height: count.div_ceil(TABLE_ROW).max(1) as u32,
+            depth_or_array_layers: 1,
+        },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    (texture, view)
+}
+
 /// A compute pipeline of one entry point.
 pub fn compute(
     device: &wgpu::Device,

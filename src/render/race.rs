@@ -10,7 +10,7 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::lensing::{Slice, Table, paper};
 
 use super::Gpu;
-use super::layout::{Slot, bind, buffer, compute_of, layout, storage};
+use super::layout::{NumberTable, Slot, bind, buffer, compute_of, layout, storage};
 use super::method::Method;
 use super::readback::{self, PictureError};
 use super::renderer::paper_table;
@@ -33,7 +33,7 @@ pub struct Race {
 impl Race {
     /// Of the methods that read `table` or none.
     pub fn new(gpu: &Gpu, table: Arc<Table>) -> Race {
-        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Write];
+        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Write];
         let layout = layout(&gpu.device, "race", ShaderStages::COMPUTE, &slots);
         Race { gpu: gpu.clone(), table, paper: None, layout, pipelines: HashMap::new() }
     }
@@ -98,9 +98,10 @@ impl Race {
         let threads = threads.next_multiple_of(GROUP).max(GROUP);
         let frame = buffer(device, "race frame", 16, BufferUsages::UNIFORM);
         gpu.queue.write_buffer(&frame, 0, bytemuck::bytes_of(&[0.0, 0.0, 0.0, l as f32]));
-        let (slice, rows) = (storage(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
+        let (slice, rows) = (NumberTable::new(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
         let out = buffer(device, "race out", 32 * threads as u64, BufferUsages::STORAGE);
-        let group = bind(device, "race", layout, &[&frame, &slice, &rows, &out].map(|b| b.as_entire_binding()));
+        let [frame, rows_in, out_to] = [&frame, &rows, &out].map(|b| b.as_entire_binding());
+        let group = bind(device, "race", layout, &[frame, slice.binding(), rows_in, out_to]);
         gpu.queue.submit([]);
         wait(gpu)?;
         let queries = Queries::new(gpu);

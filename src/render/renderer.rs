@@ -14,7 +14,7 @@ use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{Growing, Slot, bind, buffer, layout, storage};
+use super::layout::{NumberTable, Slot, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
@@ -43,11 +43,11 @@ pub struct Renderer {
     /// Paper 1's tables, once they are asked for.
     paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
-    lens_slice: Growing,
-    sky_slice: wgpu::Buffer,
+    lens_slice: NumberTable,
+    sky_slice: NumberTable,
     /// The table of the sky for the radius that the slices are for.
     sky: Vec<[f32; 4]>,
-    blackbody: wgpu::Buffer,
+    blackbody: NumberTable,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
@@ -78,18 +78,18 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Read, Slot::Read, Slot::Read, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Numbers, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = Growing::new(device, "lens slice", BufferUsages::STORAGE);
-        let sky_slice = buffer(device, "sky slice", 16 * NODES as u64, BufferUsages::STORAGE);
-        let blackbody = storage(gpu, "black body", &blackbody_table());
+        let lens_slice = NumberTable::new(gpu, "lens slice", &[]);
+        let sky_slice = NumberTable::new(gpu, "sky slice", &[[0.0; 4]; NODES]);
+        let blackbody = NumberTable::new(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
         develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, [&frame, &lens_slice.buffer, &sky_slice, &blackbody, &adaptation]);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody], &adaptation);
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
@@ -220,11 +220,11 @@ impl Renderer {
                 _ => method.texels(&slice),
             };
             if self.lens_slice.write(&self.gpu, &texels) {
-                let buffers = [&self.frame, &self.lens_slice.buffer, &self.sky_slice, &self.blackbody, &self.adaptation];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, buffers);
+                let tables = [&self.lens_slice, &self.sky_slice, &self.blackbody];
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, tables, &self.adaptation);
             }
             self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
-            self.gpu.queue.write_buffer(&self.sky_slice, 0, bytemuck::cast_slice(&self.sky));
+            self.sky_slice.write(&self.gpu, &self.sky);
             self.slice = Some(slice);
         }
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
@@ -400,8 +400,15 @@ pub(super) fn paper_table() -> Table {
     lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
-fn frame_bindings(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, buffers: [&wgpu::Buffer; 5]) -> wgpu::BindGroup {
-    bind(device, "frame", layout, &buffers.map(|buffer| buffer.as_entire_binding()))
+fn frame_bindings(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    frame: &wgpu::Buffer,
+    [lens, sky, blackbody]: [&NumberTable; 3],
+    adaptation: &wgpu::Buffer,
+) -> wgpu::BindGroup {
+    let resources = [frame.as_entire_binding(), lens.binding(), sky.binding(), blackbody.binding(), adaptation.as_entire_binding()];
+    bind(device, "frame", layout, &resources)
 }
 
 fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {
