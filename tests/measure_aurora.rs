@@ -17,10 +17,10 @@ static TABLE: LazyLock<lensing::Table> = LazyLock::new(lensing::default_table);
 
 fn all_points(method: Method, eye: &Eye, streaks: &[Streak]) -> Vec<Vec<Point>> {
     let lattice = Lattice::around(eye, streaks, 0.25);
-    let walker = Walker { eye, falls: &FALLS_TABLE, lattice: Some(&lattice), seed: 1 };
+    let walker = Walker::new(eye, &FALLS_TABLE, Some(&lattice), 1);
     let walk = |streak: &Streak| {
         let mut out = Vec::new();
-        walker.walk(method, streak, &mut out);
+        walker.walk(method, std::slice::from_ref(streak), &mut out);
         out
     };
     streaks.iter().map(walk).collect()

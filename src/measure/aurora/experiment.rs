@@ -125,12 +125,10 @@ pub fn draw(variant: Variant, job: &Job, gaussian: &Gaussian) -> Timed {
     let splat = Splat { table: variant.table, ..job.splat };
     let start = Instant::now();
     let lattice = (variant.method == Method::Exact).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
-    let walker = Walker { eye: job.eye, falls: job.falls, lattice: lattice.as_ref(), seed: job.seed };
+    let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
     let walk_all = |streaks: &[Streak]| {
         let mut points: Vec<Point> = Vec::with_capacity(streaks.len() * 48);
-        for streak in streaks {
-            walker.walk(variant.method, streak, &mut points);
-        }
+        walker.walk(variant.method, streaks, &mut points);
         points
     };
     let points: Vec<Vec<Point>> = if variant.threads {
@@ -253,8 +251,7 @@ fn case(
         let streaks = sheet.streaks(count);
         let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed, splat };
         let mut found = Vec::new();
-        let walker = Walker { eye, falls, lattice: None, seed: sheet.seed };
-        streaks.iter().for_each(|streak| walker.walk(Method::Particles, streak, &mut found));
+        Walker::new(eye, falls, None, sheet.seed).walk(Method::Particles, &streaks, &mut found);
         points += found.len() as f64 / sheets.len() as f64;
         let mut times = vec![Vec::new(); ways];
         let mut errors = vec![f64::NAN; ways];

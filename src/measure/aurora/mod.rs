@@ -3,10 +3,11 @@
 //!
 //! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined. [`sheet`] says
 //! where electrons come down, [`eye`] how a point is projected (flat space, or bent by the lensing table), [`lattice`] how a few projections serve all electrons,
-//! [`walk`] how luminous points
+//! [`collisions`] at which levels they shine, [`walk`] how luminous points
 //! come about, [`splat`] how they become a picture, [`truth`] what it should have been, [`experiment`] what all that took, [`chart`] the picture of it.
 
 pub mod chart;
+pub mod collisions;
 pub mod experiment;
 pub mod eye;
 pub mod lattice;

@@ -9,7 +9,7 @@ use crate::scene::aurora::fall::{self, Spectrum};
 use crate::scene::aurora::lines;
 use crate::scene::aurora::random::uniform;
 
-/// Levels of height at which an electron may collide.
+/// Levels of height at which an electron may collide; a multiple of 8, which are taken together.
 pub const LEVELS: usize = 160;
 /// The highest of them, km.
 pub const TOP: f64 = 420.0;
@@ -37,6 +37,8 @@ pub struct Falls {
     pub heights: [f32; LEVELS],
     /// For each row the share of the energy spent by the lower end of each level's layer.
     pub spent: Vec<[f32; LEVELS]>,
+    /// For each row the level from which on nothing is spent any more, rounded up to a multiple of 8.
+    pub stops: Vec<usize>,
     /// How far collisions have led an electron astray at each level, km: as the square root of the path.
     pub sway: [f32; LEVELS],
     /// Air overhead at the lower end of each level's layer, g cm⁻².
@@ -56,11 +58,15 @@ impl Falls {
             }
         };
         let overheads: [f64; LEVELS] = std::array::from_fn(|k| overhead(edge(k)));
-        let spent = (0..FALLS).map(|row| std::array::from_fn(|k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32)).collect();
+        let spent: Vec<[f32; LEVELS]> =
+            (0..FALLS).map(|row| std::array::from_fn(|k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32)).collect();
+        let stop = |row: &[f32; LEVELS]| (1 + row.iter().position(|spent| *spent == row[LEVELS - 1]).unwrap_or(0)).next_multiple_of(8);
+        let stops = spent.iter().map(stop).collect();
         let sway = std::array::from_fn(|k| (SWAY * ((TOP - level_height(k)) / (TOP - BOTTOM)).sqrt()) as f32);
         Falls {
             heights: std::array::from_fn(|k| level_height(k) as f32),
             spent,
+            stops,
             sway,
             overheads,
             light: std::array::from_fn(|k| lines::photons(level_height(k)).map(|x| x as f32)),
