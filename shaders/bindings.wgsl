@@ -3,6 +3,9 @@
 // Tables are textures of numbers, row after row of TABLE_ROW texels (render/layout.rs): a texel of four numbers is fetched at once, where a
 // software driver reads a storage buffer number by number and lane by lane.
 
+/// Texels in a row of a table.
+const TABLE_ROW: u32 = 1024u;
+
 @group(0) @binding(0) var<uniform> frame: Frame;
 /// The lensing table sliced at this frame's camera radius (functions/lensing.wgsl says how it is laid out).
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;

@@ -28,8 +28,8 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
         compilation_options: Default::default(),
         cache: None,
     });
-    let slice = layout::NumberTable::new(&GPU, "slice", tables[0]);
-    let sky = layout::NumberTable::new(&GPU, "sky", tables[1]);
+    let slice = layout::TableTexture::of(&GPU, "slice", tables[0]);
+    let sky = layout::TableTexture::of(&GPU, "sky", tables[1]);
     let rows = layout::storage(&GPU, "rows", input);
     let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
     let tables_group = pipeline.get_bind_group_layout(0);

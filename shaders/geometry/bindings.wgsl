@@ -1,6 +1,7 @@
 // Group 1: what the stages of geometry hand to each other. The order is that of the frame.
 
-@group(1) @binding(0) var<storage, read> placements: array<Placement>;
+/// Placements, as geometry/placement.wgsl reads them.
+@group(1) @binding(0) var placements: texture_2d<u32>;
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
 @group(1) @binding(2) var<storage, read> model_edges: array<vec2<u32>>;
 @group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;

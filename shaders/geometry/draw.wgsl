@@ -1,8 +1,17 @@
 // The rasteriser's part: opaque triangles with depth, then thin ones, summed with their coverage.
 
+/// `SeenVertex` from the vertex buffer; `surface` as bits, since two of them are no numbers.
+struct SeenInput {
+    @location(0) apparent: vec4<f32>,
+    @location(1) normal: vec4<f32>,
+    @location(2) leaving: vec4<f32>,
+    @location(3) surface: vec4<u32>,
+    @location(4) fan: vec4<f32>,
+}
+
 @vertex
-fn opaque_vertex(@builtin(vertex_index) index: u32) -> Surface {
-    let vertex = seen[index];
+fn opaque_vertex(in: SeenInput) -> Surface {
+    let vertex = SeenVertex(in.apparent, in.normal, in.leaving, bitcast<vec4<f32>>(in.surface), in.fan);
     return surface_of(vertex, clip_position(vertex.apparent.xyz), 1.0);
 }
 

@@ -210,7 +210,7 @@ fn hand_over(queue: u32) {
             done = emit_blocks(piece, select(item.levels, vec4<u32>(1u), coarse), size.x, size.y, room);
         }
         if !done {
-            let placement = placements[piece.what.x];
+            let placement = placement_at(piece.what.x);
             let corners = model_triangles[piece.what.y].vertices.xyz + vec3<u32>(placement.ids.z);
             emit_triangle(corners.x, corners.y, corners.z, placement);
         }

@@ -33,7 +33,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     }
     // Left there by the stage that made the item.
     let item = work[bitcast<u32>(seen[index].surface.x)];
-    let placement = placements[item.piece.what.x];
+    let placement = placement_at(item.piece.what.x);
     let triangle = model_triangles[item.piece.what.y];
     let k = index - item.place.x;
     var corner: vec3<f32>;
@@ -64,7 +64,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let place = work[index].place;
     let what = work[index].piece.what;
     let grid = work[index].grid;
-    let placement = placements[what.x];
+    let placement = placement_at(what.x);
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
     for (var k = lane; k < place.w; k += 32u) {

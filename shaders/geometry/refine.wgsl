@@ -9,7 +9,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let piece = pieces[queue * frame.capacity.z + index];
-    let placement = placements[piece.what.x];
+    let placement = placement_at(piece.what.x);
     let triangle = model_triangles[piece.what.y];
     strict = strictness(placement);
     measure(piece, placement, triangle);

@@ -1,6 +1,7 @@
 // What a surface sends to the camera.
 
-@group(2) @binding(0) var<storage, read> placements: array<Placement>;
+/// Placements, as geometry/placement.wgsl reads them.
+@group(2) @binding(0) var placements: texture_2d<u32>;
 @group(2) @binding(1) var<storage, read> seen: array<SeenVertex>;
 @group(2) @binding(2) var<storage, read> materials: array<Material>;
 @group(2) @binding(3) var surface_textures: texture_2d_array<f32>;
@@ -32,13 +33,13 @@ struct Surface {
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
-    let placement = bitcast<u32>(vertex.surface.z);
+    let placement = placement_at(bitcast<u32>(vertex.surface.z));
     let material = bitcast<u32>(vertex.surface.w);
-    let ids = placements[placement].ids;
+    let ids = placement.ids;
     let kind = materials[material].surface;
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
-        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placements[placement].light_red, placements[placement].light_green,
-        placements[placement].light_blue, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
+        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red, placement.light_green,
+        placement.light_blue, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
 }
 
 /// `texture_point` at a pixel.

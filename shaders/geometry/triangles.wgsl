@@ -8,14 +8,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if chunk.placement == NO_PLACEMENT {
         return;
     }
-    if chunk.first + lane < placements[chunk.placement].triangles.y {
+    if chunk.first + lane < placement_at(chunk.placement).triangles.y {
         decide(chunk, lane);
         hand_over(0u);
     }
 }
 
 fn decide(chunk: Chunk, lane: u32) {
-    let placement = placements[chunk.placement];
+    let placement = placement_at(chunk.placement);
     let number = placement.triangles.x + chunk.first + lane;
     let triangle = model_triangles[number];
     let order = placement.ids.x;

@@ -7,7 +7,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if chunk.placement == NO_PLACEMENT {
         return;
     }
-    let placement = placements[chunk.placement];
+    let placement = placement_at(chunk.placement);
     let local = chunk.first + lane;
     if local >= placement.vertices.y {
         return;

@@ -4,6 +4,9 @@ struct RaceFrame {
     radial: vec4<f32>, // w: the camera's radius
 }
 
+/// As in bindings.wgsl.
+const TABLE_ROW: u32 = 1024u;
+
 @group(0) @binding(0) var<uniform> frame: RaceFrame;
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;
 /// Along, across, height, and the order, 4 more for light of any age.

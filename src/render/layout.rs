@@ -18,6 +18,8 @@ pub enum Slot {
     Texture,
     /// A 2-D texture of numbers that are only fetched.
     Numbers,
+    /// The same of words of 32 bits.
+    Words,
     /// An array of them.
     TextureArray,
     /// A filtering sampler.
@@ -47,6 +49,11 @@ pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &
                     Slot::Write => buffer(BufferBindingType::Storage { read_only: false }),
                     Slot::Texture => texture(TextureViewDimension::D2, true),
                     Slot::Numbers => texture(TextureViewDimension::D2, false),
+                    Slot::Words => BindingType::Texture {
+                        sample_type: TextureSampleType::Uint,
+                        view_dimension: TextureViewDimension::D2,
+                        multisampled: false,
+                    },
                     Slot::TextureArray => texture(TextureViewDimension::D2Array, true),
                     Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
                 },
@@ -127,55 +134,65 @@ impl Growing {
 /// Texels in a row of a table that is kept in a texture; `TABLE_ROW` of WGSL.
 pub const TABLE_ROW: usize = 1024;
 
-/// A table of numbers for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels: a texel of four numbers is fetched at once,
+/// A table for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels of four numbers or words: a texel is fetched at once,
 /// where a software driver reads a storage buffer number by number and lane by lane. It grows when more is written to it than it holds.
 #[derive(Debug)]
-pub struct NumberTable {
+pub struct TableTexture {
     label: &'static str,
     texture: wgpu::Texture,
     view: wgpu::TextureView,
 }
 
-impl NumberTable {
-    /// A table that holds `texels`.
-    pub fn new(gpu: &super::Gpu, label: &'static str, texels: &[[f32; 4]]) -> Self {
-        let (texture, view) = number_texture(&gpu.device, label, texels.len());
-        let mut table = NumberTable { label, texture, view };
+impl TableTexture {
+    /// An empty one, of f32 or, for a [`Slot::Words`], of u32.
+    pub fn new(device: &wgpu::Device, label: &'static str, words: bool) -> Self {
+        let format = if words { wgpu::TextureFormat::Rgba32Uint } else { wgpu::TextureFormat::Rgba32Float };
+        let (texture, view) = table_texture(device, label, format, 1);
+        TableTexture { label, texture, view }
+    }
+
+    /// One that holds these texels, for a [`Slot::Numbers`].
+    pub fn of(gpu: &super::Gpu, label: &'static str, texels: &[[f32; 4]]) -> Self {
+        let mut table = TableTexture::new(&gpu.device, label, false);
         table.write(gpu, texels);
         table
     }
 
-    /// Writes the texels, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
-    pub fn write(&mut self, gpu: &super::Gpu, texels: &[[f32; 4]]) -> bool {
-        let (width, height) = (self.texture.width() as usize, self.texture.height() as usize);
-        let replaced = texels.len() > width * height;
+    /// Writes the data, whole texels of 16 bytes, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
+    pub fn write<T: bytemuck::Pod>(&mut self, gpu: &super::Gpu, data: &[T]) -> bool {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let replaced = bytes.len() > TEXEL * (self.texture.width() * self.texture.height()) as usize;
         if replaced {
-            (self.texture, self.view) = number_texture(&gpu.device, self.label, texels.len());
+            (self.texture, self.view) = table_texture(&gpu.device, self.label, self.texture.format(), bytes.len() / TEXEL);
         }
-        let width = self.texture.width() as usize;
+        let row = TEXEL * self.texture.width() as usize;
         // Whole rows, then what is left of one.
-        let (rows, rest) = texels.split_at(texels.len() / width * width);
-        for (part, y, size) in [(rows, 0, [width, rows.len() / width]), (rest, rows.len() / width, [rest.len(), 1])] {
+        let (rows, rest) = bytes.split_at(bytes.len() / row * row);
+        for (part, y, height) in [(rows, 0, rows.len() / row), (rest, rows.len() / row, 1)] {
             if !part.is_empty() {
+                let width = part.len() / TEXEL / height;
                 gpu.queue.write_texture(
                     wgpu::TexelCopyTextureInfo { origin: wgpu::Origin3d { x: 0, y: y as u32, z: 0 }, ..self.texture.as_image_copy() },
-                    bytemuck::cast_slice(part),
-                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * size[0] as u32), rows_per_image: None },
-                    wgpu::Extent3d { width: size[0] as u32, height: size[1] as u32, depth_or_array_layers: 1 },
+                    part,
+                    wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some((TEXEL * width) as u32), rows_per_image: None },
+                    wgpu::Extent3d { width: width as u32, height: height as u32, depth_or_array_layers: 1 },
                 );
             }
         }
         replaced
     }
 
-    /// For a [`Slot::Numbers`].
+    /// For a [`Slot::Numbers`] or a [`Slot::Words`].
     pub fn binding(&self) -> BindingResource<'_> {
         BindingResource::TextureView(&self.view)
     }
 }
 
+/// Bytes of a texel.
+const TEXEL: usize = 16;
+
 /// A texture for a table of `count` texels: as wide as they are, or of so many rows.
-fn number_texture(device: &wgpu::Device, label: &str, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
+fn table_texture(device: &wgpu::Device, label: &str, format: wgpu::TextureFormat, count: usize) -> (wgpu::Texture, wgpu::TextureView) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d {
@@ -186,7 +203,7 @@ fn number_texture(device: &wgpu::Device, label: &str, count: usize) -> (wgpu::Te
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
@@ -262,6 +279,18 @@ pub fn raster(
     raster: Raster,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::RenderPipeline {
+    raster_of(device, label, module, raster, layouts, &[])
+}
+
+/// The same with vertex buffers: a driver fetches a whole vertex from one better than a shader does from a storage buffer.
+pub fn raster_of(
+    device: &wgpu::Device,
+    label: &str,
+    module: &wgpu::ShaderModule,
+    raster: Raster,
+    layouts: &[Option<&wgpu::BindGroupLayout>],
+    buffers: &[wgpu::VertexBufferLayout],
+) -> wgpu::RenderPipeline {
     let layout = pipeline_layout(device, label, layouts);
     let targets: Vec<Option<wgpu::ColorTargetState>> = raster
         .targets
@@ -271,7 +300,7 @@ pub fn raster(
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(label),
         layout: Some(&layout),
-        vertex: wgpu::VertexState { module, entry_point: Some(raster.vertex), compilation_options: Default::default(), buffers: &[] },
+        vertex: wgpu::VertexState { module, entry_point: Some(raster.vertex), compilation_options: Default::default(), buffers },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: raster.depth.map(|write| wgpu::DepthStencilState {
             format: DEPTH_FORMAT,

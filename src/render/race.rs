@@ -10,7 +10,7 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::lensing::{Slice, Table, paper};
 
 use super::Gpu;
-use super::layout::{NumberTable, Slot, bind, buffer, compute_of, layout, storage};
+use super::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
 use super::method::Method;
 use super::readback::{self, PictureError};
 use super::renderer::paper_table;
@@ -98,7 +98,7 @@ impl Race {
         let threads = threads.next_multiple_of(GROUP).max(GROUP);
         let frame = buffer(device, "race frame", 16, BufferUsages::UNIFORM);
         gpu.queue.write_buffer(&frame, 0, bytemuck::bytes_of(&[0.0, 0.0, 0.0, l as f32]));
-        let (slice, rows) = (NumberTable::new(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
+        let (slice, rows) = (TableTexture::of(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
         let out = buffer(device, "race out", 32 * threads as u64, BufferUsages::STORAGE);
         let [frame, rows_in, out_to] = [&frame, &rows, &out].map(|b| b.as_entire_binding());
         let group = bind(device, "race", layout, &[frame, slice.binding(), rows_in, out_to]);

@@ -14,7 +14,7 @@ use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
 use super::geometry::Geometry;
-use super::layout::{NumberTable, Slot, bind, buffer, layout, storage};
+use super::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
@@ -43,11 +43,11 @@ pub struct Renderer {
     /// Paper 1's tables, once they are asked for.
     paper: Option<Arc<Table>>,
     frame: wgpu::Buffer,
-    lens_slice: NumberTable,
-    sky_slice: NumberTable,
+    lens_slice: TableTexture,
+    sky_slice: TableTexture,
     /// The table of the sky for the radius that the slices are for.
     sky: Vec<[f32; 4]>,
-    blackbody: NumberTable,
+    blackbody: TableTexture,
     adaptation: wgpu::Buffer,
     frame_layout: wgpu::BindGroupLayout,
     format: wgpu::TextureFormat,
@@ -81,9 +81,9 @@ impl Renderer {
             &[Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Numbers, Slot::Write],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
-        let lens_slice = NumberTable::new(gpu, "lens slice", &[]);
-        let sky_slice = NumberTable::new(gpu, "sky slice", &[[0.0; 4]; NODES]);
-        let blackbody = NumberTable::new(gpu, "black body", &blackbody_table());
+        let lens_slice = TableTexture::new(device, "lens slice", false);
+        let sky_slice = TableTexture::of(gpu, "sky slice", &[[0.0; 4]; NODES]);
+        let blackbody = TableTexture::of(gpu, "black body", &blackbody_table());
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
@@ -404,7 +404,7 @@ fn frame_bindings(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     frame: &wgpu::Buffer,
-    [lens, sky, blackbody]: [&NumberTable; 3],
+    [lens, sky, blackbody]: [&TableTexture; 3],
     adaptation: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
     let resources = [frame.as_entire_binding(), lens.binding(), sky.binding(), blackbody.binding(), adaptation.as_entire_binding()];

@@ -17,6 +17,7 @@ const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
 const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
+const PLACEMENT: &str = include_str!("../../shaders/geometry/placement.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
@@ -133,7 +134,7 @@ impl Pass {
     pub fn source_by(self, method: Method, inside: bool) -> String {
         let side = if inside { SEES_INSIDE } else { SEES_OUTSIDE };
         let method = method.source();
-        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, CLIP, PROJECT, PATCH];
+        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, PLACEMENT, CLIP, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -166,7 +167,7 @@ impl Pass {
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
-            Pass::Draw => vec![TYPES, BINDINGS, CLIP, COLOUR, SHADE],
+            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],

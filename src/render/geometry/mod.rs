@@ -7,7 +7,7 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use super::Gpu;
 use super::frame::Capacity;
-use super::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute_of, layout, module, raster};
+use super::layout::{Growing, HDR_FORMAT, Raster, Slot, TableTexture, bind, buffer, compute_of, layout, module, raster_of};
 use super::method::Method;
 use super::models::Models;
 use super::placements::{Placed, THIN};
@@ -37,7 +37,7 @@ pub struct Geometry {
     draw_layout: wgpu::BindGroupLayout,
     stages: Stages,
     draws: Draws,
-    placements: Growing,
+    placements: TableTexture,
     chunks: [Growing; 3],
     /// Groups to dispatch over vertices, edges, triangles.
     dispatch: [[u32; 2]; 3],
@@ -105,6 +105,17 @@ impl Stages {
     }
 }
 
+/// [`SeenVertex`] as a vertex buffer, `SeenInput` of WGSL.
+fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 5] =
+        wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Uint32x4, 4 => Float32x4];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<SeenVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }
+}
+
 impl Geometry {
     /// Compiles the stages.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
@@ -113,11 +124,11 @@ impl Geometry {
             device,
             "geometry",
             ShaderStages::COMPUTE,
-            &[Read, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
+            &[Slot::Words, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout =
-            layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Read, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
+            layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
         let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, Method::default(), false);
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
@@ -125,7 +136,8 @@ impl Geometry {
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
         let draw_to = |label, vertex, fragment, targets: &[_], write| {
             let stage = Raster { vertex, fragment, targets, depth: Some(write) };
-            raster(device, label, &shader, stage, &draw_groups)
+            let buffers: &[_] = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[] };
+            raster_of(device, label, &shader, stage, &draw_groups, buffers)
         };
         let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
         let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
@@ -153,10 +165,10 @@ impl Geometry {
             draw_layout,
             stages,
             draws,
-            placements: Growing::new(device, "placements", storage),
+            placements: TableTexture::new(device, "placements", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| Growing::new(device, label, storage)),
             dispatch: [[0; 2]; 3],
-            seen: Growing::new(device, "seen vertices", storage),
+            seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
             emitted: Growing::new(device, "emitted", storage),
             edge_states: Growing::new(device, "edge states", storage),
             pieces: Growing::new(device, "pieces", storage),
@@ -249,8 +261,7 @@ impl Geometry {
     fn make_groups(&mut self, gpu: &Gpu, models: &Models) {
         let device = &gpu.device;
         let compute = std::array::from_fn(|kind| {
-            let all = [
-                &self.placements.buffer,
+            let buffers = [
                 &models.vertex_buffer.buffer,
                 &models.edge_buffer.buffer,
                 &models.triangle_buffer.buffer,
@@ -264,7 +275,8 @@ impl Geometry {
                 &self.thin.buffer,
                 &self.counters,
             ];
-            let resources: Vec<_> = all.iter().map(|buffer| buffer.as_entire_binding()).collect();
+            let resources: Vec<_> =
+                std::iter::once(self.placements.binding()).chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });
         let textures = models
@@ -275,7 +287,7 @@ impl Geometry {
             "draw",
             &self.draw_layout,
             &[
-                self.placements.buffer.as_entire_binding(),
+                self.placements.binding(),
                 self.seen.buffer.as_entire_binding(),
                 models.material_buffer.buffer.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&textures),
@@ -349,6 +361,7 @@ impl Geometry {
         if thin {
             pass.draw_indirect(&self.arguments, types::ARGUMENTS_THIN);
         } else {
+            pass.set_vertex_buffer(0, self.seen.buffer.slice(..));
             pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_OPAQUE);
         }
