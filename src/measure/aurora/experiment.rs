@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use super::eye::Eye;
 use super::lattice::Lattice;
+use super::pyramid::{Pyramid, Shares};
 use super::sheet::{Falls, Sheet, Streak, field_direction};
 use super::splat::{Gaussian, Picture, Splat};
 use super::truth::Emission;
@@ -53,6 +54,17 @@ impl View {
     }
 }
 
+/// How points become a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Splats {
+    /// An exponential for every pixel.
+    Exponential,
+    /// The paper's tabulated Gaussian.
+    Table,
+    /// Through the layers of a [`Pyramid`].
+    Pyramid,
+}
+
 /// One way to draw an aurora.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
@@ -62,24 +74,36 @@ pub struct Variant {
     pub method: Method,
     /// On all threads, or on one.
     pub threads: bool,
-    /// Whether the Gaussian is tabulated.
-    pub table: bool,
+    /// How they become a picture.
+    pub splats: Splats,
 }
 
-const fn variant(name: &'static str, method: Method, threads: bool, table: bool) -> Variant {
-    Variant { name, method, threads, table }
+const fn variant(name: &'static str, method: Method, threads: bool, splats: Splats) -> Variant {
+    Variant { name, method, threads, splats }
 }
 
 /// The ways on the CPU. The first is the paper's own baseline: one thread, no table.
-pub const VARIANTS: [Variant; 7] = [
-    variant("particles-no-table", Method::Particles, false, false),
-    variant("particles", Method::Particles, false, true),
-    variant("linear", Method::Linear, false, true),
-    variant("exact", Method::Exact, false, true),
-    variant("particles-threads", Method::Particles, true, true),
-    variant("linear-threads", Method::Linear, true, true),
-    variant("exact-threads", Method::Exact, true, true),
+pub const VARIANTS: [Variant; 10] = [
+    variant("particles-no-table", Method::Particles, false, Splats::Exponential),
+    variant("particles", Method::Particles, false, Splats::Table),
+    variant("linear", Method::Linear, false, Splats::Table),
+    variant("exact", Method::Exact, false, Splats::Table),
+    variant("particles-threads", Method::Particles, true, Splats::Table),
+    variant("linear-threads", Method::Linear, true, Splats::Table),
+    variant("exact-threads", Method::Exact, true, Splats::Table),
+    variant("particles-pyramid", Method::Particles, false, Splats::Pyramid),
+    variant("exact-pyramid", Method::Exact, false, Splats::Pyramid),
+    variant("exact-pyramid-threads", Method::Exact, true, Splats::Pyramid),
 ];
+
+/// What is tabulated once for all pictures.
+#[derive(Clone, Debug, Default)]
+pub struct Tables {
+    /// The paper's.
+    pub gaussian: Gaussian,
+    /// The pyramid's.
+    pub shares: Shares,
+}
 
 /// A way to draw that lives above this floor: the passes on a GPU.
 pub trait Runner {
@@ -117,43 +141,84 @@ pub struct Timed {
 
 /// Error allowed to chords through bent light, pixels.
 const TOLERANCE: f32 = 0.25;
-/// Electrons that one task of the pool walks.
+/// Electrons walked before their points are drawn: some 8,000 points, which fit into a processor's second cache.
 const TASK: usize = 256;
 
-/// Draws `job` in the given way.
-pub fn draw(variant: Variant, job: &Job, gaussian: &Gaussian) -> Timed {
-    let splat = Splat { table: variant.table, ..job.splat };
+/// A picture in the making.
+enum Canvas {
+    Direct(Picture),
+    Layers(Pyramid),
+}
+
+impl Canvas {
+    fn new(splats: Splats, size: [usize; 2]) -> Canvas {
+        match splats {
+            Splats::Pyramid => Canvas::Layers(Pyramid::new(size)),
+            Splats::Table | Splats::Exponential => Canvas::Direct(Picture::new(size)),
+        }
+    }
+
+    fn add(&mut self, points: &[Point], job: &Job, splats: Splats, tables: &Tables) {
+        match self {
+            Canvas::Direct(picture) => {
+                picture.add(points, job.falls, Splat { table: splats == Splats::Table, ..job.splat }, &tables.gaussian);
+            }
+            Canvas::Layers(pyramid) => pyramid.add(points, job.falls, job.splat.radius, &tables.shares),
+        }
+    }
+
+    fn merge(mut self, other: Canvas) -> Canvas {
+        match (&mut self, &other) {
+            (Canvas::Direct(picture), Canvas::Direct(more)) => picture.merge(more),
+            (Canvas::Layers(pyramid), Canvas::Layers(more)) => pyramid.merge(more),
+            _ => unreachable!("one variant has one kind of canvas"),
+        }
+        self
+    }
+
+    fn picture(self) -> Picture {
+        match self {
+            Canvas::Direct(picture) => picture,
+            Canvas::Layers(pyramid) => pyramid.picture(),
+        }
+    }
+}
+
+/// Draws `job` in the given way: some electrons are walked, their points drawn, then the next. With threads, the time from start to end is
+/// divided between walk and splats as the threads' own times are.
+pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let start = Instant::now();
     let lattice = (variant.method == Method::Exact).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
     let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
-    let walk_all = |streaks: &[Streak]| {
-        let mut points: Vec<Point> = Vec::with_capacity(streaks.len() * 48);
-        walker.walk(variant.method, streaks, &mut points);
-        points
+    let before = start.elapsed().as_secs_f64();
+    // A part of the electrons: its canvas, and seconds of walk and of splats.
+    let part = |streaks: &[Streak]| {
+        let start = Instant::now();
+        let mut canvas = Canvas::new(variant.splats, job.eye.size);
+        let mut times = [0.0, start.elapsed().as_secs_f64()];
+        let mut points: Vec<Point> = Vec::new();
+        for some in streaks.chunks(TASK) {
+            let start = Instant::now();
+            points.clear();
+            walker.walk(variant.method, some, &mut points);
+            let walked = start.elapsed().as_secs_f64();
+            canvas.add(&points, job, variant.splats, tables);
+            times[0] += walked;
+            times[1] += start.elapsed().as_secs_f64() - walked;
+        }
+        (canvas, times)
     };
-    let points: Vec<Vec<Point>> = if variant.threads {
-        job.streaks.par_chunks(TASK).map(walk_all).collect()
-    } else {
-        job.streaks.chunks(TASK).map(walk_all).collect()
-    };
-    let walk = start.elapsed().as_secs_f64() * 1e3;
-    let start = Instant::now();
-    let mut picture = Picture::new(job.eye.size);
-    if variant.threads {
-        let share = points.len().div_ceil(rayon::current_num_threads()).max(1);
-        let parts: Vec<Picture> = points
-            .par_chunks(share)
-            .map(|lists| {
-                let mut part = Picture::new(job.eye.size);
-                lists.iter().for_each(|points| part.add(points, job.falls, splat, gaussian));
-                part
-            })
-            .collect();
-        parts.iter().for_each(|part| picture.merge(part));
-    } else {
-        points.iter().for_each(|points| picture.add(points, job.falls, splat, gaussian));
-    }
-    Timed { picture: black_box(picture), walk, splat: start.elapsed().as_secs_f64() * 1e3 }
+    let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
+    let share = job.streaks.len().div_ceil(threads).max(1);
+    let parts: Vec<(Canvas, [f64; 2])> =
+        if variant.threads { job.streaks.par_chunks(share).map(part).collect() } else { vec![part(job.streaks)] };
+    let drawn = start.elapsed().as_secs_f64();
+    let times = parts.iter().fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
+    let canvas = parts.into_iter().map(|(canvas, _)| canvas).reduce(Canvas::merge);
+    let picture = canvas.map_or_else(|| Picture::new(job.eye.size), Canvas::picture);
+    let total = start.elapsed().as_secs_f64();
+    let walk = before + (drawn - before) * times[0] / (times[0] + times[1]).max(1e-12);
+    Timed { picture: black_box(picture), walk: walk * 1e3, splat: (total - walk) * 1e3 }
 }
 
 /// What is swept.
@@ -197,7 +262,7 @@ pub struct Row {
 /// Runs the experiment; `report` is told what is being drawn.
 pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mut report: impl FnMut(&str)) -> Vec<Row> {
     let falls = Falls::new();
-    let gaussian = Gaussian::default();
+    let tables = Tables::default();
     let sheets = Sheet::ten();
     let sheets = &sheets[..request.auroras.clamp(1, 10)];
     let mut rows = Vec::new();
@@ -206,10 +271,10 @@ pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mu
         for &radius in &request.radii {
             let splat = Splat { radius, table: true };
             let judge = request.counts.iter().max().map_or(JUDGE[0], |&count| (10u32.saturating_mul(count)).clamp(JUDGE[0], JUDGE[1]));
-            let truths: Vec<Picture> = sheets.iter().map(|sheet| truth(view, &eye, sheet, &falls, splat, judge, &gaussian)).collect();
+            let truths: Vec<Picture> = sheets.iter().map(|sheet| truth(view, &eye, sheet, &falls, splat, judge, &tables)).collect();
             for &count in &request.counts {
                 report(&format!("{name}, {count} electrons, splats of {radius} km"));
-                rows.extend(case((view, name), &eye, (sheets, &truths), &falls, count, splat, &gaussian, request.repeats, runners));
+                rows.extend(case((view, name), &eye, (sheets, &truths), &falls, count, splat, &tables, request.repeats, runners));
             }
         }
     }
@@ -221,13 +286,13 @@ const JUDGE: [u32; 2] = [10_000, 150_000];
 
 /// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge` electrons of
 /// another seed.
-fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, judge: u32, gaussian: &Gaussian) -> Picture {
+fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, judge: u32, tables: &Tables) -> Picture {
     if view != View::Bent {
         return Emission::new(sheet, falls, splat).picture(eye, 0.5 * f64::from(splat.radius).min(1.5));
     }
     let streaks = Sheet { seed: sheet.seed + 7000, ..sheet.clone() }.streaks(judge);
     let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed + 7000, splat };
-    draw(VARIANTS[4], &job, gaussian).picture
+    draw(VARIANTS[4], &job, tables).picture
 }
 
 #[allow(clippy::too_many_arguments, reason = "one case of a sweep: each is one axis of it")]
@@ -238,7 +303,7 @@ fn case(
     falls: &Falls,
     count: u32,
     splat: Splat,
-    gaussian: &Gaussian,
+    tables: &Tables,
     repeats: usize,
     runners: &mut [Box<dyn Runner>],
 ) -> Vec<Row> {
@@ -259,7 +324,7 @@ fn case(
         for _ in 0..repeats.max(1) {
             for way in 0..ways {
                 let timed = match way.checked_sub(VARIANTS.len()) {
-                    None => Some(draw(VARIANTS[way], &job, gaussian)),
+                    None => Some(draw(VARIANTS[way], &job, tables)),
                     Some(runner) => runners[runner].draw(&job),
                 };
                 match timed {
