@@ -324,7 +324,7 @@ impl Renderer {
                 if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
             }
         }
-        self.develop.run(encoder, &mut self.timing, group, &self.targets, output);
+        self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, output);
         self.timing.end(encoder);
     }
 

@@ -3,7 +3,7 @@
 use wgpu::ShaderStages;
 
 use super::Gpu;
-use super::layout::{HDR_FORMAT, Raster, Slot, bind, compute, layout, module, raster};
+use super::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use super::shaders::Pass;
 use super::targets::Targets;
 use super::timing::Timing;
@@ -21,6 +21,8 @@ pub struct Develop {
     meter: wgpu::ComputePipeline,
     develop: wgpu::RenderPipeline,
     sampler: wgpu::Sampler,
+    /// What the exposure pass chose, for the pixels.
+    adapted: wgpu::Buffer,
     groups: Option<Groups>,
 }
 
@@ -40,7 +42,7 @@ impl Develop {
         let texture_layout = layout(device, "texture", fragment, &[Slot::Texture]);
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
         let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture]);
-        let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture]);
+        let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
             let shader = module(device, label, pass);
             let stage = Raster { vertex: "vertex", fragment, targets: &[(format, blend)], depth: None };
@@ -65,6 +67,7 @@ impl Develop {
                 min_filter: wgpu::FilterMode::Linear,
                 ..Default::default()
             }),
+            adapted: buffer(device, "adapted", 16, wgpu::BufferUsages::UNIFORM),
             texture_layout,
             sampled_layout,
             meter_layout,
@@ -88,7 +91,7 @@ impl Develop {
                 device,
                 "develop",
                 &self.develop_layout,
-                &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0])],
+                &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0]), self.adapted.as_entire_binding()],
             ),
         });
     }
@@ -99,13 +102,15 @@ impl Develop {
         screen(encoder, timing.render("compose"), "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
     }
 
-    /// Bloom, exposure, and the picture into `output`.
+    /// Bloom, exposure, and the picture into `output`. `adaptation` is what the frame's exposure is kept in.
+    #[allow(clippy::too_many_arguments, reason = "one call says all that development is")]
     pub fn run(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timing: &mut Timing,
         frame: &wgpu::BindGroup,
         targets: &Targets,
+        adaptation: &wgpu::Buffer,
         output: &wgpu::TextureView,
     ) {
         let Some(groups) = &self.groups else { return };
@@ -120,6 +125,7 @@ impl Develop {
             pass.set_bind_group(2, &groups.meter, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }
+        encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
         for level in (1..targets.bloom.len()).rev() {
             screen(
                 encoder,

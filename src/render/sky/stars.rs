@@ -1,5 +1,6 @@
 //! Stars: projected in compute, both orders, drawn as spots.
 
+use std::cmp::Reverse;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::DVec3;
@@ -19,10 +20,12 @@ use super::table::sky_seen;
 const SEEN_STAR_BYTES: u64 = 32;
 /// Orders in which stars are projected: the third is within a ten-thousandth of the shadow's edge and carries as little of the light.
 const ORDERS: u32 = 2;
-/// Threads of a workgroup; `@workgroup_size` of the projection.
-const LANES: usize = 64;
+/// Most stars of a cluster.
+const CLUSTER: usize = 64;
+/// Clusters that a workgroup of the projection takes on, with eight threads for each.
+const CLUSTERS: u32 = 8;
 
-/// Stars that are near each other on the sky, at most as many as a workgroup has threads.
+/// Stars that are near each other on the sky, the brightest first.
 #[derive(Clone, Copy, Debug)]
 struct Cluster {
     first: u32,
@@ -42,11 +45,12 @@ fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
         (axis as u32 * 2 + u32::from(d[axis] < 0.0)) << 8 | face(1) << 4 | face(2)
     };
     let mut sorted = stars.to_vec();
-    sorted.sort_by_cached_key(cell);
+    // Fluxes are positive, and the bits of such numbers are in their order.
+    sorted.sort_by_cached_key(|star| (cell(star), Reverse(star.direction[3].max(0.0).to_bits())));
     let mut clusters = Vec::new();
     let mut first = 0;
     for same_cell in sorted.chunk_by(|a, b| cell(a) == cell(b)) {
-        for part in same_cell.chunks(LANES) {
+        for part in same_cell.chunks(CLUSTER) {
             let direction = |star: &Star| DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize_or(DVec3::Z);
             let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
             let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
@@ -143,13 +147,15 @@ impl Stars {
     pub fn prepare(&mut self, gpu: &Gpu, camera: &Camera, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
         let aspect = f64::from(size[1]) / f64::from(size[0]);
         let orders = if table.is_empty() { 0 } else { ORDERS };
-        let listed: Vec<[u32; 4]> = (1..=orders)
+        let mut listed: Vec<[u32; 4]> = (1..=orders)
             .into_par_iter()
             .flat_map(|order| self.clusters.par_iter().map(move |cluster| (order, cluster)))
             .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
             .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
             .collect();
-        self.groups = listed.len() as u32;
+        // The last workgroup is filled up with empty clusters.
+        self.groups = (listed.len() as u32).div_ceil(CLUSTERS);
+        listed.resize((self.groups * CLUSTERS) as usize, [0; 4]);
         if self.listed.write(gpu, &listed) {
             let buffers = [&self.catalogue, &self.seen, &self.arguments, &self.listed.buffer];
             self.project_group = project_bindings(&gpu.device, &self.project_layout, buffers);
