@@ -119,8 +119,7 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
 /// r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
 /// empty where no ray joins the two. The input is checked as a whole before anything is returned.
 pub fn project(input: &str, method: &dyn Projector, request: Request) -> Result<String, ProjectError> {
-    // Spreadsheets put a byte order mark before the header.
-    let rows = parse(input.strip_prefix('\u{feff}').unwrap_or(input))?;
+    let rows = parse(input)?;
     let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
     let mut output = String::with_capacity(OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>());
     for line in std::iter::once(OUTPUT_HEADER).chain(lines.iter().map(String::as_str)) {
