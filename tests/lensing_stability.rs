@@ -236,13 +236,43 @@ fn single_precision_follows_double() {
                     assert!(off < 2e-5, "L {l} c {c} Φ {sweep}: {w} and {v}, {off} rad");
                 }
                 let room = 1.0 - c;
-                let x = double::point_axis(&wide, c, room);
-                let y = double::sweep_axis(&wide, c, sweep);
-                assert!((f64::from(single::point_axis(&narrow, c as f32, room as f32)) - x).abs() < 2e-6, "L {l} c {c}");
-                assert!((f64::from(single::sweep_axis(&narrow, c as f32, sweep as f32)) - y).abs() < 2e-6, "L {l} c {c} Φ {sweep}");
+                let want = double::axes(&wide, c, room, sweep);
+                let got = single::axes(&narrow, c as f32, room as f32, sweep as f32);
+                for (got, want) in got.into_iter().zip(want) {
+                    assert!((f64::from(got) - want).abs() < 2e-6, "L {l} c {c} Φ {sweep}");
+                }
             }
         }
     }
+}
+
+/// The polynomials of the f32 copy against the library, over the ranges that they are for.
+#[test]
+fn elementary_functions_are_the_librarys() {
+    use lensrunner::lensing::elementary::single::{above, ln, ln4, log1p, short_arctan, stumpff};
+    for i in 0..=20_000 {
+        let part = f64::from(i) / 20_000.0;
+        let x = (10f64.powf(60.0 * part - 30.0)) as f32;
+        let (got, want) = (f64::from(ln(x)), f64::from(x).ln());
+        assert!((got - want).abs() < 1.2e-7 * (1.0 + want.abs()), "ln {x}: {got}, not {want}");
+        assert_eq!(ln4([x, 1.0, 2.0, x]), [ln(x), ln(1.0), ln(2.0), ln(x)]);
+        for x in [x, -(part as f32) * 0.999, part as f32 * 1e-3] {
+            let (got, want) = (f64::from(log1p(x)), f64::from(x).ln_1p());
+            // 1 + x is rounded where it is not small.
+            let rounded = if x < -0.29 { 6e-8 / (1.0 + f64::from(x)) } else { 0.0 };
+            assert!((got - want).abs() <= 3e-7 * want.abs() + rounded, "ln(1 + {x}): {got}, not {want}");
+        }
+        let t = (part * (std::f64::consts::PI / 8.0).tan()) as f32;
+        let (got, want) = (f64::from(short_arctan(t)), f64::from(t).atan());
+        assert!((got - want).abs() <= 1.2e-7 * want, "arctan {t}: {got}, not {want}");
+        let x = (5.4 * part - 1.0) as f32;
+        let root = f64::from(x).abs().sqrt();
+        let (sine, cosine) = if x < 0.0 { (root.sinh() / root, root.cosh()) } else { (root.sin() / root, root.cos()) };
+        let [s, c] = stumpff(x);
+        let sine = if x == 0.0 { 1.0 } else { sine };
+        assert!((f64::from(s) - sine).abs() < 2e-7 && (f64::from(c) - cosine).abs() < 2.5e-7, "Stumpff {x}: {s} {c}, not {sine} {cosine}");
+    }
+    assert_eq!([above(1e-30, 1.0, 2.0), above(0.0, 1.0, 2.0), above(-1.0, 1.0, 2.0), above(f32::NAN, 1.0, 2.0)], [1.0, 2.0, 2.0, 2.0]);
 }
 
 fn finite(ray: &LensRay) -> bool {

@@ -43,9 +43,9 @@ fn every_mapping_comes_back() {
         for j in 0..=20 {
             let x = j as f64 / 20.0;
             let c = grid::point(&cam, x);
-            assert!((double::point_axis(&cam, c, 1.0 - c) - x).abs() < 1e-9, "c = {c}, L = {l}");
+            assert!((double::axes(&cam, c, 1.0 - c, 0.0)[0] - x).abs() < 1e-9, "c = {c}, L = {l}");
             let sweep = grid::sweep(&cam, c, x);
-            assert!((double::sweep_axis(&cam, c, sweep) - x).abs() < 1e-12, "Φ = {sweep}, L = {l}");
+            assert!((double::axes(&cam, c, 1.0 - c, sweep)[1] - x).abs() < 1e-12, "Φ = {sweep}, L = {l}");
         }
     }
     for scheme in [Scheme::Paper, Scheme::PaperUniform] {
@@ -339,6 +339,7 @@ fn the_shader_has_every_function_of_its_twin() {
     let lensing = shaders!("lensing", "residuals");
     let others = shaders!("orbit", "shooting", "exact", "integrate", "refine", "closed", "static_ray");
     for (twin, shader) in [
+        (include_str!("../src/lensing/elementary.rs"), lensing),
         (include_str!("../src/lensing/formulas.rs"), lensing),
         (include_str!("../src/lensing/inside.rs"), lensing),
         (include_str!("../src/lensing/lookup.rs"), lensing),
@@ -348,7 +349,9 @@ fn the_shader_has_every_function_of_its_twin() {
     ] {
         // The shader has one `fire` and one `tilt`, of the method's own; `residuals` in other formats too.
         let own = |name: &str| {
-            name == "camera" || name == "lookup_with" || ["fire_", "tilt_", "residuals_"].iter().any(|start| name.starts_with(start))
+            ["camera", "ln", "ln4", "above"].contains(&name)
+                || name == "lookup_with"
+                || ["fire_", "tilt_", "residuals_"].iter().any(|start| name.starts_with(start))
         };
         for name in twin.split("pub fn ").skip(1).filter_map(|rest| rest.split('(').next()).filter(|name| !own(name)) {
             assert!(shader.contains(&format!("fn {name}(")), "the shader lacks {name}");

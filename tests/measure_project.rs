@@ -38,6 +38,36 @@ fn order_of_rows_and_spelling_of_fields_are_kept() {
     assert_eq!(rows[0][3..], rows[2][3..]);
 }
 
+/// Spreadsheets put a byte order mark before the header.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let row = "r,phi,L\n20,1.5,10\n";
+    assert_eq!(rows(&format!("\u{feff}{row}"), PRIMARY), rows(row, PRIMARY));
+    assert!(complaint(&format!("\u{feff}\u{feff}{row}")).starts_with("line 1: "), "only one");
+}
+
+/// Eight at a time or one by one, light of negative energy is the same.
+#[test]
+fn the_batch_answers_for_both_signs_of_energy() {
+    let [one, eight] = ["table", "table-batch"].map(|name| method(name).expect("it exists"));
+    let input = "r,phi,L\n0.8,0.2,0.5\n0.9,0.3,0.2\n5,1,0.5\n5,1,3\n";
+    let [plus, minus] = [Branch::Plus, Branch::Minus].map(|branch| {
+        let request = Request { frame: Frame::Rain, branch, ..PRIMARY };
+        let [one, eight] = [&one, &eight].map(|method| project(input, method.as_ref(), request).expect("good input"));
+        let fields = |text: &str| -> Vec<Vec<f64>> {
+            text.lines().skip(1).map(|line| line.split(',').filter_map(|field| field.parse().ok()).collect()).collect()
+        };
+        for (one, eight) in fields(&one).iter().zip(fields(&eight)) {
+            assert_eq!(one.len(), eight.len(), "{branch:?}: {one:?} and {eight:?}");
+            assert!(one.iter().zip(&eight).all(|(a, b)| (a - b).abs() < 1e-4 * (1.0 + a.abs())), "{branch:?}: {one:?} and {eight:?}");
+        }
+        fields(&eight)
+    });
+    assert!(plus[0] != minus[0] && plus[1] != minus[1], "inside the two differ");
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-5 * (1.0 + a.abs());
+    assert!(plus[2..].concat().iter().zip(&minus[2..].concat()).all(same), "from outside there is one");
+}
+
 #[test]
 fn fields_that_do_not_exist_are_empty() {
     let at = |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();

@@ -39,6 +39,9 @@ struct LensCamera {
     scale: f32,
     nx: u32,     // nodes along r and Φ; two more coefficients than nodes each way
     ny: u32,
+    share: f32,  // a/(1 + a)
+    reach: f32,  // a/(1 + 4a)
+    lift: f32,   // a⁴/(1 + a⁴)
 }
 
 struct Place {
@@ -72,23 +75,37 @@ fn log1p(x: f32) -> f32 {
     return log(1.0 + x);
 }
 
-fn point_axis(cam: LensCamera, c: f32, room: f32) -> f32 {
-    return (log(c + cam.soft) - 2.0 * sqrt(max(room, 0.0)) - cam.start) * cam.scale;
+/// arctan t for |t| ≤ tan(π/8). Drivers' own differ by far more than the last place, and with them the direction near the fold of an image.
+fn short_arctan(t: f32) -> f32 {
+    let y = t * t;
+    let y2 = y * y;
+    let p = -0.33333315497 + y * 0.19998488890;
+    return t + t * y * (p + y2 * ((-0.14243837705 + y * 0.10595915130) - y2 * 0.06083223004));
 }
 
-fn opened(x: f32) -> f32 {
-    let root = sqrt(1.0 + x * x);
-    return select(root + x, 1.0 / (root - x), x < 0.0);
+/// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, for −1 ≤ x ≤ 4.4.
+fn stumpff(x: f32) -> vec2<f32> {
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let s = (-0.16666667004543 + x * 0.00833333768415) + x2 * (-0.00019840930941 + x * 2.75098584e-6);
+    let c = (-0.49999999998826 + x * 0.0416666673983) + x2 * (-0.00138888919447 + x * 2.48009826069e-5);
+    return vec2<f32>(1.0 + x * (s - x4 * 2.34998e-8), 1.0 + x * (c + x4 * (-2.75080533053e-7 + x * 1.95904e-9)));
 }
 
 const SWEEP_END: f32 = 5.23910259165662;
 
-fn sweep_axis(cam: LensCamera, c: f32, sweep: f32) -> f32 {
-    let over = 1.0 / (2.8 * sqrt(cam.a / (1.0 + cam.a) + c));
-    let first = opened(HALF_TURN * over);
-    let here = first * opened((sweep - HALF_TURN) * over);
-    let length = LARGEST_SWEEP + SWEEP_END + 0.3 * log(first * opened(2.0 * HALF_TURN * over));
-    return (sweep + 0.3 * log(here) + log(opened(10.0 * sweep))) / length;
+fn axes(cam: LensCamera, c: f32, room: f32, sweep: f32) -> vec2<f32> {
+    let s2 = 7.84 * (cam.share + c);
+    let off = sweep - HALF_TURN;
+    let first = HALF_TURN + sqrt(HALF_TURN * HALF_TURN + s2);
+    let last = 2.0 * HALF_TURN + sqrt(4.0 * HALF_TURN * HALF_TURN + s2);
+    let root = sqrt(off * off + s2);
+    let here = select(first * (root + off), first, off < 0.0) / select(s2, root - off, off < 0.0);
+    let near = 10.0 * sweep + sqrt(1.0 + 100.0 * sweep * sweep);
+    let logs = log(vec4<f32>(c + cam.soft, here, first * last / s2, near));
+    return vec2<f32>(
+        (logs.x - 2.0 * sqrt(max(room, 0.0)) - cam.start) * cam.scale,
+        (sweep + 0.3 * logs.y + logs.w) / (LARGEST_SWEEP + SWEEP_END + 0.3 * logs.z));
 }
 
 fn bent_sweep(sweep: f32) -> f32 {
@@ -101,20 +118,16 @@ fn bent_sweep(sweep: f32) -> f32 {
 }
 
 fn basis(cam: LensCamera, sweep: f32) -> vec2<f32> {
-    let x = cam.rate * sweep;
-    if x < 0.3 {
-        let y = cam.bend * sweep * sweep;
-        let s = sweep * (1.0 + y * (1.0 / 6.0) * (1.0 + y * (1.0 / 20.0) * (1.0 + y * (1.0 / 42.0))));
-        let k = 0.5 * sweep * sweep * (1.0 + y * (1.0 / 12.0) * (1.0 + y * (1.0 / 30.0) * (1.0 + y * (1.0 / 56.0))));
-        return vec2<f32>(s, k);
+    let square = sweep * sweep;
+    let x = -0.25 * cam.bend * square;
+    if x < -1.0 {
+        let up = exp(cam.rate * sweep);
+        let down = 1.0 / up;
+        return vec2<f32>(0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate));
     }
-    if cam.bend < 0.0 {
-        let h = sin(0.5 * x) / cam.rate;
-        return vec2<f32>(2.0 * h * cos(0.5 * x), 2.0 * h * h);
-    }
-    let up = exp(x);
-    let down = 1.0 / up;
-    return vec2<f32>(0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate));
+    // By the half angle.
+    let half = stumpff(x);
+    return vec2<f32>(sweep * half.x * half.y, 0.5 * square * half.x * half.x);
 }
 
 fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
@@ -129,12 +142,7 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
     let root = sqrt(max(b * b + 2.0 * q * c, 0.05 * b * b + 1e-4 * q));
-    var w = 0.0;
-    if b > 0.0 {
-        w = 2.0 * c / (b + root);
-    } else {
-        w = (root - b) / q;
-    }
+    let w = select(root - b, 2.0 * c, b > 0.0) / select(q, b + root, b > 0.0);
     let turn = 1.0 + cam.bend * k;
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
@@ -149,10 +157,9 @@ fn energy(w: f32, u: f32, room: f32) -> f32 {
 }
 
 fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
-    if w > 0.0 || e < 0.0 {
-        return (w + beta * e) / room;
-    }
-    return (u * u - e * e) / (beta * e - w);
+    let along = beta * e;
+    let outward = max(w, -e) > 0.0;
+    return select(u * u - e * e, w + along, outward) / select(along - w, room, outward);
 }
 
 fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
@@ -169,70 +176,52 @@ fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
 }
 
 fn emission_scale(cam: LensCamera, c: f32) -> f32 {
-    return c + cam.a / (1.0 + 4.0 * cam.a);
+    return c + cam.reach;
 }
 
 fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e: f32, w_e: f32) -> vec3<f32> {
     let l = cam.l;
     let a = cam.a;
     let c = 1.0 / r;
-    let root_r = sqrt(r);
-    let root_l = sqrt(l);
-    let x = 2.0 * sin(0.5 * bent);
+    let root_c = sqrt(c);
+    let half = stumpff(0.25 * bent * bent);
+    let x = bent * half.x;
     let k = 0.5 * x * x;
-    let y = 2.0 * cos(0.5 * bent);
+    let y = 2.0 * half.y;
     let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
-    let reach = sqrt(y * y + soft);
-    var h = 0.0;
-    var excess = 0.0;
-    if y > 0.0 {
-        h = 0.5 * (y + reach);
-        excess = 0.5 * soft / (reach + y);
-    } else {
-        h = 0.5 * soft / (reach - y);
-        excess = 0.5 * (reach - y);
-    }
-    let q = x * x - excess * (h + y);
-    let fall = dr / (root_r + root_l);
-    var mean = 1.0 + 3.0 / l;
-    if abs(dr) > 1e-6 * l {
-        mean = 1.0 + 3.0 * log1p(dr / l) / dr;
-    }
-    let rain = root_l * (1.0 + root_r) / (root_r * (1.0 + root_l));
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
-    let chord = sqrt(mean * mean * dr * dr + across);
-    var out = 0.0;
-    if w_e > 0.0 {
-        out = (w_e + e) / (room * c);
-    } else {
-        out = c / (e - w_e);
-    }
-    var back = 0.0;
-    if w > 0.0 {
-        back = a * cam.room / (e + w);
-    } else {
-        back = (e - w) / a;
-    }
-    let a4 = a * a * a * a;
+    let large = 0.5 * (abs(y) + sqrt(y * y + soft));
+    let small = 0.25 * soft / large;
+    let h = select(small, large, y > 0.0);
+    let excess = select(large, small, y > 0.0);
+    let q = x * x - 0.25 * soft - excess * y;
+    let fall = dr / (r * root_c + l * cam.beta);
+    let lg = log1p(dr * a);
+    let mean = 1.0 + 3.0 * select(a, lg / dr, abs(dr) > 1e-6 * l);
+    let direct = dr + 3.0 * lg;
+    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * l * q;
+    let chord = sqrt(direct * direct + across);
+    let out = select(c, w_e + e, w_e > 0.0);
+    let out_over = select(e - w_e, room * c, w_e > 0.0);
+    let back = select(e - w, a * cam.room, w > 0.0);
+    let back_over = select(a, e + w, w > 0.0);
+    let doppler = out * back * (1.0 + root_c) / (out_over * back_over * (1.0 + cam.beta));
     let c4 = c * c * c * c;
-    let factor = e / sqrt(e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4));
-    return vec3<f32>(2.0 * (log(out * back * rain) - fall), chord - 2.0 * log(0.5 * h), factor);
+    let factor = e / sqrt(e * e + 0.5 * k * c4 * c4 * cam.lift);
+    return vec3<f32>(2.0 * (log(doppler) - fall), chord - 2.0 * log(0.5 * h), factor);
 }
 
-fn angle(sine: f32, cosine: f32) -> f32 {
-    if sine < 0.25 {
-        let y = sine * sine;
-        let x = sine * (1.0 + y * (1.0 / 6.0 + y * (3.0 / 40.0 + y * (15.0 / 336.0 + y * (105.0 / 3456.0)))));
-        return select(x, HALF_TURN - x, cosine < 0.0);
-    }
-    return atan2(sine, cosine);
+fn angle(across: f32, height: f32, r: f32) -> f32 {
+    let ahead = abs(height);
+    let x = 2.0 * short_arctan(min(across, ahead) / (r + max(across, ahead)));
+    let acute = select(x, 0.5 * HALF_TURN - x, across > ahead);
+    return select(acute, HALF_TURN - acute, height < 0.0);
 }
 
 fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
     let square = along * along + across * across;
     let r = sqrt(height * height + across * across);
     let inverse = 1.0 / r;
-    let phi = angle(across * inverse, height * inverse);
+    let phi = angle(across, height, r);
     if square < 0.25 * cam.l * cam.l {
         let dr = (2.0 * cam.l * along + square) / (r + cam.l);
         return Place(r, cam.room + dr * inverse * cam.a, dr, phi);
@@ -258,7 +247,7 @@ fn lens_camera() -> LensCamera {
     let t1 = lens_texel(1u);
     let t2 = lens_texel(2u);
     let t3 = lens_texel(3u);
-    return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y));
+    return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y), t2.w, t3.z, t3.w);
 }
 
 fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
@@ -307,15 +296,16 @@ fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32, nodes: u32) ->
     let hr = zr + d;
     let sine = dr / (sqrt(r * hl) + sqrt(l * hr));
     let cosine = (sqrt(r * l) + sqrt(hr * hl)) / s;
-    let half = 0.5 * atan2(sine, cosine);
-    let middle = atan2(sqrt(l), sqrt(hl)) + half;
+    let half = 0.5 * angle(sine, cosine, 1.0);
+    let middle = angle(sqrt(l), sqrt(hl), sqrt(s)) + half;
     var rule = INSIDE_NODES;
     var path = Path(0.0, 0.0, 0.0);
     for (var k = 0u; k < nodes; k++) {
         let node = rule[k % 6u];
         let theta = middle + select(-half, half, k < 6u) * node.x;
-        let c = cos(theta);
-        let sn = sin(theta);
+        let turned = stumpff(theta * theta);
+        let c = turned.y;
+        let sn = theta * turned.x;
         let rho = s * sn * sn;
         let square = max(s * c * c - d + q * rho * rho * rho, 1e-12);
         let part = node.y * half * 2.0 * c * sqrt(s / square);
@@ -339,7 +329,7 @@ fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
     let tl = sqrt(l);
     let tr = sqrt(r);
     let dt = dr / (tl + tr);
-    if sweep >= 2.0 * atan2(dr / (tr * sqrt(zl) + tl * sqrt(zr)), tr * tl + sqrt(zr * zl)) {
+    if sweep >= 2.0 * angle(dr / (tr * sqrt(zl) + tl * sqrt(zr)), tr * tl + sqrt(zr * zl), 1.0) {
         return vec4<f32>(0.0);
     }
     let m = 0.5 * (tl + tr);
@@ -382,10 +372,11 @@ fn no_ray() -> LensRay {
 
 fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
-    let frequency = sqrt(radial * radial + cam.a * cam.a);
-    let leaving = radial_momentum(w_e, e, c, sqrt(c), room);
-    let emission_frequency = sqrt(leaving * leaving + c * c);
-    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
+    let frequency = e + cam.beta * radial;
+    let root_c = sqrt(c);
+    let leaving = radial_momentum(w_e, e, c, root_c, room);
+    let emission_frequency = e + root_c * leaving;
+    if !finite(abs(frequency) + abs(emission_frequency) + abs(w) + abs(w_e) + abs(delay)) {
         return no_ray();
     }
     let inverse = 1.0 / frequency;
@@ -407,7 +398,8 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         room = max(room, 1e-4);
         let bent = bent_sweep(swept);
         let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
-        let table = residuals(cam, point_axis(cam, c, room), sweep_axis(cam, c, swept));
+        let xy = axes(cam, c, room, swept);
+        let table = residuals(cam, xy.x, xy.y);
         let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
         w = ray.x;
         e = ray.y;

@@ -46,6 +46,12 @@ pub struct Camera {
     pub start: Real,
     /// One over its length.
     pub scale: Real,
+    /// a/(1 + a).
+    pub share: Real,
+    /// a/(1 + 4a).
+    pub reach: Real,
+    /// a⁴/(1 + a⁴).
+    pub lift: Real,
 }
 
 /// The constants of the camera at radius `l`.
@@ -68,45 +74,39 @@ pub fn camera(l: f64) -> Camera {
         soft: soft as Real,
         start: first as Real,
         scale: (1.0 / (last - first)) as Real,
+        share: (a / (1.0 + a)) as Real,
+        reach: (a / (1.0 + 4.0 * a)) as Real,
+        lift: (a.powi(4) / (1.0 + a.powi(4))) as Real,
     }
-}
-
-/// ln(1 + x), accurate for small x.
-pub fn log1p(x: Real) -> Real {
-    let z = x / (2.0 + x);
-    if z.abs() < 0.1 {
-        let y = z * z;
-        return 2.0 * z * (1.0 + y * (1.0 / 3.0 + y * (0.2 + y * (1.0 / 7.0 + y * (1.0 / 9.0)))));
-    }
-    (1.0 + x).ln()
-}
-
-/// The table's first coordinate, 0 to 1 over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where
-/// `room` = 1 − 1/r.
-pub fn point_axis(cam: &Camera, c: Real, room: Real) -> Real {
-    ((c + cam.soft).ln() - 2.0 * room.max(0.0).sqrt() - cam.start) * cam.scale
-}
-
-/// e to the arsinh x: sums of arsinh go under one logarithm.
-pub fn opened(x: Real) -> Real {
-    let root = (1.0 + x * x).sqrt();
-    if x < 0.0 { 1.0 / (root - x) } else { root + x }
 }
 
 /// arsinh(10 Φ) at the end of the table, Φ = 3π.
 pub const SWEEP_END: Real = 5.239_102_591_656_62;
 
-/// The table's second coordinate, 0 to 1 over Φ from 0 to 3π: Φ + 0.3 arsinh((Φ − π)/s) + arsinh(10 Φ), stretched around π by the
-/// width `s` of the Einstein ring and near 0, less what it is at 0 and over its length.
-pub fn sweep_axis(cam: &Camera, c: Real, sweep: Real) -> Real {
-    let over = 1.0 / (2.8 * (cam.a / (1.0 + cam.a) + c).sqrt());
-    let first = opened(HALF_TURN * over);
-    let here = first * opened((sweep - HALF_TURN) * over);
-    let length = LARGEST_SWEEP + SWEEP_END + 0.3 * (first * opened(2.0 * HALF_TURN * over)).ln();
-    (sweep + 0.3 * here.ln() + opened(10.0 * sweep).ln()) / length
+/// The table's first two coordinates, each in 0..=1.
+///
+/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `room` = 1 − 1/r. The second runs over Φ
+/// from 0 to 3π: Φ + 0.3 arsinh((Φ − π)/s) + arsinh(10 Φ), stretched around π by the width `s` of the Einstein ring and near 0, less what it
+/// is at 0 and over its length.
+#[inline]
+pub fn axes(cam: &Camera, c: Real, room: Real, sweep: Real) -> [Real; 2] {
+    // e to the arsinh(x/s) is (x + √(x² + s²))/s, so that sums of arsinh go under one logarithm; for x < 0 its inverse loses nothing.
+    let s2 = 7.84 * (cam.share + c);
+    let off = sweep - HALF_TURN;
+    let first = HALF_TURN + (HALF_TURN * HALF_TURN + s2).sqrt();
+    let last = 2.0 * HALF_TURN + (4.0 * HALF_TURN * HALF_TURN + s2).sqrt();
+    let root = (off * off + s2).sqrt();
+    let (up, down) = (above(-off, first, first * (root + off)), above(-off, root - off, s2));
+    let near = 10.0 * sweep + (1.0 + 100.0 * sweep * sweep).sqrt();
+    let [point, here, length, near] = ln4([c + cam.soft, up / down, first * last / s2, near]);
+    [
+        (point - 2.0 * room.max(0.0).sqrt() - cam.start) * cam.scale,
+        (sweep + 0.3 * here + near) / (LARGEST_SWEEP + SWEEP_END + 0.3 * length),
+    ]
 }
 
 /// Φ as the closed forms see it: itself up to `BEND_START`, then levelling off, four times differentiable.
+#[inline]
 pub fn bent_sweep(sweep: Real) -> Real {
     if sweep <= BEND_START {
         return sweep;
@@ -117,28 +117,22 @@ pub fn bent_sweep(sweep: Real) -> Real {
 }
 
 /// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin.
+#[inline]
 pub fn basis(cam: &Camera, sweep: Real) -> [Real; 2] {
-    let x = cam.rate * sweep;
-    if x < 0.3 {
-        let y = cam.bend * sweep * sweep;
-        let s = sweep * (1.0 + y * (1.0 / 6.0) * (1.0 + y * (1.0 / 20.0) * (1.0 + y * (1.0 / 42.0))));
-        let k = 0.5 * sweep * sweep * (1.0 + y * (1.0 / 12.0) * (1.0 + y * (1.0 / 30.0) * (1.0 + y * (1.0 / 56.0))));
-        return [s, k];
+    let square = sweep * sweep;
+    let x = -0.25 * cam.bend * square;
+    if x < -1.0 {
+        let up = (cam.rate * sweep).exp();
+        let down = 1.0 / up;
+        return [0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate)];
     }
-    if cam.bend < 0.0 {
-        let (sine, cosine) = (0.5 * x).sin_cos();
-        let h = sine / cam.rate;
-        return [2.0 * h * cosine, 2.0 * h * h];
-    }
-    let up = x.exp();
-    let down = 1.0 / up;
-    [
-        0.5 * (up - down) / cam.rate,
-        (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate),
-    ]
+    // By the half angle.
+    let [sine, cosine] = stumpff(x);
+    [sweep * sine * cosine, 0.5 * square * sine * sine]
 }
 
 /// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
+#[inline]
 pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
     let [s, k] = basis(cam, bent);
     // What is right only in weak fields, held down where K grows.
@@ -149,11 +143,7 @@ pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
     let root = (b * b + 2.0 * q * c).max(0.05 * b * b + 1e-4 * q).sqrt();
-    let w = if b > 0.0 {
-        2.0 * c / (b + root)
-    } else {
-        (root - b) / q
-    };
+    let w = above(b, 2.0 * c, root - b) / above(b, b + root, q);
     let turn = 1.0 + cam.bend * k;
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
@@ -167,21 +157,22 @@ pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
 }
 
 /// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
+#[inline]
 pub fn energy(w: Real, u: Real, room: Real) -> Real {
     (w * w + u * u * room).max(0.0).sqrt()
 }
 
 /// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e, `room` = 1 − u; the one against the
 /// sweep is u. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
+#[inline]
 pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Real {
-    if w > 0.0 || e < 0.0 {
-        return (w + beta * e) / room;
-    }
-    (u * u - e * e) / (beta * e - w)
+    let along = beta * e;
+    above(w.max(-e), w + along, u * u - e * e) / above(w.max(-e), room, along - w)
 }
 
 /// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn` (at most 2 radians either way): how the table corrects a
 /// closed form.
+#[inline]
 pub fn turned_slope(guess: Real, u: Real, turn: Real) -> Real {
     // tan(turn/2) = p/q by Padé's approximant of order 5 over 4: off by 1e-7 at the largest turn, and no sine is called.
     let x = 0.5 * turn;
@@ -195,13 +186,15 @@ pub fn turned_slope(guess: Real, u: Real, turn: Real) -> Real {
 }
 
 /// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
+#[inline]
 pub fn emission_scale(cam: &Camera, c: Real) -> Real {
-    c + cam.a / (1.0 + 4.0 * cam.a)
+    c + cam.reach
 }
 
 /// The parts of the delay T = p₀ + p₂ (p₁ + table): what is singular at the horizon and what falls with the rain; the chord and
 /// Shapiro's logarithm, both regular across the Einstein ring; a factor that goes to zero with e at the horizon.
 /// `room` = 1 − 1/r, `dr` = r − L; w, e, w_e are those of the ray.
+#[inline]
 pub fn delay_parts(
     cam: &Camera,
     r: Real,
@@ -214,48 +207,30 @@ pub fn delay_parts(
 ) -> [Real; 3] {
     let (l, a) = (cam.l, cam.a);
     let c = 1.0 / r;
-    let (root_r, root_l) = (r.sqrt(), l.sqrt());
-    let (sine, cosine) = (0.5 * bent).sin_cos();
-    let x = 2.0 * sine;
+    let root_c = c.sqrt();
+    let [sine, cosine] = stumpff(0.25 * bent * bent);
+    let x = bent * sine;
     let k = 0.5 * x * x;
     // Half the chord's fall: 2 cos(Φ/2), kept positive beyond π as in the lens equation.
     let y = 2.0 * cosine;
     let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
-    let reach = (y * y + soft).sqrt();
-    let h = if y > 0.0 {
-        0.5 * (y + reach)
-    } else {
-        0.5 * soft / (reach - y)
-    };
-    let excess = if y > 0.0 {
-        0.5 * soft / (reach + y)
-    } else {
-        0.5 * (reach - y)
-    };
-    let q = x * x - excess * (h + y);
-    let fall = dr / (root_r + root_l);
+    let large = 0.5 * (y.abs() + (y * y + soft).sqrt());
+    let small = 0.25 * soft / large;
+    let (h, excess) = (above(y, large, small), above(y, small, large));
+    // x² − excess (h + y), where excess h = soft/4.
+    let q = x * x - 0.25 * soft - excess * y;
+    let fall = dr / (r * root_c + l * cam.beta);
     // 1 + 3 ln(r/L)/(r − L): exact along Φ = 0.
-    let mean = if dr.abs() > 1e-6 * l { 1.0 + 3.0 * log1p(dr / l) / dr } else { 1.0 + 3.0 / l };
-    // Of the fall with the rain, what is not a logarithm is 2 (√r − √L).
-    let rain = root_l * (1.0 + root_r) / (root_r * (1.0 + root_l));
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * a / (1.0 + a)) * r * l * q;
-    let chord = (mean * mean * dr * dr + across).sqrt();
-    let out = if w_e > 0.0 {
-        (w_e + e) / (room * c)
-    } else {
-        c / (e - w_e)
-    };
-    let back = if w > 0.0 {
-        a * cam.room / (e + w)
-    } else {
-        (e - w) / a
-    };
-    let a4 = a * a * a * a;
+    let log = log1p(dr * a);
+    let mean = 1.0 + 3.0 * above(dr.abs() - 1e-6 * l, log / dr, a);
+    let direct = dr + 3.0 * log;
+    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * l * q;
+    let chord = (direct * direct + across).sqrt();
+    // The ray at the point, at the camera, and of the fall with the rain what is not 2 (√r − √L).
+    let (out, out_over) = (above(w_e, w_e + e, c), above(w_e, room * c, e - w_e));
+    let (back, back_over) = (above(w, a * cam.room, e - w), above(w, e + w, a));
+    let doppler = out * back * (1.0 + root_c) / (out_over * back_over * (1.0 + cam.beta));
     let c4 = c * c * c * c;
-    let factor = e / (e * e + 0.5 * k * c4 * c4 * a4 / (1.0 + a4)).sqrt();
-    [
-        2.0 * ((out * back * rain).ln() - fall),
-        chord - 2.0 * (0.5 * h).ln(),
-        factor,
-    ]
+    let factor = e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt();
+    [2.0 * (ln(doppler) - fall), chord - 2.0 * ln(0.5 * h), factor]
 }

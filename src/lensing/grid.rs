@@ -1,6 +1,6 @@
 //! The coordinates of the residual table: which (r, Φ, L) its nodes stand for.
 
-use super::double::{Camera, LARGEST_SWEEP, POINT_RANGE, camera, point_axis, sweep_axis};
+use super::double::{Camera, LARGEST_SWEEP, POINT_RANGE, axes, camera};
 
 /// The range of camera radii, in r_s.
 pub const CAMERA_RANGE: [f64; 2] = [0.05, 5000.0];
@@ -32,12 +32,12 @@ pub fn camera_radius(z: f64) -> f64 {
 
 /// 1/r at the first coordinate `x`.
 pub fn point(cam: &Camera, x: f64) -> f64 {
-    invert(|c| point_axis(cam, c, 1.0 - c), x, POINT_RANGE)
+    invert(|c| axes(cam, c, 1.0 - c, 0.0)[0], x, POINT_RANGE)
 }
 
 /// Φ at the second coordinate `y`.
 pub fn sweep(cam: &Camera, c: f64, y: f64) -> f64 {
-    invert(|p| sweep_axis(cam, c, p), y, [0.0, LARGEST_SWEEP])
+    invert(|p| axes(cam, c, 1.0 - c, p)[1], y, [0.0, LARGEST_SWEEP])
 }
 
 /// The camera at the third coordinate `z`.

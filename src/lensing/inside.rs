@@ -11,8 +11,9 @@
 //! Both signs of E belong to one path. Their delays have a mean in closed form, that of the ray of zero energy:
 //! mean = 2 [artanh t − t].
 
-use super::lookup::Place;
-use super::single::{Camera, log1p};
+use super::elementary::single::{log1p, stumpff};
+use super::lookup::{Place, angle};
+use super::single::Camera;
 
 /// Steps of Newton's method: the sixth changes the direction by less than 0.001°.
 pub const INSIDE_STEPS: u32 = 6;
@@ -57,13 +58,14 @@ pub fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
     // sin and cos of the span of θ, without the difference of two angles.
     let sine = dr / ((r * hl).sqrt() + (l * hr).sqrt());
     let cosine = ((r * l).sqrt() + (hr * hl).sqrt()) / s;
-    let half = 0.5 * sine.atan2(cosine);
-    let middle = l.sqrt().atan2(hl.sqrt()) + half;
+    let half = 0.5 * angle(sine, cosine, 1.0);
+    let middle = angle(l.sqrt(), hl.sqrt(), s.sqrt()) + half;
     let mut path = Path { sweep: 0.0, by_square: 0.0, lag: 0.0 };
     for k in 0..12 {
         let [x, weight] = INSIDE_NODES[k % 6];
         let theta = middle + if k < 6 { half * x } else { -half * x };
-        let (sin, cos) = theta.sin_cos();
+        let [sine, cos] = stumpff(theta * theta);
+        let sin = theta * sine;
         let rho = s * sin * sin;
         let square = (s * cos * cos - d + q * rho * rho * rho).max(1e-12);
         let part = weight * half * 2.0 * cos * (s / square).sqrt();
@@ -86,7 +88,7 @@ pub fn inside(cam: &Camera, at: Place, sweep: f32, elapsed: f32) -> Option<[f32;
     let (tl, tr) = (l.sqrt(), r.sqrt());
     let dt = dr / (tl + tr);
     // The ray of zero energy reaches farthest.
-    if sweep >= 2.0 * (dr / (tr * zl.sqrt() + tl * zr.sqrt())).atan2(tr * tl + (zr * zl).sqrt()) {
+    if sweep >= 2.0 * angle(dr / (tr * zl.sqrt() + tl * zr.sqrt()), tr * tl + (zr * zl).sqrt(), 1.0) {
         return None;
     }
     // As if W were everywhere what it is halfway.

@@ -2,6 +2,7 @@
 
 use wide::f32x4;
 
+use super::elementary::single::{above, short_arctan};
 use super::inside::inside;
 use super::single::*;
 use super::slice::{HEADER, Slice};
@@ -61,34 +62,35 @@ pub const NOTHING: LensRay = LensRay {
     valid: false,
 };
 
-/// The angle of (sine, cosine), sine ≥ 0, accurate near 0 and π whatever the platform's atan2.
-pub fn angle(sine: f32, cosine: f32) -> f32 {
-    if sine < 0.25 {
-        let y = sine * sine;
-        let x = sine * (1.0 + y * (1.0 / 6.0 + y * (3.0 / 40.0 + y * (15.0 / 336.0 + y * (105.0 / 3456.0)))));
-        return if cosine < 0.0 { HALF_TURN - x } else { x };
-    }
-    sine.atan2(cosine)
+/// The angle in 0..=π of the point `across` ≥ 0 from the axis and `height` along it, at the distance `r`: by the tangent of half of it, which is
+/// accurate near 0 and π and the same on every platform.
+#[inline]
+pub fn angle(across: f32, height: f32, r: f32) -> f32 {
+    let ahead = height.abs();
+    let x = 2.0 * short_arctan(across.min(ahead) / (r + across.max(ahead)));
+    let x = above(across - ahead, 0.5 * HALF_TURN - x, x);
+    above(-height, HALF_TURN - x, x)
 }
 
 /// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
 /// rounded from f64: near the camera the offset counts, elsewhere the height.
+#[inline]
 pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
     let inverse = 1.0 / r;
-    let phi = angle(across * inverse, height * inverse);
-    if square < 0.25 * cam.l * cam.l {
-        let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        return Place { r, room: cam.room + dr * inverse * cam.a, dr, phi };
-    }
-    Place { r, room: (r - 1.0) * inverse, dr: r - cam.l, phi }
+    let phi = angle(across, height, r);
+    let near = 0.25 * cam.l * cam.l - square;
+    let dr = (2.0 * cam.l * along + square) / (r + cam.l);
+    let room = above(near, cam.room + dr * inverse * cam.a, (r - 1.0) * inverse);
+    Place { r, room, dr: above(near, dr, r - cam.l), phi }
 }
 
 /// The outermost weight at a node.
 pub const SIXTH: f32 = 1.0 / 6.0;
 
 /// The weights of the four B-spline coefficients around the place `t` in 0..=1 between two nodes.
+#[inline]
 pub fn spline_weights(t: f32) -> [f32; 4] {
     let s = 1.0 - t;
     let (t2, s2) = (t * t, s * s);
@@ -96,6 +98,7 @@ pub fn spline_weights(t: f32) -> [f32; 4] {
 }
 
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
+#[inline]
 pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
     let [nx, ny] = slice.size;
     let px = x.clamp(0.0, 1.0) * (nx - 1) as f32;
@@ -153,11 +156,13 @@ pub fn residuals_half(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -
 }
 
 /// Whether a number is neither NaN nor infinite.
+#[inline]
 pub fn finite(x: f32) -> bool {
     x.abs() < 3e38
 }
 
 /// (w, e, w_e) made consistent from the two slopes of the table: each is taken from where it is well conditioned.
+#[inline]
 pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
     if cam.room <= 0.0 {
         // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
@@ -167,10 +172,8 @@ pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
     let e = energy(w, cam.a, cam.room);
     // Away from a turning point the energy gives the magnitude more precisely.
     let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        return [w, e, if w_e < 0.0 { -square.sqrt() } else { square.sqrt() }];
-    }
-    [w, e, w_e]
+    let root = square.max(0.0).sqrt();
+    [w, e, above(square - 0.3 * e * e, root.copysign(w_e), w_e)]
 }
 
 /// Light of no age: where there are two rays, the one with E > 0.
@@ -180,11 +183,13 @@ pub const OLD: f32 = 3e38;
 
 /// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ). Where camera and point are both
 /// inside the horizon there are two: `elapsed` (r_s/c), the time since the light left as far as it is known, decides ([`YOUNG`], [`OLD`]).
+#[inline]
 pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
     lookup_with(&slice.camera, at, sweep, elapsed, |x, y| residuals(slice, x, y))
 }
 
 /// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
+#[inline]
 pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
@@ -197,7 +202,8 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
         room = room.max(1e-4);
         let bent = bent_sweep(swept);
         let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
-        let table = residuals(point_axis(cam, c, room), sweep_axis(cam, c, swept));
+        let [x, y] = axes(cam, c, room, swept);
+        let table = residuals(x, y);
         [w, e, w_e] =
             joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
         let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
@@ -212,12 +218,15 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
 }
 
 /// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
+#[inline]
 pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
     let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
-    let frequency = (radial * radial + cam.a * cam.a).sqrt();
-    let leaving = radial_momentum(w_e, e, c, c.sqrt(), room);
-    let emission_frequency = (leaving * leaving + c * c).sqrt();
-    if !(finite(frequency) && finite(emission_frequency) && finite(w) && finite(w_e) && finite(delay)) {
+    // Of the energy, conserved, the river takes its speed times the momentum along it: e = frequency − β radial.
+    let frequency = e + cam.beta * radial;
+    let root_c = c.sqrt();
+    let leaving = radial_momentum(w_e, e, c, root_c, room);
+    let emission_frequency = e + root_c * leaving;
+    if !finite(frequency.abs() + emission_frequency.abs() + w.abs() + w_e.abs() + delay.abs()) {
         return NOTHING;
     }
     let inverse = 1.0 / frequency;
@@ -244,6 +253,7 @@ pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, ord
 }
 
 /// Φ of `order` for the point at `at`.
+#[inline]
 pub fn swept(at: Place, order: u32) -> f32 {
     match order {
         2 => 2.0 * HALF_TURN - at.phi,

@@ -10,6 +10,7 @@ pub mod bake;
 pub mod batch;
 pub mod closed;
 pub mod command;
+pub mod elementary;
 pub mod grid;
 pub mod inside;
 pub mod lookup;
@@ -24,6 +25,8 @@ pub mod table;
 /// The formulas in f64, for the bake.
 #[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod double {
+    use super::elementary::double::{above, ln, ln4, log1p, stumpff};
+
     /// The precision of this copy.
     pub type Real = f64;
     include!("formulas.rs");
@@ -32,6 +35,8 @@ pub mod double {
 /// The formulas in f32, the twins of the shader's.
 #[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod single {
+    use super::elementary::single::{above, ln, ln4, log1p, stumpff};
+
     /// The precision of this copy.
     pub type Real = f32;
     include!("formulas.rs");

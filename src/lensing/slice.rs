@@ -81,8 +81,8 @@ impl Slice {
         let header = [
             [cam.l, cam.room, cam.a, cam.beta],
             [cam.fade, cam.bend, cam.rate, cam.force],
-            [cam.soft, cam.start, cam.scale, 0.0],
-            [size[0] as f32, size[1] as f32, 0.0, 0.0],
+            [cam.soft, cam.start, cam.scale, cam.share],
+            [size[0] as f32, size[1] as f32, cam.reach, cam.lift],
         ];
         Slice { camera: cam, size, texels: header.into_iter().chain(coefficients).collect() }
     }
