@@ -73,7 +73,7 @@ struct Placement {
     triangles: vec4<u32>,
 }
 
-/// Both sides of a triangle are drawn.
+/// Both sides of every triangle are drawn.
 const PLACEMENT_TWO_SIDED: u32 = 1u;
 /// The object does not move; each of its points emits as a static observer there.
 const PLACEMENT_HELD: u32 = 2u;
@@ -97,11 +97,18 @@ struct ModelVertex {
 }
 
 struct ModelTriangle {
-    /// Three vertices in ascending order, counted from the model's own first; w unused.
+    /// Three vertices in ascending order, counted from the model's own first; w: SIDE_*.
     vertices: vec4<u32>,
     /// Edge i is opposite to vertex i; w unused.
     edges: vec4<u32>,
 }
+
+/// Which side of a triangle is outside: none (a part of an open sheet), that to which the cross product of its sides 0–1 and 0–2 points, or the other.
+const SIDE_OPEN: u32 = 0u;
+const SIDE_ALONG: u32 = 1u;
+const SIDE_AGAINST: u32 = 2u;
+/// Added where the whole model is one closed body: what lies on its back may be left out. Between several that abut, backs fill cracks.
+const SIDE_LONE: u32 = 4u;
 
 struct Chunk {
     placement: u32,

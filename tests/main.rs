@@ -29,6 +29,7 @@ mod render_horizon;
 mod render_lookup;
 #[cfg(feature = "game")]
 mod render_methods;
+mod render_outside;
 #[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]

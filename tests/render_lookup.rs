@@ -53,7 +53,7 @@ impl Bench {
     pub fn object<'a>(&self, motion: Motion<'a>, scale: f64, id: u32) -> Object<'a> {
         let light = Light { ambient: [1.0; 3], ..Light::default() };
         let (model, coarse) = (self.model, self.model);
-        Object { model, coarse, motion, reach: scale, scale: DVec3::splat(scale), id, two_sided: false, light }
+        Object { model, coarse, motion, reach: scale, scale: DVec3::splat(scale), id, light }
     }
 
     pub fn place(&self, camera: &Camera, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
@@ -341,7 +341,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
         let settings = Settings { method, ..settings };
         let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
         let mut object = bench.object(motion, 8.0, 1);
-        (object.model, object.coarse, object.two_sided) = (square, square, true);
+        (object.model, object.coarse) = (square, square);
         let eye = static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 1.0);
         let placed = bench.place(&eye, 0.0, &object, &settings);
         let frame = FrameInput { camera: eye, time: 0.0, placed, aurora: None, settings };

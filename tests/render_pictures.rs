@@ -77,7 +77,6 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             reach: object.scale,
             scale: DVec3::splat(object.scale),
             id: 1,
-            two_sided: false,
             light: Light::default(),
         };
         for (order, one) in Order::ALL.into_iter().zip(place(&view, 0.0, &held, 2)) {

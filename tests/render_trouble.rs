@@ -107,7 +107,7 @@ fn a_full_vertex_buffer_is_said_and_nothing_vanishes() {
         let settings = Settings { orders: 2, vertex_budget, ..quiet() };
         let motion = Motion::Held { position: DVec3::new(0.0, 0.0, -12.0), attitude: DQuat::IDENTITY };
         let mut object = bench.object(motion, 8.0, 1);
-        (object.model, object.coarse, object.two_sided) = (square, square, true);
+        (object.model, object.coarse) = (square, square);
         let placed = bench.place(&camera(), 0.0, &object, &settings);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
         let counters = bench.renderer.counters().unwrap();

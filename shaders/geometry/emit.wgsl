@@ -25,8 +25,9 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, len
 }
 
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
-/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque.
-fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
+/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
+/// `outward_normal`.
+fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>) -> bool {
     if (placement.triangles.w & PLACEMENT_THIN) == 0u {
         return false;
     }
@@ -44,10 +45,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
     if height >= frame.side_a.w {
         return false;
     }
-    // Coverage adds up to the truth only if each line of sight meets one layer: back faces are left out.
-    let facing = dot(seen[i0].normal.xyz, seen[i0].leaving.xyz) + dot(seen[i1].normal.xyz, seen[i1].leaving.xyz)
-        + dot(seen[i2].normal.xyz, seen[i2].leaving.xyz);
-    if !two_sided(placement) && facing < 0.0 {
+    // Coverage adds up to the truth only if each line of sight meets one layer: back faces of closed bodies are left out.
+    if dot(outward, seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz) < 0.0 {
         return true;
     }
     let a = p1 - p0;
@@ -77,8 +76,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement) -> bool {
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement) {
-    if emit_thin(i0, i1, i2, placement) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>) {
+    if emit_thin(i0, i1, i2, placement, outward) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
@@ -211,8 +210,9 @@ fn hand_over(queue: u32) {
         }
         if !done {
             let placement = placement_at(piece.what.x);
-            let corners = model_triangles[piece.what.y].vertices.xyz + vec3<u32>(placement.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, placement);
+            let triangle = model_triangles[piece.what.y];
+            let corners = triangle.vertices.xyz + vec3<u32>(placement.ids.z);
+            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz));
         }
     }
 }

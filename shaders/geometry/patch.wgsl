@@ -105,6 +105,25 @@ fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) 
         + model_vertices[first + triangle.vertices.z].position.xyz * corner.z;
 }
 
+/// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
+/// zero where no side is outside, or both are drawn. Lengths along the motion are γ times longer in the rest frame than on the slice.
+fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
+    let first = placement.vertices.x;
+    let corner = model_vertices[first + triangle.vertices.x].position.xyz;
+    let a = shaped(placement, model_vertices[first + triangle.vertices.y].position.xyz - corner);
+    let b = shaped(placement, model_vertices[first + triangle.vertices.z].position.xyz - corner);
+    let on_slice = cross(a, b);
+    let momentum = momentum_at(placement, frame.radial.xyz * frame.radial.w + offset);
+    let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
+    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
+    return n * select(sign / max(length(n), 1e-30), 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+}
+
+/// A body offset on the slice at T₀.
+fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
+    return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
+}
+
 /// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.
 fn comes_first(a: vec3<f32>, b: vec3<f32>) -> bool {
     if a.x != b.x {

@@ -36,6 +36,9 @@ fn decide(chunk: Chunk, lane: u32) {
         }
         return;
     }
+    if turned_away(placement, triangle, slots, o0.xyz) {
+        return;
+    }
     let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
     let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
     let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
@@ -114,6 +117,24 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     emit_piece(chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+}
+
+/// How far behind its plane, as a sine, light must leave a triangle to be held back by the body. Between the corners light leaves within about the
+/// spread of its directions there; this is for what a turning body and curvature add.
+const TURNED_AWAY: f32 = 0.05;
+/// Nearer to the horizon nothing is left out: static observers there see the body drawn out without bound.
+const LEAST_RADIUS_TURNED: f32 = 1.05;
+
+/// Whether all light that a triangle of a lone closed body sends to the camera leaves on its inner side, so that the body itself hides it.
+fn turned_away(placement: Placement, triangle: ModelTriangle, slots: vec3<u32>, offset: vec3<f32>) -> bool {
+    let l0 = seen[slots.x].leaving;
+    let l1 = seen[slots.y].leaving;
+    let l2 = seen[slots.z].leaving;
+    let n = outward_normal(placement, triangle, offset);
+    let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
+    let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
+    return (triangle.vertices.w & SIDE_LONE) != 0u && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED
+        && most < -(TURNED_AWAY + spread);
 }
 
 /// Paper 1: a triangle larger than this times its size without the hole is not drawn.

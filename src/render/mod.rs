@@ -15,6 +15,7 @@ pub mod geometry;
 pub mod layout;
 pub mod method;
 pub mod models;
+pub mod outside;
 pub mod placements;
 pub mod plugin;
 pub mod race;

@@ -7,6 +7,7 @@ use crate::scene::model::{Image, Model};
 
 use super::Gpu;
 use super::layout::Growing;
+use super::outside::{AGAINST, ALONG, OPEN, sides};
 use super::types::{Material, ModelTriangle, ModelVertex};
 
 /// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
@@ -67,8 +68,9 @@ impl Prepared {
         let mut edges = Vec::new();
         let mut numbers: HashMap<[u32; 2], u32> = HashMap::new();
         let mut triangles = Vec::with_capacity(model.triangles.len());
-        for (triangle, &material) in model.triangles.iter().zip(&model.triangle_materials) {
+        for ((triangle, &material), side) in model.triangles.iter().zip(&model.triangle_materials).zip(sides(model)) {
             let mut v = triangle.map(|vertex| place[&(vertex, material)]);
+            let side = if in_turn(v) || side == OPEN { side } else { side ^ (ALONG | AGAINST) };
             v.sort_unstable();
             if v[0] == v[1] || v[1] == v[2] {
                 continue;
@@ -79,11 +81,18 @@ impl Prepared {
                     edges.len() as u32 - 1
                 })
             };
-            triangles
-                .push(ModelTriangle { vertices: [v[0], v[1], v[2], 0], edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0] });
+            triangles.push(ModelTriangle {
+                vertices: [v[0], v[1], v[2], side],
+                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0],
+            });
         }
         Prepared { vertices, edges, triangles }
     }
+}
+
+/// Whether sorting three vertices keeps the sense in which they go round.
+fn in_turn([a, b, c]: [u32; 3]) -> bool {
+    (a < b) ^ (b < c) ^ (a < c)
 }
 
 /// f32 with a total order, for sorting.

@@ -48,8 +48,6 @@ pub struct Object<'a> {
     pub scale: DVec3,
     /// A number for the layers of a picture, from 1.
     pub id: u32,
-    /// Whether both sides of its triangles are drawn.
-    pub two_sided: bool,
     /// What shines on it.
     pub light: Surroundings,
 }
@@ -81,6 +79,10 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
         placement.ids = [u32::from(order.number()), object.id, 0, 0];
+        if !settings.method.bends() {
+            // Drawn straight, light leaves otherwise than the shape on the slice is meant for.
+            placement.triangles[3] |= TWO_SIDED;
+        }
         if branch == Branch::Minus {
             placement.triangles[3] |= MINUS;
         }
@@ -109,7 +111,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 
-/// Two-sided triangles; as in shaders/types.wgsl.
+/// Both sides of all triangles; as in shaders/types.wgsl.
 const TWO_SIDED: u32 = 1;
 /// Held in place; as in shaders/types.wgsl.
 const HELD: u32 = 2;
@@ -221,7 +223,7 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
         shape: columns(turn * DMat3::from_diagonal(object.scale)),
         turn: columns(turn),
         light: light_rows(&object.light),
-        triangles: [0, 0, 0, HELD | if object.two_sided { TWO_SIDED } else { 0 }],
+        triangles: [0, 0, 0, HELD],
         ..Placement::default()
     }
 }
@@ -258,7 +260,6 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         shape_rate: columns_and(rate, spin),
         turn: columns_and(DMat3::from_quat(sample.attitude), jerk),
         light: light_rows(&object.light),
-        triangles: [0, 0, 0, if object.two_sided { TWO_SIDED } else { 0 }],
         ..Placement::default()
     };
     Some((placement, sample.position, time - emission))

@@ -125,7 +125,6 @@ impl Stage {
                 reach: self.reaches[number],
                 scale: DVec3::splat(object.scale),
                 id: number as u32 + 1,
-                two_sided: matches!(object.body, Body::Held { .. }),
                 light,
             };
             placed.extend(place(&view, time, &object, settings.orders));

@@ -110,7 +110,6 @@ impl Show {
             reach: self.planet.radius * REACH,
             scale: DVec3::splat(scale),
             id: 0,
-            two_sided: false,
             light: Surroundings::default(),
         };
         let placements: Vec<Placement> = place(view, time, &object, orders).into_iter().map(|placed| placed.placement).collect();
