@@ -4,7 +4,7 @@ mod charts;
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -367,9 +367,11 @@ fn run_bake(args: BakeArgs) -> ExitCode {
 
 fn output(path: Option<&PathBuf>) -> io::Result<Box<dyn Write>> {
     Ok(match path {
-        Some(path) => Box::new(BufWriter::new(
-            File::create(path).map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", path.display())))?,
-        )),
+        Some(path) => {
+            let named = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+            std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).map_err(named)?;
+            Box::new(BufWriter::new(File::create(path).map_err(named)?))
+        }
         None => Box::new(BufWriter::new(io::stdout())),
     })
 }

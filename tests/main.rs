@@ -47,3 +47,4 @@ mod sim_simulate;
 mod spacetime_light;
 mod spacetime_matter;
 mod support;
+mod twin;

@@ -5,57 +5,26 @@ use lensrunner::lensing;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, layout, readback};
+use lensrunner::render::{Renderer, readback};
 use lensrunner::scene::aurora::dipole::on_field_line;
 use lensrunner::scene::aurora::random;
 use lensrunner::scene::{self, GameConfig};
 use std::sync::Arc;
 
 use crate::render_shaders::GPU;
-
-/// Runs `body` in the shipped walk: one thread per row, `row` in, `twin_out[id.x]` out.
-fn run(body: &str, rows: &[[f32; 4]]) -> Vec<[f32; 4]> {
-    let tail = format!(
-        "
-@group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
-@group(3) @binding(1) var<storage, read_write> twin_out: array<vec4<f32>>;
-@compute @workgroup_size(64)
-fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
-    if id.x >= arrayLength(&twin_rows) {{ return; }}
-    let row = twin_rows[id.x];
-    {body}
-}}"
-    );
-    let source = format!("{}\n{tail}", Pass::AuroraWalk.source());
-    let device = &GPU.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("twin"),
-        layout: None,
-        module: &module,
-        entry_point: Some("twin"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let input = layout::storage(&GPU, "rows", rows);
-    let out = layout::buffer(device, "out", 16 * rows.len() as u64, wgpu::BufferUsages::STORAGE);
-    let group = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[input.as_entire_binding(), out.as_entire_binding()]);
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(3, &group, &[]);
-        pass.dispatch_workgroups(rows.len().div_ceil(64) as u32, 1, 1);
-    }
-    GPU.queue.submit([encoder.finish()]);
-    bytemuck::cast_slice::<u8, [f32; 4]>(&readback::buffer(&GPU, &out).unwrap())[..rows.len()].to_vec()
-}
+use crate::twin::run;
 
 #[test]
 fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
     let rows: Vec<[f32; 4]> =
         (0..400u32).map(|k| [13.7 * k as f32 - 2500.0, 9.1 * k as f32 - 1500.0, 80.0 + k as f32, f32::from_bits(k * 7919)]).collect();
-    let lines = run("twin_out[id.x] = vec4<f32>(on_field_line(row.xy, row.z), unit(hash(bitcast<u32>(row.w))));", &rows);
+    let lines = run(
+        Pass::AuroraWalk,
+        "twin_out[id.x] = vec4<f32>(on_field_line(row.xy, row.z), unit(hash(bitcast<u32>(row.w))));",
+        [&[], &[]],
+        &rows,
+        1,
+    );
     for (row, got) in rows.iter().zip(lines) {
         let want = on_field_line(DVec2::new(f64::from(row[0]), f64::from(row[1])), f64::from(row[2]));
         let got_point = DVec3::new(f64::from(got[0]), f64::from(got[1]), f64::from(got[2]));

@@ -9,15 +9,16 @@ use lensrunner::measure::disk::{self, Eye};
 use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::readback;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::static_camera;
-use lensrunner::render::{layout, readback};
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::{Gas, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
+use crate::twin::run;
 
 fn renderer(size: [u32; 2]) -> Renderer {
     let surroundings = Surroundings {
@@ -274,45 +275,14 @@ fn the_power_of_a_shifted_black_body_goes_as_the_fourth_power_of_g() {
 /// What is written in both languages: slant, shares, orbital rate.
 #[test]
 fn functions_of_the_gas_are_the_same_in_both_languages() {
-    let tail = "
-@group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
-@group(3) @binding(1) var<storage, read_write> twin_out: array<vec4<f32>>;
-@compute @workgroup_size(64)
-fn twin(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= arrayLength(&twin_rows) { return; }
-    let row = twin_rows[id.x];
-    twin_out[id.x] = vec4<f32>(disk_slant(row.x, row.y, row.z), disk_shares(row.w), disk_rate(row.w));
-}";
+    let body = "twin_out[id.x] = vec4<f32>(disk_slant(row.x, row.y, row.z), disk_shares(row.w), disk_rate(row.w));";
     let rows: Vec<[f32; 4]> = (0..200)
         .map(|k| {
             let t = k as f32 / 199.0;
             [t, 0.01 + 30.0 * t * t, 0.02 + 0.2 * t, 0.3 + 0.69 * t]
         })
         .collect();
-    let source = format!("{}\n{tail}", Pass::DiskDraw.source());
-    let device = &GPU.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("twin"),
-        layout: None,
-        module: &module,
-        entry_point: Some("twin"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let input = layout::storage(&GPU, "rows", &rows);
-    let out = layout::buffer(device, "out", 16 * rows.len() as u64, wgpu::BufferUsages::STORAGE);
-    let group = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[input.as_entire_binding(), out.as_entire_binding()]);
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(3, &group, &[]);
-        pass.dispatch_workgroups(rows.len().div_ceil(64) as u32, 1, 1);
-    }
-    GPU.queue.submit([encoder.finish()]);
-    let bytes = readback::buffer(&GPU, &out).unwrap();
-    let got: &[[f32; 4]] = bytemuck::cast_slice(&bytes);
+    let got = run(Pass::DiskDraw, body, [&[], &[]], &rows, 1);
     for (row, got) in rows.iter().zip(got) {
         let [cosine, path, half_height, grown] = row.map(f64::from);
         let radius = (lensrunner::scene::disk::PATTERN_HEIGHT * grown).exp();

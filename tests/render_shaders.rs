@@ -2,64 +2,20 @@
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
+use lensrunner::render::Gpu;
 use lensrunner::render::method::Method;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
-use lensrunner::render::{Gpu, layout, readback};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use std::sync::LazyLock;
+
+use crate::twin::run;
 
 /// The software driver is installed by `./test`, so a machine without any adapter is a failure and not a reason to skip.
 pub static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::headless().expect("a Vulkan driver"));
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| bake(Scheme::Residual, SMALL_NODES, |_| ()));
-
-/// Runs `entry` of a pass's shipped source with `tail` behind it: one thread per row of `input`, one row out.
-fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], outputs: usize) -> Vec<[f32; 4]> {
-    let source = format!("{}\n{tail}", pass.source());
-    let device = &GPU.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("twin"),
-        layout: None,
-        module: &module,
-        entry_point: Some("twin"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
-    let slice = layout::TableTexture::of(&GPU, "slice", tables[0]);
-    let sky = layout::TableTexture::of(&GPU, "sky", tables[1]);
-    let rows = layout::storage(&GPU, "rows", input);
-    let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
-    let tables_group = pipeline.get_bind_group_layout(0);
-    let group0 = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &tables_group,
-        entries: &[if tables[0].is_empty() {
-            wgpu::BindGroupEntry { binding: 2, resource: sky.binding() }
-        } else {
-            wgpu::BindGroupEntry { binding: 1, resource: slice.binding() }
-        }],
-    });
-    let group3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group0, &[]);
-        pass.set_bind_group(3, &group3, &[]);
-        pass.dispatch_workgroups(input.len().div_ceil(64) as u32, 1, 1);
-    }
-    GPU.queue.submit([encoder.finish()]);
-    let bytes = readback::buffer(&GPU, &out).unwrap();
-    bytemuck::cast_slice::<u8, [f32; 4]>(&bytes)[..input.len() * outputs].to_vec()
-}
-
-const ROWS: &str = "
-@group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
-@group(3) @binding(1) var<storage, read_write> twin_out: array<vec4<f32>>;
-";
 
 /// f32 sums in another order, and a driver's sin, log and exp, differ by a few units in the last place; near turning points that grows.
 fn close(got: f32, want: f32, relative: f32) -> bool {
@@ -81,17 +37,10 @@ fn every_pass_compiles_by_every_method() {
 
 #[test]
 fn the_lookup_is_the_same_in_both_languages() {
-    let tail = format!(
-        "{ROWS}
-@compute @workgroup_size(64)
-fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
-    if id.x >= arrayLength(&twin_rows) {{ return; }}
-    let row = twin_rows[id.x];
+    let body = "
     let ray = lens_lookup_aged(row.x, row.y, lens_texel(0u).x + row.x, u32(row.z), row.w);
     twin_out[2u * id.x] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.frequency);
-    twin_out[2u * id.x + 1u] = vec4<f32>(ray.emission_radial, ray.emission_tangential, ray.emission_frequency, f32(ray.valid));
-}}"
-    );
+    twin_out[2u * id.x + 1u] = vec4<f32>(ray.emission_radial, ray.emission_tangential, ray.emission_frequency, f32(ray.valid));";
     let mut random = StdRng::seed_from_u64(1);
     for l in [0.3f64, 1.02, 1.5, 6.0, 40.0, 900.0] {
         let slice = Slice::new(&TABLE, l);
@@ -106,7 +55,7 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
                 [(r * phi.cos() - l) as f32, (r * phi.sin()) as f32, order as f32, if i % 4 == 0 { OLD } else { YOUNG }]
             })
             .collect();
-        let out = run(Pass::Vertices, &tail, [slice.texels(), &[]], &rows, 2);
+        let out = run(Pass::Vertices, body, [slice.texels(), &[]], &rows, 2);
         let mut seen = 0;
         for (row, pair) in rows.iter().zip(out.chunks_exact(2)) {
             let want = lens_lookup_aged(&slice, row[0], row[1], slice.camera.l + row[0], row[2] as u32, row[3]);
@@ -134,19 +83,12 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
 
 #[test]
 fn the_sky_is_the_same_in_both_languages() {
-    let tail = format!(
-        "{ROWS}
-@compute @workgroup_size(64)
-fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
-    if id.x >= arrayLength(&twin_rows) {{ return; }}
-    let row = twin_rows[id.x];
-    twin_out[id.x] = vec4<f32>(sky_swept(row.x), sky_seen(row.y));
-}}"
-    );
+    let body = "
+    twin_out[id.x] = vec4<f32>(sky_swept(row.x), sky_seen(row.y));";
     for l in [0.5, 1.1, 8.0] {
         let table = sky_table(l);
         let rows: Vec<[f32; 4]> = (0..500).map(|k| [0.023 * k as f32, 0.0188 * k as f32, 0.0, 0.0]).collect();
-        let out = run(Pass::Background, &tail, [&[], &table], &rows, 1);
+        let out = run(Pass::Background, body, [&[], &table], &rows, 1);
         for (row, got) in rows.iter().zip(out) {
             let want = [sky_swept(&table, row[0]), sky_seen(&table, row[1])].concat();
             for k in 0..4 {
@@ -159,19 +101,13 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
 /// The Milky Way lies among the stars as its file says: neither mirrored nor turned.
 #[test]
 fn the_panorama_is_the_same_in_both_languages() {
-    let tail = format!(
-        "{ROWS}
-@compute @workgroup_size(64)
-fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
-    if id.x >= arrayLength(&twin_rows) {{ return; }}
-    twin_out[id.x] = vec4<f32>(panorama_place(twin_rows[id.x].xyz), 0.0 * textureLoad(sky_slice, vec2<u32>(0u), 0).xy);
-}}"
-    );
+    let body = "
+    twin_out[id.x] = vec4<f32>(panorama_place(row.xyz), 0.0 * textureLoad(sky_slice, vec2<u32>(0u), 0).xy);";
     let mut random = StdRng::seed_from_u64(5);
     let directions: Vec<glam::Vec3> =
         (0..300).map(|_| glam::Vec3::from_array(std::array::from_fn(|_| random.random_range(-1.0..1.0))).normalize()).collect();
     let rows: Vec<[f32; 4]> = directions.iter().map(|d| d.extend(0.0).to_array()).collect();
-    let out = run(Pass::Background, &tail, [&[], &[[1.0; 4]]], &rows, 1);
+    let out = run(Pass::Background, body, [&[], &[[1.0; 4]]], &rows, 1);
     for (direction, got) in directions.iter().zip(out) {
         let want = lensrunner::scene::milky_way::direction_to_uv(*direction);
         let across = (got[0] - want.x).rem_euclid(1.0);

@@ -29,13 +29,21 @@ pub struct Channel {
 
 /// Writes sRGB, 3 bytes a pixel, row by row from the top.
 pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(), PictureFileError> {
+    make_folder(path)?;
     image::save_buffer(path, rgb, width, height, image::ColorType::Rgb8)
+        .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+}
+
+/// Makes the folder of a file, where there is none yet.
+fn make_folder(path: &Path) -> Result<(), PictureFileError> {
+    std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))
         .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
 }
 
 /// Writes channels as 32-bit floats.
 pub fn write_exr(path: &Path, [width, height]: [u32; 2], channels: &[Channel]) -> Result<(), PictureFileError> {
     use exr::prelude::*;
+    make_folder(path)?;
     let list: SmallVec<[AnyChannel<FlatSamples>; 4]> =
         channels.iter().map(|channel| AnyChannel::new(channel.name, FlatSamples::F32(channel.data.clone()))).collect();
     let size = (width as usize, height as usize);

@@ -108,7 +108,7 @@ fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)], counte
             if let Some(complaint) = counters.complaint() {
                 ui.colored_label(egui::Color32::ORANGE, complaint);
             }
-            ui.label(format!("{counters:?}"));
+            ui.label(counters.to_string());
         }
         None => _ = ui.label("no counters"),
     }

@@ -59,14 +59,7 @@ impl fmt::Display for FrameTimes {
         for (label, time) in &self.passes {
             write!(f, "\n  {label:<12} {time:8.2} ms")?;
         }
-        let Counters { model_vertices, vertices, indices, work, thin, .. } = self.counters;
-        write!(
-            f,
-            "\n  {model_vertices} vertices of models, {} of {work} blocks; {} triangles",
-            vertices.saturating_sub(model_vertices),
-            indices / 3
-        )?;
-        write!(f, ", {} thin", thin / 3)
+        write!(f, "\n  {}", self.counters)
     }
 }
 

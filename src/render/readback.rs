@@ -117,6 +117,9 @@ impl Picture {
     /// Writes the developed picture (.png) or the linear light and layers (.exr).
     pub fn write(&self, path: &Path) -> Result<(), PictureError> {
         let failed = |reason: String| PictureError::Write { path: path.display().to_string(), reason };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| failed(error.to_string()))?;
+        }
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("png") => {
                 let [width, height] = self.size;

@@ -83,7 +83,8 @@ impl Renderer {
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
         let lens_slice = TableTexture::new(device, "lens slice", false);
         let sky_slice = TableTexture::of(gpu, "sky slice", &[[0.0; 4]; NODES]);
-        let blackbody = TableTexture::of(gpu, "black body", &blackbody_table());
+        let table = blackbody_table();
+        let blackbody = TableTexture::of(gpu, "black body", &table);
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
@@ -93,7 +94,7 @@ impl Renderer {
         Renderer {
             geometry: Geometry::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
-            stars: Stars::new(gpu, &frame_layout, &surroundings.stars),
+            stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),
             models: Models::new(device),
             timing: Timing::new(gpu),

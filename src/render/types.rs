@@ -156,6 +156,19 @@ impl Counters {
     }
 }
 
+impl std::fmt::Display for Counters {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Counters { model_vertices, vertices, indices, work, thin, .. } = self;
+        write!(
+            f,
+            "{model_vertices} vertices of models, {} of {work} blocks; {} triangles, {} thin",
+            vertices.saturating_sub(*model_vertices),
+            indices / 3,
+            thin / 3
+        )
+    }
+}
+
 /// Bytes of `Piece` in WGSL.
 pub const PIECE_BYTES: u64 = 64;
 /// Bytes of `WorkItem` in WGSL.

@@ -131,7 +131,7 @@ config! {
         lensing: bool = true, Switch, "", "bending of light; off draws flat space";
         light_delay: bool = true, Switch, "", "moving things are seen at their emission time";
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
-        exposure_max: f64 = 6.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
+        exposure_max: f64 = 3.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
         exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         bloom: f64 = 0.1, number(0.0, 1.0), "", "share of light spread by the lens";

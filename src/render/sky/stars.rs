@@ -7,7 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::render::Gpu;
-use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST, Camera, blackbody_table};
+use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST, Camera};
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
 use crate::render::types::Star;
@@ -104,13 +104,12 @@ pub struct Stars {
 }
 
 impl Stars {
-    /// Uploads the catalogue.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star]) -> Self {
+    /// Uploads the catalogue. `table` is [`blackbody_table`](crate::render::frame::blackbody_table).
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star], table: &[[f32; 4]]) -> Self {
         let device = &gpu.device;
         let (mut sorted, clusters) = arranged(stars);
-        let table = blackbody_table();
         for star in &mut sorted {
-            let rgb = blackbody::lookup(&table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.colour[0]);
+            let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.colour[0]);
             star.colour[1] = blackbody::luminance(rgb.map(f64::from)) as f32;
         }
         let catalogue = storage(gpu, "stars", &sorted);
