@@ -188,8 +188,7 @@ struct SeenStar {
 struct SkyCorner {
     /// x, y: place on the panorama; z: how much sky a pixel covers, in radians; w: 0 within the shadow, else 1.
     place: vec4<f32>,
-    /// Columns of the matrix from the panorama's colour to the seen one; w of the first two: normalised device coordinates.
-    red: vec4<f32>,
-    green: vec4<f32>,
-    blue: vec4<f32>,
+    /// The seen colours of its faintest and of its brightest parts; w: normalised device coordinates.
+    faint: vec4<f32>,
+    bright: vec4<f32>,
 }

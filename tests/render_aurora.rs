@@ -36,7 +36,7 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
 }
 
 fn surroundings() -> Surroundings {
-    Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![[0.0; 3]])] }
+    Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
 }
 
 /// Greens of a picture that stand out from red and blue.

@@ -24,7 +24,7 @@ fn renderer(size: [u32; 2]) -> Renderer {
     let surroundings = Surroundings {
         table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
         stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![[0.0; 3]])],
+        milky_way: vec![(1, 1, vec![0.0])],
     };
     Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
 }

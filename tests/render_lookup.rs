@@ -42,7 +42,7 @@ impl Bench {
         let surroundings = Surroundings {
             table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
             stars: Vec::new(),
-            milky_way: vec![(1, 1, vec![[0.0; 3]])],
+            milky_way: vec![(1, 1, vec![0.0])],
         };
         let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
         let ball = shapes::icosphere(80, Material::default());

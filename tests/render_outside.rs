@@ -74,7 +74,7 @@ fn nothing_that_is_seen_is_left_out() {
         let scene = scene::load(name).unwrap();
         let config = GameConfig::default();
         let table = Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ()));
-        let around = Surroundings { table, stars: Vec::new(), milky_way: vec![(1, 1, vec![[0.0; 3]])] };
+        let around = Surroundings { table, stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
         let mut renderer = Renderer::new(&GPU, &around, wgpu::TextureFormat::Rgba8UnormSrgb, size);
         let stage = Stage::new(&mut renderer, &scene, &config);
         // Thin images count layers, and leave out the backs of closed bodies by another rule.

@@ -20,7 +20,7 @@ fn surroundings() -> Surroundings {
     Surroundings {
         table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
         stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![[0.0; 3]])],
+        milky_way: vec![(1, 1, vec![0.0])],
     }
 }
 

@@ -6,6 +6,7 @@ use lensrunner::render::Gpu;
 use lensrunner::render::method::Method;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
+use lensrunner::scene::milky_way;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use std::sync::LazyLock;
@@ -98,6 +99,20 @@ fn the_sky_is_the_same_in_both_languages() {
     }
 }
 
+#[test]
+fn the_milky_way_has_its_colours_in_both_languages() {
+    let body = "
+    twin_out[id.x] = vec4<f32>(panorama_light(row.x, PANORAMA_FAINT, PANORAMA_BRIGHT), textureLoad(sky_slice, vec2<u32>(0u), 0).x);";
+    let tints = milky_way::tints();
+    let rows: Vec<[f32; 4]> = (0..=50).map(|k| [k as f32 / 50.0, 0.0, 0.0, 0.0]).collect();
+    for (row, got) in rows.iter().zip(run(Pass::Background, body, [&[], &[[1.0; 4]]], &rows, 1)) {
+        let want = milky_way::light(row[0] * row[0], &tints);
+        for c in 0..3 {
+            assert!(close(got[c], want[c], 1e-5), "{row:?}: {got:?} on the GPU, {want:?} in Rust, of {tints:?}");
+        }
+    }
+}
+
 /// The Milky Way lies among the stars as its file says: neither mirrored nor turned.
 #[test]
 fn the_panorama_is_the_same_in_both_languages() {
@@ -109,7 +124,7 @@ fn the_panorama_is_the_same_in_both_languages() {
     let rows: Vec<[f32; 4]> = directions.iter().map(|d| d.extend(0.0).to_array()).collect();
     let out = run(Pass::Background, body, [&[], &[[1.0; 4]]], &rows, 1);
     for (direction, got) in directions.iter().zip(out) {
-        let want = lensrunner::scene::milky_way::direction_to_uv(*direction);
+        let want = milky_way::direction_to_uv(*direction);
         let across = (got[0] - want.x).rem_euclid(1.0);
         assert!(across.min(1.0 - across) < 1e-5 && (got[1] - want.y).abs() < 1e-4, "{direction}: {got:?}, not {want}");
     }

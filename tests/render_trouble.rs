@@ -32,7 +32,7 @@ fn quiet() -> Settings {
 #[test]
 fn a_lost_device_is_an_error_in_words() {
     let gpu = Gpu::headless().expect("a driver");
-    let surroundings = Surroundings { table: bench().renderer.table().clone(), stars: Vec::new(), milky_way: vec![(1, 1, vec![[0.0; 3]])] };
+    let surroundings = Surroundings { table: bench().renderer.table().clone(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
     let mut renderer = Renderer::new(&gpu, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [16, 16]);
     gpu.device.destroy();
     let _ = gpu.device.poll(wgpu::PollType::Poll);

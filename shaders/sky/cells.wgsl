@@ -45,14 +45,13 @@ fn corner(@builtin(global_invocation_id) id: vec3<u32>) {
     let ndc = cell_ndc(vec2<f32>(f32(id.x % across), f32(id.x / across)));
     let view = sky_view(ndc);
     let flags = frame.switches.x;
-    // The shift is linear in the colour: its matrix, column by column.
-    var columns: array<vec3<f32>, 3>;
-    for (var k = 0u; k < 3u; k++) {
-        let unit = vec3<f32>(f32(k == 0u), f32(k == 1u), f32(k == 2u));
-        columns[k] = frame.light.z * shifted_colour(unit, view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
+    // The shift is linear in the colour, so it may come before the mixing.
+    var colours = array<vec3<f32>, 2>(PANORAMA_FAINT, PANORAMA_BRIGHT);
+    for (var k = 0u; k < 2u; k++) {
+        colours[k] = frame.light.z * shifted_colour(colours[k], view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
     }
-    corners[id.x] = SkyCorner(vec4<f32>(view.uv, view.size, select(0.0, 1.0, view.lit)), vec4<f32>(columns[0], ndc.x),
-        vec4<f32>(columns[1], ndc.y), vec4<f32>(columns[2], 0.0));
+    corners[id.x] = SkyCorner(vec4<f32>(view.uv, view.size, select(0.0, 1.0, view.lit)), vec4<f32>(colours[0], ndc.x),
+        vec4<f32>(colours[1], ndc.y));
 }
 
 /// One thread per cell: compares the middles of its sides and its centre with what interpolation makes of the corners.

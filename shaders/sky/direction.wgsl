@@ -17,6 +17,15 @@ fn panorama_place(icrs: vec3<f32>) -> vec2<f32> {
     return vec2<f32>(fract(atan2(icrs.y, icrs.x) / (2.0 * PI)), acos(clamp(icrs.z, -1.0, 1.0)) / PI);
 }
 
+/// Linear RGB of luminance 1 of the faintest and of the brightest parts of the Milky Way: black bodies of 7,200 and 4,700 K.
+const PANORAMA_FAINT: vec3<f32> = vec3<f32>(0.9916903, 0.98867637, 1.1366854);
+const PANORAMA_BRIGHT: vec3<f32> = vec3<f32>(1.25817, 0.9537894, 0.6971495);
+
+/// The light of a part of the Milky Way, from the root of its brightness and the colours of its faintest and of its brightest parts.
+fn panorama_light(root: f32, faint: vec3<f32>, bright: vec3<f32>) -> vec3<f32> {
+    return (root * root) * mix(faint, bright, vec3<f32>(root));
+}
+
 /// The sky at a place of the screen (normalised device coordinates).
 fn sky_view(ndc: vec2<f32>) -> SkyView {
     let pixel = normalize(vec3<f32>(ndc / frame.projection.xy, -1.0));

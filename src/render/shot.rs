@@ -67,7 +67,7 @@ pub fn surroundings() -> Surroundings {
     Surroundings {
         table: Arc::new(table),
         stars: stars.iter().map(star).collect(),
-        milky_way: milky_way.levels.iter().map(|level| (level.width as u32, level.height as u32, level.light())).collect(),
+        milky_way: milky_way.levels.iter().map(|level| (level.width as u32, level.height as u32, level.brightness.clone())).collect(),
     }
 }
 

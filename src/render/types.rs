@@ -188,7 +188,7 @@ pub const ARGUMENTS_OPAQUE: u64 = 32;
 /// Offset of the draw of thin triangles.
 pub const ARGUMENTS_THIN: u64 = 64;
 /// Bytes of `SkyCorner` in WGSL.
-pub const SKY_CORNER_BYTES: u64 = 64;
+pub const SKY_CORNER_BYTES: u64 = 48;
 
 /// Arguments of the two draws of the sky's cells, interpolated and exact, and the grid; `CellDraws` of WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]

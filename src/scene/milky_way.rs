@@ -102,21 +102,10 @@ impl MilkyWay {
 }
 
 impl Level {
-    /// Every pixel as the colour of the black body that its brightness goes with: linear RGB, luminance 1 being [`PEAK`].
+    /// Every pixel as linear RGB, luminance 1 being [`PEAK`].
     pub fn light(&self) -> Vec<[f32; 3]> {
-        let colour = |brightness: f32| {
-            let rgb = blackbody::blackbody_rgb(f64::from(temperature(brightness)));
-            let scale = brightness / blackbody::luminance(rgb).max(f64::MIN_POSITIVE) as f32;
-            rgb.map(|channel| channel as f32 * scale)
-        };
-        // Eight bits make few different brightnesses on the finest level; the colour is worked out once for each of 1,024.
-        let ramp: Vec<[f32; 3]> = (0..=1024).map(|k| colour(k as f32 / 1024.0)).collect();
-        let pixels = self.brightness.iter().map(|&brightness| {
-            let x = brightness.clamp(0.0, 1.0) * 1024.0;
-            let i = (x as usize).min(1023);
-            std::array::from_fn(|c| ramp[i][c] + (x - i as f32) * (ramp[i + 1][c] - ramp[i][c]))
-        });
-        pixels.collect()
+        let tints = tints();
+        self.brightness.iter().map(|&brightness| light(brightness, &tints)).collect()
     }
 
     /// Half as wide and high, each pixel the mean over the solid angle of the four it replaces; the last step to 1 × 1 joins two.
@@ -154,8 +143,20 @@ pub fn uv_to_direction(uv: Vec2) -> Vec3 {
     Vec3::new(dec.cos() * ra.cos(), dec.cos() * ra.sin(), dec.sin())
 }
 
-/// The temperature, in K, of the black body that has the colour of a part of this brightness (1 is the brightest): the faint outer
-/// parts are as white as young stars, the bulge is yellow. So it can be shifted like any star's light.
-pub fn temperature(brightness: f32) -> f32 {
-    7200.0 - 2500.0 * brightness.clamp(0.0, 1.0).sqrt()
+/// Temperatures, in K, of the black bodies that have the colours of the faintest and of the brightest parts: the outer parts are as white as
+/// young stars, the bulge is yellow.
+pub const TEMPERATURES: [f64; 2] = [7200.0, 4700.0];
+
+/// Linear RGB of luminance 1 of the faintest and of the brightest parts.
+pub fn tints() -> [[f32; 3]; 2] {
+    TEMPERATURES.map(|temperature| {
+        let rgb = blackbody::blackbody_rgb(temperature);
+        rgb.map(|channel| (channel / blackbody::luminance(rgb)) as f32)
+    })
+}
+
+/// Linear RGB of a part of this brightness: its tint goes from the faintest to the brightest as the root of the brightness.
+pub fn light(brightness: f32, [faint, bright]: &[[f32; 3]; 2]) -> [f32; 3] {
+    let root = brightness.clamp(0.0, 1.0).sqrt();
+    std::array::from_fn(|c| brightness * (faint[c] + root * (bright[c] - faint[c])))
 }

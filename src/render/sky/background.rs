@@ -29,8 +29,9 @@ pub struct Background {
     grid: [u32; 2],
 }
 
-/// An equirectangular picture of linear light with its mip chain: each level's width, height and RGB rows from the north pole.
-pub type Panorama = Vec<(u32, u32, Vec<[f32; 3]>)>;
+/// An equirectangular picture of the Milky Way's brightness, 1 being its peak, with its mip chain: each level's width, height and rows from the north
+/// pole.
+pub type Panorama = Vec<(u32, u32, Vec<f32>)>;
 
 impl Background {
     /// Uploads the Milky Way.
@@ -43,13 +44,13 @@ impl Background {
             mip_level_count: milky_way.len().max(1) as u32,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::Rgba16Float,
+            format: wgpu::TextureFormat::R8Unorm,
             usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
             view_formats: &[],
         });
         for (mip, (width, height, pixels)) in milky_way.iter().enumerate() {
-            let halves: Vec<[u16; 4]> =
-                pixels.iter().map(|rgb| [half_bits(rgb[0]), half_bits(rgb[1]), half_bits(rgb[2]), half_bits(1.0)]).collect();
+            // The root, so that eight bits suffice for the faint parts.
+            let roots: Vec<u8> = pixels.iter().map(|brightness| (255.0 * brightness.clamp(0.0, 1.0).sqrt()).round() as u8).collect();
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo {
                     texture: &texture,
@@ -57,8 +58,8 @@ impl Background {
                     origin: wgpu::Origin3d::ZERO,
                     aspect: wgpu::TextureAspect::All,
                 },
-                bytemuck::cast_slice(&halves),
-                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
+                &roots,
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(*width), rows_per_image: None },
                 wgpu::Extent3d { width: *width, height: *height, depth_or_array_layers: 1 },
             );
         }
@@ -137,8 +138,4 @@ impl Background {
         pass.set_pipeline(&self.exact);
         pass.draw_indexed_indirect(&self.draws, offset_of!(CellDraws, exact) as u64);
     }
-}
-
-fn half_bits(value: f32) -> u16 {
-    half::f16::from_f32(value).to_bits()
 }
