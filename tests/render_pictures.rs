@@ -17,11 +17,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use crate::render_shaders::GPU;
 
 fn surroundings() -> Surroundings {
-    Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    }
+    Surroundings { table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
 }
 
 fn renderer(size: [u32; 2]) -> Renderer {
@@ -214,4 +210,18 @@ fn the_ring_is_where_the_judge_sees_it() {
     }
     assert!(checked > 1500 && hits > 100, "{checked} pixels, {hits} hits");
     assert_eq!(wrong, 0, "{wrong} of {checked} pixels differ");
+}
+
+/// The sky's stars and the disk are exposed alike, however fine the picture: a star's spot is brighter and smaller in a finer one.
+#[test]
+fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
+    use lensrunner::render::shot::{Request, shot};
+    let mean = |size: [u32; 2]| {
+        let request = Request { scene: "disk", size, at: 0.0, layers: false };
+        let picture = shot(&request, &GameConfig::default()).unwrap();
+        // Squares stand for light well enough to compare two pictures of the same.
+        picture.developed.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>() / picture.developed.len() as f64
+    };
+    let [coarse, fine] = [mean([320, 180]), mean([1280, 720])];
+    assert!((fine / coarse - 1.0).abs() < 0.1, "mean squares {coarse:.1} and {fine:.1}");
 }

@@ -37,6 +37,10 @@ fn theta_between(a: f32, b: f32, t: f32) -> f32 {
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
+/// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles. What is thinner is
+/// drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots.
+const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
+
 /// The vertex of `row` at θ.
 fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let circle = circles[row];
@@ -101,7 +105,8 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let along_orbit = disk.sideways.xyz * c - disk.towards.xyz * s;
     let tangent = (side * (c * disk.sideways.w) - n * reach) * turn;
     let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
-    let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
+    let own = select(smoothstep(MEAN.x, MEAN.y, thin.y), 1.0, order == 1u);
+    let momentum = outward * (circle.motion.x * own) + along_orbit * mix(circle.place.w, circle.motion.y, own);
     let gamma = sqrt(1.0 + dot(momentum, momentum));
     let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
     let m = frame.camera_from_rain;
@@ -113,7 +118,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let ln_g = log(g);
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = select(1.0, disk_slant(cosine, ray.delay, circle.motion.z), disk.room.y == 0u);
-    vertex.gas = vec4<f32>(turns, circle.motion.w, circle.gas.z + ln_g, circle.gas.w * slant);
+    vertex.gas = vec4<f32>(turns, circle.motion.w, mix(circle.place.y, circle.gas.z, own) + ln_g, mix(circle.place.z, circle.gas.w, own) * slant);
     vertex.more = vec4<f32>(ln_g, cosine, thin);
     return vertex;
 }

@@ -31,7 +31,8 @@ struct Circle {
     gas: vec4<f32>,
     /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
     motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, differenced in f64; yzw unused.
+    /// x: radius·√(1 − h²) − L, differenced in f64; of the gas that stands for the whole width where the image is thinner than a pixel, y: ln of the
+    /// temperature in K, z: optical depth, w: momentum along the rotation.
     place: vec4<f32>,
     /// x: image order; y, z: innermost and outermost row of that order; w unused.
     rows: vec4<u32>,

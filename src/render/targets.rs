@@ -3,6 +3,10 @@
 use super::geometry::LAYERS_FORMAT;
 use super::layout::{DEPTH_FORMAT, HDR_FORMAT};
 
+/// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of about the
+/// same angle it counts the same at every resolution.
+const METERED_WIDTH: u32 = 80;
+
 /// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all
 /// the others, for a glow of two pixels.
 const BLOOM_LEVELS: usize = 5;
@@ -67,9 +71,10 @@ impl Targets {
         }
     }
 
-    /// The level of the bloom that is metered: an eighth of the picture, or the smallest there is.
+    /// The level of the bloom that is metered: the first that is no more than [`METERED_WIDTH`] texels wide, or the smallest there is.
     pub fn meter_level(&self) -> usize {
-        1.min(self.bloom.len() - 1)
+        let wide = |level: &usize| self.size[0] >> (2 + level) > METERED_WIDTH;
+        (0..self.bloom.len() - 1).find(|level| !wide(level)).unwrap_or(self.bloom.len() - 1)
     }
 
     /// The targets of the layers.

@@ -70,9 +70,11 @@ impl DiskView {
                 continue;
             }
             let first = circles.len() as u32;
-            let (rows, pairs) = rows(disk, camera, slice, width, order);
+            let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
+            let (rows, pairs) = rows(disk, camera, &seen, width);
             let last = first + rows.len() as u32 - 1;
-            circles.extend(rows.into_iter().map(|r| circle(disk, r, level, l, [order, first, last, 0])));
+            let mean = if order == 1 { disk.gas.extent()[0] } else { mean_radius(&seen) };
+            circles.extend(rows.into_iter().map(|r| circle(disk, r, mean, level, l, [order, first, last, 0])));
             rings.extend(pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
         }
 
@@ -105,13 +107,12 @@ impl DiskView {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
+fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
     let circles = &disk.arcs.circles;
     if disk.config.gap > 0.0 {
         return (circles.clone(), disk.arcs.rings.clone());
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-    let seen: Vec<SeenCircle> = circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
     let brightest = seen.iter().map(|circle| circle.light).fold(1e-300, f64::max);
     let straight = |a: usize, b: usize| {
         // Middle and quarters.
@@ -129,6 +130,23 @@ fn rows(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> 
     }
     let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
     (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
+}
+
+/// The radius where the gas is as bright as the whole image of an order is in the mean over its width: what stands for it where it is thinner than
+/// a pixel. It is looked for outside the brightest circle, where most of the width is.
+fn mean_radius(seen: &[SeenCircle]) -> f64 {
+    let (mut light, mut width) = (0.0, 0.0);
+    for pair in seen.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]];
+        let angles = a.places.iter().zip(&b.places).map(|(a, b)| a.angle_to(*b).abs()).filter(|angle| angle.is_finite());
+        let across: f64 = angles.sum();
+        light += 0.5 * (a.light + b.light) * across;
+        width += across;
+    }
+    let mean = light / width.max(1e-300);
+    let brightest = (0..seen.len()).fold(0, |best, k| if seen[k].light > seen[best].light { k } else { best });
+    let at = seen[brightest..].iter().find(|circle| circle.light <= mean).unwrap_or(&seen[seen.len() - 1]);
+    at.radius
 }
 
 /// The width of the image of an order where it is widest, in pixels.
@@ -211,14 +229,14 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
 }
 
-fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
+fn circle(disk: &Disk, r: f64, mean: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
     let radial = &disk.gas.radial;
     let [outward, along] = radial.momentum(r);
     let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
     Circle {
         gas: [r as f32, radial.lag(r) as f32, radial.temperature(r).ln() as f32, radial.depth(r) as f32],
         motion: [outward as f32, along as f32, disk.gas.half_height(r) as f32, pattern as f32],
-        place: [(r * level - l) as f32, 0.0, 0.0, 0.0],
+        place: [(r * level - l) as f32, radial.temperature(mean).ln() as f32, radial.depth(mean) as f32, radial.momentum(mean)[1] as f32],
         rows,
     }
 }
