@@ -362,3 +362,44 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     println!("without streaks: {error:?}");
     assert!(error.psnr > 40.0, "PSNR is {} dB", error.psnr);
 }
+
+/// With straight light the disk is the annulus that the eye's straight lines meet, whatever it is otherwise drawn from, and the hole hides nothing.
+#[test]
+fn without_lensing_the_disk_is_a_flat_annulus() {
+    use lensrunner::render::method::Method;
+    let size = [160, 90];
+    let disk = a_disk();
+    let [_, outer] = disk.gas.extent();
+    let mut renderer = renderer(size);
+    let camera = camera(24.0, 75.0, 90f64.to_radians());
+    renderer.set_disk(Some(disk.clone()));
+    let straight = Settings { method: Method::Flat, ..settings() };
+    let mut picture = |settings| {
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings };
+        renderer.picture(&input, false).unwrap().linear
+    };
+    let bent = picture(settings());
+    let light = picture(straight);
+    let focal = 0.5 * f64::from(size[0]) / (0.5 * camera.field_of_view).tan();
+    let (mut gas, mut dark) = (0, 0);
+    for (k, pixel) in light.iter().enumerate() {
+        let [x, y] = [k as u32 % size[0], k as u32 / size[0]].map(|c| f64::from(c) + 0.5);
+        let eye = DVec3::new(x - 0.5 * f64::from(size[0]), 0.5 * f64::from(size[1]) - y, -focal);
+        // The camera hovers, so its straight lines are those of the hovering observers' frame.
+        let look = camera.attitude * eye;
+        let share = -camera.position.z / look.z;
+        let r = if share > 0.0 { (camera.position + look * share).length() } else { f64::INFINITY };
+        let lit = pixel[0] + pixel[1] + pixel[2] > 1e-4;
+        // Pixels at the edges are left out, and the faint gas there.
+        if (3.5..0.6 * outer).contains(&r) {
+            gas += 1;
+            assert!(lit, "dark at {x}, {y}, r = {r:.2}");
+        } else if !(1.2..1.1 * outer).contains(&r) {
+            dark += 1;
+            assert!(!lit, "lit at {x}, {y}, r = {r:.2}: {pixel:?}");
+        }
+    }
+    assert!(gas > 500 && dark > 500, "{gas} pixels of gas, {dark} without");
+    // And back: bent light after straight.
+    assert_eq!(picture(settings()), bent);
+}

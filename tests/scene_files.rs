@@ -100,6 +100,7 @@ fn complaints_name_file_line_key_and_range() {
         ("[camera]\nposition = [0.0, 0.0, 15.0]\nfov = 200\n", ["some/scene.toml:3:", "camera.fov", "1 to 170", "degrees"]),
         ("\n[camera]\nposition = [0.0, 0.0, 15.0]\nzoom = 3\n", ["some/scene.toml:4:", "camera.zoom", "unknown field", "fov"]),
         ("[camera]\nposition = [0.0, 0.0]\n", ["some/scene.toml:2:", "camera.position", "length", "3"]),
+        ("[camera]\nposition = [0.0, 0.0, 15.0, 2.0]\n", ["some/scene.toml:2:", "camera.position", "length 4", "3"]),
         ("[camera]\nposition = [0.0, 0.0, 1e9]\n", ["some/scene.toml:2:", "camera.position", "10000", "r_s"]),
         ("[camera]\nposition = [nan, 0.0, 5.0]\n", ["some/scene.toml:2:", "camera.position", "finite", "NaN"]),
         ("[[prop]]\nmodel = \"sphere\"\nposition = [0.0, 0.0, 0.5]\n", ["some/scene.toml:3:", "prop[0].position", "0.5", "1.001"]),

@@ -10,10 +10,17 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
         seen.more.zw);
 }
 
-/// The part of a pixel that a thin image covers: a box of the least width, `d` pixels from its middle.
+/// The part of a pixel that a thin image covers, `d` pixels from its middle: its share of a tent two least widths wide. A box would leave a line that is
+/// thinner than a pixel in steps of whole pixels, which along a diagonal are beads.
 fn coverage(d: f32, half_width: f32) -> f32 {
-    let reach = 0.5 * max(disk.gas.w, 0.05);
-    return clamp((min(half_width, d + reach) - max(-half_width, d - reach)) / (2.0 * reach), 0.0, 1.0);
+    let width = max(disk.gas.w, 0.05);
+    return tent_below((d + half_width) / width) - tent_below((d - half_width) / width);
+}
+
+/// The area of the tent 1 − |x| below x.
+fn tent_below(x: f32) -> f32 {
+    let t = 1.0 - min(abs(x), 1.0);
+    return select(0.5 * t * t, 1.0 - 0.5 * t * t, x > 0.0);
 }
 
 /// From far: the slant is in the vertices. Order 1 is wide.

@@ -85,7 +85,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         let pixel = frame.size.z * camera_doppler_of(seen_at);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + 0.5 * disk.gas.w + SOFT;
+        let drawn = half + disk.gas.w + SOFT;
         let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
         thin = vec2<f32>(d, half);
         let moved = middle + d * pixel;

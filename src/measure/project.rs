@@ -138,7 +138,8 @@ struct Row<'a> {
 impl Row<'_> {
     fn answer(&self, method: &dyn Projector, request: Request) -> String {
         let mut line = self.texts.join(",");
-        let sight = method.project(self.query, request.order, request.branch);
+        // Integration with too few steps may end anywhere; light that would arrive before it left is none.
+        let sight = method.project(self.query, request.order, request.branch).filter(|sight| sight.delay > 0.0);
         let psi = sight.and_then(|sight| match request.frame {
             Frame::Rain => Some(sight.psi_rain),
             Frame::Static => sight.psi_static,

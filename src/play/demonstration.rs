@@ -204,7 +204,7 @@ impl Writer {
         // Few frames wait, so that memory stays small if the disk is slow.
         let (queue, pictures) = sync_channel::<(u32, Vec<u8>)>(8);
         let thread = std::thread::spawn(move || {
-            let mut sheet = Sheet::new(size);
+            let mut sheet = Sheet::new(size, frames);
             let chosen = Sheet::chosen(frames);
             for (index, rgba) in pictures {
                 for (place, _) in chosen.iter().enumerate().filter(|(_, frame)| **frame == index) {

@@ -29,8 +29,8 @@ const TRUE: Color32 = Color32::from_rgb(255, 176, 72);
 const OWN: Color32 = Color32::from_rgb(150, 240, 150);
 /// Danger.
 const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
-/// Behind text, so that it stays readable before stars.
-const SHADE: Color32 = Color32::from_rgba_premultiplied(3, 6, 11, 175);
+/// Behind text, so that it stays readable before stars and before the bright disk.
+const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 225);
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
@@ -51,6 +51,7 @@ pub fn draw(
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
+    lay_in(context, &painter);
     if let Some(words) = left_out(&session.config) {
         text(&painter, pos2(rect.center().x, rect.bottom() - 24.0), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
@@ -68,6 +69,22 @@ pub fn draw(
     }
     dials(&painter, rect, &session, &player, &panel);
     Ok(())
+}
+
+/// Sizes of all text of the HUD, in points.
+const SIZES: [f32; 8] = [11.0, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
+
+/// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what is
+/// written with it, and a digit that is seen for the first time would be missing meanwhile.
+fn lay_in(context: &egui::Context, painter: &Painter) {
+    if context.global_style().visuals.text_options.subpixel_binning {
+        context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
+    }
+    let letters: String = (' '..='~').chain("—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
+    for size in SIZES {
+        // Kept by the fonts as long as it is asked for.
+        let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
+    }
 }
 
 /// What is left out of the picture's physics, for the player to know.
@@ -138,7 +155,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel:
             ("FROM THE HOLE  r", 11.0, FAINT),
             (&format!("{:.2} r_s", read.radius), 19.0, near),
             (&scale.kilometres(read.radius), 13.0, TEXT),
-            (&format!("camera L  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
+            (&format!("camera  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
         ],
     );
 

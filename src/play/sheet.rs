@@ -1,11 +1,12 @@
 //! The contact sheet: frames of a flight side by side.
 
-/// Frames across and down.
+/// Frames across and down, at most.
 pub const GRID: [u32; 2] = [4, 4];
 
 /// A sheet being filled with pictures of `frame` pixels, each brought down to half its size.
 #[derive(Clone, Debug)]
 pub struct Sheet {
+    grid: [u32; 2],
     cell: [u32; 2],
     pixels: Vec<u8>,
 }
@@ -14,10 +15,11 @@ pub struct Sheet {
 const GAP: u32 = 4;
 
 impl Sheet {
-    /// An empty sheet for pictures of this size.
-    pub fn new(frame: [u32; 2]) -> Sheet {
+    /// An empty sheet for the pictures that are chosen of `frames` of this size.
+    pub fn new(frame: [u32; 2], frames: u32) -> Sheet {
         let cell = frame.map(|side| (side / 2).max(1));
-        let mut sheet = Sheet { cell, pixels: Vec::new() };
+        let across = frames.clamp(1, GRID[0]);
+        let mut sheet = Sheet { grid: [across, frames.div_ceil(across).clamp(1, GRID[1])], cell, pixels: Vec::new() };
         let [width, height] = sheet.size();
         sheet.pixels = vec![18; (width * height * 3) as usize];
         sheet
@@ -25,7 +27,7 @@ impl Sheet {
 
     /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
-        std::array::from_fn(|k| GRID[k] * (self.cell[k] + GAP) + GAP)
+        std::array::from_fn(|k| self.grid[k] * (self.cell[k] + GAP) + GAP)
     }
 
     /// Its pixels, RGB.
@@ -42,7 +44,7 @@ impl Sheet {
     /// Puts a picture (RGBA, `frame` pixels wide and high) into the place `place`.
     pub fn put(&mut self, place: u32, frame: [u32; 2], rgba: &[u8]) {
         let [width, _] = self.size();
-        let corner = [GAP + (place % GRID[0]) * (self.cell[0] + GAP), GAP + (place / GRID[0]) * (self.cell[1] + GAP)];
+        let corner = [GAP + (place % self.grid[0]) * (self.cell[0] + GAP), GAP + (place / self.grid[0]) * (self.cell[1] + GAP)];
         let step = |side: usize, k: u32| (k * 2).min(frame[side] - 1);
         for y in 0..self.cell[1] {
             for x in 0..self.cell[0] {
@@ -72,8 +74,16 @@ mod tests {
     }
 
     #[test]
+    fn few_pictures_make_a_small_sheet() {
+        // Cells of 4 × 2 with gaps of 4.
+        assert_eq!(Sheet::new([8, 4], 3).size(), [3 * 8 + 4, 6 + 4]);
+        assert_eq!(Sheet::new([8, 4], 12).size(), [4 * 8 + 4, 3 * 6 + 4]);
+        assert_eq!(Sheet::new([8, 4], 1000).size(), [4 * 8 + 4, 4 * 6 + 4]);
+    }
+
+    #[test]
     fn a_picture_lands_in_its_place() {
-        let mut sheet = Sheet::new([8, 4]);
+        let mut sheet = Sheet::new([8, 4], 16);
         sheet.put(5, [8, 4], &[200; 8 * 4 * 4]);
         let [width, _] = sheet.size();
         let at = |x: u32, y: u32| sheet.pixels()[((y * width + x) * 3) as usize];

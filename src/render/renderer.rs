@@ -229,7 +229,7 @@ impl Renderer {
             self.slice = Some(slice);
         }
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
-            disk.prepare(&self.gpu, input, slice, self.targets.size[0]);
+            disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());

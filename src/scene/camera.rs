@@ -24,6 +24,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::aurora::dipole::PLANET_RADIUS;
+use super::document::exactly_or_none;
 use super::planet::Planet;
 use super::ship::{Fault, MAX_START_MOMENTUM, ShipSpec, fault, in_range};
 use crate::spacetime::frames;
@@ -101,12 +102,18 @@ pub fn static_momentum(position: DVec3) -> Option<DVec3> {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraEntry {
+    #[serde(default, deserialize_with = "exactly_or_none")]
     position: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     momentum: Option<Spanned<[f64; 3]>>,
     follow: Option<Spanned<String>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     offset: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     above: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     look: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     up: Option<Spanned<[f64; 3]>>,
     fov: Option<Spanned<f64>>,
 }

@@ -3,12 +3,36 @@
 use std::ops::Range;
 use std::path::Path;
 
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::Complaint;
 use super::ship::Fault;
+
+/// Reads a list of exactly `N` values; the TOML reader by itself drops what is too many.
+pub fn exactly<'de, D, T, const N: usize>(reader: D) -> Result<Spanned<[T; N]>, D::Error>
+where
+    D: serde::Deserializer<'de>,
+    T: serde::Deserialize<'de>,
+{
+    let list = Spanned::<Vec<T>>::deserialize(reader)?;
+    let span = list.span();
+    let values: Result<[T; N], Vec<T>> = list.into_inner().try_into();
+    values
+        .map(|values| Spanned::new(span, values))
+        .map_err(|list| serde::de::Error::invalid_length(list.len(), &format!("an array of length {N}").as_str()))
+}
+
+/// As [`exactly`], for a key that may be absent.
+pub fn exactly_or_none<'de, D, T, const N: usize>(reader: D) -> Result<Option<Spanned<[T; N]>>, D::Error>
+where
+    D: serde::Deserializer<'de>,
+    T: serde::Deserialize<'de>,
+{
+    exactly(reader).map(Some)
+}
 
 /// Parses `text`, which came from `file`, into a `T`. Unknown keys are errors if `T` denies them.
 pub fn parse<T: DeserializeOwned>(file: &Path, text: &str) -> Result<T, Complaint> {

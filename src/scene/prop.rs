@@ -22,6 +22,7 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::document::exactly_or_none;
 use super::model::{Material, Model};
 use super::shapes::{self, Anchor};
 use super::ship::{Fault, fault, in_range};
@@ -90,15 +91,20 @@ enum TextureName {
 pub struct PropEntry {
     name: Option<String>,
     model: Spanned<String>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     position: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     attitude: Option<Spanned<[f64; 4]>>,
     size: Option<Spanned<f64>>,
     triangles: Option<Spanned<u32>>,
     anchor: Option<Spanned<Anchor>>,
     texture: Option<TextureName>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     colour: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     emissive: Option<Spanned<[f64; 3]>>,
     temperature: Option<Spanned<f64>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     count: Option<Spanned<[u32; 3]>>,
     spacing: Option<Spanned<f64>>,
     clearance: Option<Spanned<f64>>,

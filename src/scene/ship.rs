@@ -28,6 +28,7 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::document::{exactly, exactly_or_none};
 use super::setting::range_text;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
@@ -117,9 +118,12 @@ impl ShipSpec {
 #[serde(deny_unknown_fields)]
 pub struct ShipEntry {
     name: Spanned<String>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     position: Option<Spanned<[f64; 3]>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     momentum: Option<Spanned<[f64; 3]>>,
     orbit: Option<Spanned<OrbitEntry>>,
+    #[serde(default, deserialize_with = "exactly_or_none")]
     attitude: Option<Spanned<[f64; 4]>>,
     #[serde(default)]
     ai: Ai,
@@ -149,6 +153,7 @@ struct OrbitEntry {
 struct BurnEntry {
     from: Spanned<f64>,
     until: Spanned<f64>,
+    #[serde(deserialize_with = "exactly")]
     acceleration: Spanned<[f64; 3]>,
 }
 

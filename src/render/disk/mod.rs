@@ -94,6 +94,10 @@ pub struct DiskPasses {
     gas_group: wgpu::BindGroup,
     arcs: ArcPass,
     representation: Representation,
+    /// What stands for it while light is drawn straight: arcs and sprites know bent light alone. Made when first asked for.
+    straight: Option<Box<PolygonPass>>,
+    /// Whether light is drawn straight.
+    is_straight: bool,
 }
 
 impl DiskPasses {
@@ -113,7 +117,9 @@ impl DiskPasses {
         ];
         let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
         let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);
-        let mut passes = DiskPasses { disk: disk.clone(), frame, gas_layout, gas_group, arcs, representation: Representation::Arcs };
+        let representation = Representation::Arcs;
+        let mut passes =
+            DiskPasses { disk: disk.clone(), frame, gas_layout, gas_group, arcs, representation, straight: None, is_straight: false };
         passes.set(gpu, frame_layout, disk);
         passes
     }
@@ -126,6 +132,7 @@ impl DiskPasses {
             "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.frame, &radial(), &disk)),
             _ => Representation::Arcs,
         };
+        self.straight = None;
         self.disk = disk;
     }
 
@@ -140,9 +147,17 @@ impl DiskPasses {
     }
 
     /// Uploads what the frame needs.
-    pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, slice: &Slice, width: u32) {
+    pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, slice: &Slice, width: u32) {
         let mut view = DiskView::new(&self.disk, input, slice, width);
+        self.is_straight = !input.settings.method.bends();
+        if self.is_straight && self.straight.is_none() {
+            let radial = storage(gpu, "radial", &self.disk.radial_table());
+            let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk);
+            polygons.set_method(gpu, frame_layout, input.settings.method, input.camera.radius() < 1.0);
+            self.straight = Some(Box::new(polygons));
+        }
         match &mut self.representation {
+            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input)),
             Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
             Representation::Polygons(polygons) => polygons.prepare(gpu, input),
             Representation::Sprites(sprites) => sprites.prepare(gpu),
@@ -153,6 +168,7 @@ impl DiskPasses {
     /// The stages of compute.
     pub fn compute(&self, pass: &mut wgpu::ComputePass) {
         match &self.representation {
+            _ if self.is_straight => self.straight.iter().for_each(|polygons| polygons.compute(pass)),
             Representation::Arcs => self.arcs.compute(pass),
             Representation::Polygons(polygons) => polygons.compute(pass),
             Representation::Sprites(sprites) => sprites.compute(pass),
@@ -162,6 +178,7 @@ impl DiskPasses {
     /// The stages whose size the first ones decide; in a pass of their own.
     pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
         match &self.representation {
+            _ if self.is_straight => self.straight.iter().for_each(|polygons| polygons.compute_rest(pass)),
             Representation::Arcs => self.arcs.compute_rest(pass),
             Representation::Polygons(polygons) => polygons.compute_rest(pass),
             Representation::Sprites(_) => {}
@@ -172,6 +189,7 @@ impl DiskPasses {
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
         pass.set_bind_group(2, &self.gas_group, &[]);
         match &self.representation {
+            _ if self.is_straight => self.straight.iter().for_each(|polygons| polygons.draw(pass)),
             Representation::Arcs => self.arcs.draw(pass),
             Representation::Polygons(polygons) => polygons.draw(pass),
             Representation::Sprites(sprites) => sprites.draw(pass),

@@ -6,6 +6,7 @@ use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
 use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
 use crate::render::placements::Placed;
 use crate::render::shaders::Pass;
@@ -48,11 +49,16 @@ impl PolygonPass {
         PolygonPass { geometry: Geometry::new(device, frame_layout), models, range, seen_layout, draw, radial, group: None }
     }
 
+    /// Compiles the stages for another method of projection.
+    pub fn set_method(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, method: Method, inside: bool) {
+        self.geometry.set_method(&gpu.device, frame_layout, method, inside);
+    }
+
     /// Uploads what the frame needs.
     pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput) {
         let p = -input.camera.position;
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let placed: Vec<Placed> = (1..=input.settings.orders.min(3))
+        let placed: Vec<Placed> = (1..=input.settings.orders.min(input.settings.method.orders()).min(3))
             .map(|order| {
                 let placement = Placement {
                     offset: [p.x as f32, p.y as f32, p.z as f32, 0.0],
