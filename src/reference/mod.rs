@@ -18,6 +18,7 @@ pub mod picture;
 pub mod ray;
 pub mod scenes;
 pub mod shoot;
+mod taylor;
 pub mod thin_disk;
 pub mod trace;
 
