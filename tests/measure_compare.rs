@@ -31,7 +31,7 @@ fn scene(text: &str) -> Case {
 }
 
 fn trace(case: &Case) -> Picture {
-    case.trace(&Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ())
+    case.trace(&Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ())
 }
 
 fn verdict(case: &Case, judge: &Picture, frame: &Frame) -> Verdict {
@@ -218,7 +218,7 @@ milky_way = false
     }
     let now = Worldline::at(&case.histories[0], 0.0);
     let still = Still(now);
-    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ());
+    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ());
     let found = faults(&case, &judge, &Frame::of(&broken, &case));
     assert!(found.iter().any(|fault| fault.contains("quarry order 1")), "{found:?}");
 }
@@ -239,7 +239,7 @@ aurora = \"none\"
     let mut config = GameConfig::default();
     config.render.lensing = false;
     let case = Case::new(scene, config, 0.0, [160, 90]);
-    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
+    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let pixels: Vec<usize> = (0..picture.layers.len()).filter(|&i| picture.layers[i].object == 1).collect();
     let planet = case.scene.planet.unwrap();
     // Straight light: the emission time by iteration, which converges as the planet is slow.

@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::taylor::{Four, FourSeries, four_series, series};
+use super::taylor::series;
 
 pub use super::taylor::MAX_ORDER;
 
@@ -53,9 +53,9 @@ pub struct Segment {
     pub start: f64,
     /// How much delay it covers, in r_s/c.
     pub length: f64,
-    order: usize,
-    x: Series,
-    p: Series,
+    pub(super) order: usize,
+    pub(super) x: Series,
+    pub(super) p: Series,
 }
 
 impl Segment {
@@ -64,33 +64,8 @@ impl Segment {
         let order = order_for(tolerance);
         let (mut x, mut p) = ([[0.0; 2]; MAX_ORDER + 1], [[0.0; 2]; MAX_ORDER + 1]);
         series(state.position.to_array(), state.momentum.to_array(), order, &mut x, &mut p);
-        Segment::cut(start, &state, order, tolerance, x.map(DVec2::from_array), p.map(DVec2::from_array))
-    }
-
-    /// Four steps at once, each of its own length: the same bits as four calls of [`Segment::step`].
-    pub fn step_four(starts: [f64; 4], states: &[State; 4], tolerance: f64) -> [Segment; 4] {
-        let order = order_for(tolerance);
-        let mut four = Box::new(FourSeries::default());
-        four_series(states, order, &mut four);
-        std::array::from_fn(|lane| {
-            let of = |series: &[[Four; 2]; MAX_ORDER + 1]| series.map(|[x, y]| DVec2::new(x.0[lane], y.0[lane]));
-            Segment::cut(starts[lane], &states[lane], order, tolerance, of(&four.x), of(&four.p))
-        })
-    }
-
-    /// The step with these coefficients, as long as the tolerance lets it be.
-    fn cut(start: f64, state: &State, order: usize, tolerance: f64, x: Series, p: Series) -> Segment {
-        let r = state.position.length();
-        let w = state.momentum.length();
-        // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
-        let mut length: f64 = r / (1.0 + 1.0 / r.sqrt());
-        for n in [order - 1, order] {
-            let size = (x[n].abs().max_element() / r).max(p[n].abs().max_element() / w);
-            if size > 0.0 {
-                length = length.min((tolerance / size).powf(1.0 / n as f64));
-            }
-        }
-        Segment { start, length, order, x, p }
+        let (x, p) = (x.map(DVec2::from_array), p.map(DVec2::from_array));
+        Segment { start, length: step_length(&state, order, tolerance, |n| [x[n], p[n]]), order, x, p }
     }
 
     /// Light in flat space, without a hole: from `state` straight on against its momentum, for a delay of `length`.
@@ -192,7 +167,23 @@ pub fn root(mut a: f64, mut b: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
     s
 }
 
+/// How long a step with these coefficients of x and p may be for the tolerance.
+pub(super) fn step_length(state: &State, order: usize, tolerance: f64, coefficients: impl Fn(usize) -> [DVec2; 2]) -> f64 {
+    let r = state.position.length();
+    let w = state.momentum.length();
+    // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
+    let mut length: f64 = r / (1.0 + 1.0 / r.sqrt());
+    for n in [order - 1, order] {
+        let [x, p] = coefficients(n);
+        let size = (x.abs().max_element() / r).max(p.abs().max_element() / w);
+        if size > 0.0 {
+            length = length.min((tolerance / size).powf(1.0 / n as f64));
+        }
+    }
+    length
+}
+
 /// The cheapest order for a tolerance is −(1/2) ln tolerance (Jorba and Zou, section 3.2.1); two more for the estimate.
-fn order_for(tolerance: f64) -> usize {
+pub(super) fn order_for(tolerance: f64) -> usize {
     ((-0.5 * tolerance.ln()).ceil() as usize + 2).clamp(6, MAX_ORDER)
 }

@@ -2,13 +2,11 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::geodesic::State;
-
 /// The highest order of the series; the optimum at a tolerance of 1e-17 is 22.
 pub const MAX_ORDER: usize = 24;
 
 /// Coefficients of a vector in the plane of the orbit, in r_s/(r_s/c)ⁿ.
-type Vectors<N> = [[N; 2]; MAX_ORDER + 1];
+pub(super) type Vectors<N> = [[N; 2]; MAX_ORDER + 1];
 
 /// One number or several side by side; each lane rounds as a lone f64 does.
 pub(super) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -74,33 +72,6 @@ impl Number for Four {
     fn reciprocal(self) -> Four {
         Four(self.0.map(|x| 1.0 / x))
     }
-}
-
-/// The coefficients of four rays.
-#[derive(Debug, Default)]
-pub(super) struct FourSeries {
-    pub x: Vectors<Four>,
-    pub p: Vectors<Four>,
-}
-
-/// [`series`] of four states, side by side where the processor can.
-pub(super) fn four_series(states: &[State; 4], order: usize, out: &mut FourSeries) {
-    let lanes = |number: &dyn Fn(&State) -> f64| Four(std::array::from_fn(|i| number(&states[i])));
-    let position = [lanes(&|s| s.position.x), lanes(&|s| s.position.y)];
-    let momentum = [lanes(&|s| s.momentum.x), lanes(&|s| s.momentum.y)];
-    #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") {
-        #[allow(unsafe_code)]
-        // SAFETY: AVX2 was detected. Measured: three times as fast as without.
-        return unsafe { four_avx(position, momentum, order, out) };
-    }
-    series(position, momentum, order, &mut out.x, &mut out.p);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn four_avx(position: [Four; 2], momentum: [Four; 2], order: usize, out: &mut FourSeries) {
-    series(position, momentum, order, &mut out.x, &mut out.p);
 }
 
 /// The Taylor coefficients 0 to `order` of x and p in τ: dx/dτ = qx − ip, dp/dτ = (3/2)fx − qp. Each coefficient of a product is a sum over the
@@ -171,31 +142,4 @@ pub(super) fn series<N: Number>(position: [N; 2], momentum: [N; 2], order: usize
 #[inline(always)]
 fn dot<N: Number>(a: [N; 2], b: [N; 2]) -> N {
     a[0] * b[0] + a[1] * b[1]
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec2;
-
-    use super::*;
-    use crate::reference::geodesic::Segment;
-
-    #[test]
-    fn four_side_by_side_are_four_alone() {
-        let state = |k: usize| State {
-            position: DVec2::new(1.1 + 3.0 * k as f64, 0.3 * k as f64),
-            momentum: DVec2::new(0.4 - 0.3 * k as f64, -0.9).normalize(),
-        };
-        let states = [0, 1, 2, 3].map(state);
-        for tolerance in [1e-6, 1e-12, 1e-16] {
-            let four = Segment::step_four([0.0, 1.0, 2.0, 3.0], &states, tolerance);
-            for (k, segment) in four.iter().enumerate() {
-                let alone = Segment::step(k as f64, states[k], tolerance);
-                assert_eq!(segment.length.to_bits(), alone.length.to_bits());
-                for part in [0.0, 0.3, 1.0] {
-                    assert_eq!(segment.at(part * segment.length), alone.at(part * alone.length));
-                }
-            }
-        }
-    }
 }

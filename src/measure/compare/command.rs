@@ -55,7 +55,8 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
         bar.set_style(style);
     }
-    let judge = case.trace(&Quality { samples: side, tolerance: request.tolerance }, true, &|pixels| bar.inc(pixels));
+    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
+    let judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
