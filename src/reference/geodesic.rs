@@ -11,7 +11,7 @@
 
 use glam::DVec2;
 
-use super::taylor::series;
+use super::taylor::{Scratch, series};
 
 pub use super::taylor::MAX_ORDER;
 
@@ -63,7 +63,7 @@ impl Segment {
     pub fn step(start: f64, state: State, tolerance: f64) -> Segment {
         let order = order_for(tolerance);
         let (mut x, mut p) = ([[0.0; 2]; MAX_ORDER + 1], [[0.0; 2]; MAX_ORDER + 1]);
-        series(state.position.to_array(), state.momentum.to_array(), order, &mut x, &mut p);
+        series(state.position.to_array(), state.momentum.to_array(), order, &mut x, &mut p, &mut Scratch::default());
         let (x, p) = (x.map(DVec2::from_array), p.map(DVec2::from_array));
         Segment { start, length: step_length(&state, order, tolerance, |n| [x[n], p[n]]), order, x, p }
     }
@@ -172,15 +172,16 @@ pub(super) fn step_length(state: &State, order: usize, tolerance: f64, coefficie
     let r = state.position.length();
     let w = state.momentum.length();
     // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
-    let mut length: f64 = r / (1.0 + 1.0 / r.sqrt());
+    let longest = r / (1.0 + 1.0 / r.sqrt());
+    let mut exponent = f64::INFINITY;
     for n in [order - 1, order] {
         let [x, p] = coefficients(n);
         let size = (x.abs().max_element() / r).max(p.abs().max_element() / w);
         if size > 0.0 {
-            length = length.min((tolerance / size).powf(1.0 / n as f64));
+            exponent = exponent.min((tolerance / size).ln() / n as f64);
         }
     }
-    length
+    exponent.exp().min(longest)
 }
 
 /// The cheapest order for a tolerance is −(1/2) ln tolerance (Jorba and Zou, section 3.2.1); two more for the estimate.

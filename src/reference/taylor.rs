@@ -1,4 +1,4 @@
-//! Taylor coefficients of light's equations of motion, for one ray or for four side by side.
+//! Taylor coefficients of light's equations of motion, for one ray or for several side by side.
 
 use std::ops::{Add, Mul, Sub};
 
@@ -30,113 +30,147 @@ impl Number for f64 {
     }
 }
 
-/// Four numbers.
+/// How many rays go side by side: two of a processor's registers of four, as one alone waits for its own sums (234 and 294 ns a ray).
+pub const LANES: usize = 8;
+
+/// As many numbers.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(align(32))]
-pub(super) struct Four(pub [f64; 4]);
+pub(super) struct Lanes(pub [f64; LANES]);
 
-impl Add for Four {
-    type Output = Four;
+impl Add for Lanes {
+    type Output = Lanes;
     #[inline(always)]
-    fn add(self, other: Four) -> Four {
-        Four(std::array::from_fn(|i| self.0[i] + other.0[i]))
+    fn add(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }
 }
 
-impl Sub for Four {
-    type Output = Four;
+impl Sub for Lanes {
+    type Output = Lanes;
     #[inline(always)]
-    fn sub(self, other: Four) -> Four {
-        Four(std::array::from_fn(|i| self.0[i] - other.0[i]))
+    fn sub(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|i| self.0[i] - other.0[i]))
     }
 }
 
-impl Mul for Four {
-    type Output = Four;
+impl Mul for Lanes {
+    type Output = Lanes;
     #[inline(always)]
-    fn mul(self, other: Four) -> Four {
-        Four(std::array::from_fn(|i| self.0[i] * other.0[i]))
+    fn mul(self, other: Lanes) -> Lanes {
+        Lanes(std::array::from_fn(|i| self.0[i] * other.0[i]))
     }
 }
 
-impl Number for Four {
+impl Number for Lanes {
     #[inline(always)]
-    fn splat(value: f64) -> Four {
-        Four([value; 4])
+    fn splat(value: f64) -> Lanes {
+        Lanes([value; LANES])
     }
     #[inline(always)]
-    fn sqrt(self) -> Four {
-        Four(self.0.map(f64::sqrt))
+    fn sqrt(self) -> Lanes {
+        Lanes(self.0.map(f64::sqrt))
     }
     #[inline(always)]
-    fn reciprocal(self) -> Four {
-        Four(self.0.map(|x| 1.0 / x))
+    fn reciprocal(self) -> Lanes {
+        Lanes(self.0.map(|x| 1.0 / x))
     }
 }
 
-/// The Taylor coefficients 0 to `order` of x and p in τ: dx/dτ = qx − ip, dp/dτ = (3/2)fx − qp. Each coefficient of a product is a sum over the
+/// What the recurrences remember, coefficient by coefficient.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Scratch<N> {
+    /// r² = x·x.
+    s: [N; MAX_ORDER + 1],
+    /// ω² = p·p.
+    w: [N; MAX_ORDER + 1],
+    /// x·p.
+    m: [N; MAX_ORDER + 1],
+    /// r^{-3/2} = s^{-3/4}: βn = qx.
+    q: [N; MAX_ORDER + 1],
+    /// r^{-7/2} = q/s.
+    g: [N; MAX_ORDER + 1],
+    /// 1/ω = w^{-1/2}.
+    i: [N; MAX_ORDER + 1],
+    /// (3/2)gm.
+    f: [N; MAX_ORDER + 1],
+}
+
+/// The Taylor coefficients 0 to `order` of x and p in τ: dx/dτ = qx − ip, dp/dτ = fx − qp. Each coefficient of a product is a sum over the
 /// earlier ones; sums over the same terms share a loop.
 #[inline(always)]
-pub(super) fn series<N: Number>(position: [N; 2], momentum: [N; 2], order: usize, x: &mut Vectors<N>, p: &mut Vectors<N>) {
+pub(super) fn series<N: Number>(
+    position: [N; 2],
+    momentum: [N; 2],
+    order: usize,
+    x: &mut Vectors<N>,
+    p: &mut Vectors<N>,
+    scratch: &mut Scratch<N>,
+) {
     assert!((1..=MAX_ORDER).contains(&order), "order {order}");
+    let Scratch { s, w, m, q, g, i, f } = scratch;
     (x[0], p[0]) = (position, momentum);
-    let zero = [N::splat(0.0); MAX_ORDER + 1];
-    let mut s = zero; // r² = x·x
-    let mut w = zero; // ω² = p·p
-    let mut m = zero; // x·p
-    let mut q = zero; // r^{-3/2} = s^{-3/4}: βn = qx
-    let mut g = zero; // r^{-7/2} = s^{-7/4}
-    let mut i = zero; // 1/ω = w^{-1/2}
-    let mut f = zero; // gm
     // Both are at least 0: (1/s₀, 1/w₀).
     let mut over = [N::splat(0.0); 2];
     for n in 0..order {
-        let (mut sum_s, mut sum_w, mut sum_m) = (N::splat(0.0), N::splat(0.0), N::splat(0.0));
+        (s[n], w[n]) = (square(x, n), square(p, n));
+        let mut sum_m = N::splat(0.0);
         for k in 0..=n {
-            let (xa, pa, xb, pb) = (x[k], p[k], x[n - k], p[n - k]);
-            sum_s = sum_s + dot(xa, xb);
-            sum_w = sum_w + dot(pa, pb);
-            sum_m = sum_m + dot(xa, pb);
+            sum_m = sum_m + dot(x[k], p[n - k]);
         }
-        (s[n], w[n], m[n]) = (sum_s, sum_w, sum_m);
+        m[n] = sum_m;
         if n == 0 {
-            let r = sum_s.sqrt();
-            over = [sum_s.reciprocal(), sum_w.reciprocal()];
+            let r = s[0].sqrt();
+            over = [s[0].reciprocal(), w[0].reciprocal()];
             q[0] = (r * r.sqrt()).reciprocal();
             g[0] = q[0] * over[0];
-            i[0] = sum_w.sqrt().reciprocal();
+            i[0] = w[0].sqrt().reciprocal();
         } else {
             // y = s^a: n s₀ yₙ = Σ_{j=1..n} (j(a + 1) − n) s_j y_{n−j}, which is s y' = a s' y term by term.
-            let (mut sum_q, mut sum_g, mut sum_i) = (N::splat(0.0), N::splat(0.0), N::splat(0.0));
+            let (mut sum_q, mut sum_i) = (N::splat(0.0), N::splat(0.0));
             let count = n as f64;
             for j in 1..=n {
                 let k = j as f64;
                 sum_q = sum_q + N::splat(0.25 * k - count) * s[j] * q[n - j];
-                sum_g = sum_g + N::splat(-0.75 * k - count) * s[j] * g[n - j];
                 sum_i = sum_i + N::splat(0.5 * k - count) * w[j] * i[n - j];
             }
             let part = N::splat(1.0 / count);
             q[n] = sum_q * part * over[0];
-            g[n] = sum_g * part * over[0];
             i[n] = sum_i * part * over[1];
+            // sg = q term by term.
+            let mut sum_g = N::splat(0.0);
+            for j in 1..=n {
+                sum_g = sum_g + s[j] * g[n - j];
+            }
+            g[n] = (q[n] - sum_g) * over[0];
         }
         let mut sum_f = N::splat(0.0);
         for k in 0..=n {
             sum_f = sum_f + g[k] * m[n - k];
         }
-        f[n] = sum_f;
+        f[n] = N::splat(1.5) * sum_f;
         let (mut dx, mut dp) = ([N::splat(0.0); 2], [N::splat(0.0); 2]);
         for k in 0..=n {
-            let fx = N::splat(1.5) * f[k];
             for axis in 0..2 {
                 dx[axis] = dx[axis] + (q[k] * x[n - k][axis] - i[k] * p[n - k][axis]);
-                dp[axis] = dp[axis] + (fx * x[n - k][axis] - q[k] * p[n - k][axis]);
+                dp[axis] = dp[axis] + (f[k] * x[n - k][axis] - q[k] * p[n - k][axis]);
             }
         }
         let next = N::splat(1.0 / (n + 1) as f64);
         x[n + 1] = dx.map(|d| next * d);
         p[n + 1] = dp.map(|d| next * d);
     }
+}
+
+/// Coefficient n of the square of a vector: equal terms once.
+#[inline(always)]
+fn square<N: Number>(v: &Vectors<N>, n: usize) -> N {
+    let mut sum = N::splat(0.0);
+    for k in 0..n.div_ceil(2) {
+        sum = sum + dot(v[k], v[n - k]);
+    }
+    sum = sum + sum;
+    if n % 2 == 0 { sum + dot(v[n / 2], v[n / 2]) } else { sum }
 }
 
 #[inline(always)]

@@ -10,8 +10,8 @@ use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
 use super::sweep::{fastest, is_short};
+use super::tree::Chord;
 use super::world::{Flying, Motion, World, Worldline};
-use crate::reference::bvh::Bounds;
 use crate::reference::geodesic::{Segment, State, root};
 use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius, unwrap};
 use crate::reference::trace::Hit;
@@ -138,7 +138,14 @@ impl World<'_> {
     }
 
     /// The first meeting in one step of the ray, which had swept `swept` when it began, with what is `near` it.
-    pub(super) fn meet(&self, segment: &Segment, axes: [DVec3; 2], swept: f64, near: &Near, cross: &mut dyn FnMut(Crossing)) -> Option<Hit> {
+    pub(super) fn meet(
+        &self,
+        segment: &Segment,
+        axes: [DVec3; 2],
+        swept: f64,
+        near: &Near,
+        cross: &mut dyn FnMut(Crossing),
+    ) -> Option<Hit> {
         let bend = segment.bend();
         let (mut start, last) = (segment.position(0.0), segment.position(segment.length));
         let pieces = pieces(bend, segment.length, start.distance(last));
@@ -156,9 +163,9 @@ impl World<'_> {
             for &number in &near.flying {
                 let flying = &self.flying[number as usize];
                 let [a, b] = ends.places.map(|place| piece.embed(place));
-                let bounds = Bounds { min: (a.min(b) - grow).to_array(), max: (a.max(b) + grow).to_array() };
+                let chord = Chord::new(a, b, DVec3::splat(grow));
                 if let Motion::Flying(line) = self.things[flying.thing as usize].motion
-                    && flying.sweep.touches(&bounds, segment.start + piece.from, segment.start + to)
+                    && flying.sweep.touches(&chord, segment.start + piece.from, segment.start + to)
                 {
                     self.meet_flying(&piece, flying, line, &mut met);
                 }

@@ -285,7 +285,9 @@ impl Painter<'_> {
     fn sample(&self, x: f64, y: f64) -> Sample {
         let (look, blue) = self.camera.look(x, y);
         let mut veil = (Vec3::ZERO, 1.0);
-        let seen = self.world.look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| self.dim(&mut veil, &crossing, blue));
+        let seen = self
+            .world
+            .look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| self.dim(&mut veil, &crossing, blue));
         self.ended(seen, veil, blue)
     }
 

@@ -1,6 +1,6 @@
 //! Packets of neighbouring geodesics through one scene: paper 4's idea along curves.
 //!
-//! The rays of a packet take their steps together, four at a time. A sheaf, the chord in their middle with the room that they need around it, goes
+//! The rays of a packet take their steps together, [`LANES`] at a time. A sheaf, the chord in their middle with the room that they need around it, goes
 //! down the tree once for all of them; where it meets something its quarters are asked, and so on down to single rays, which do what a ray alone
 //! does with what is left. Where the rays of a packet diverge, so that the sheaf is wide against its length, the packet is split in four for good.
 //! What a ray sees is the same to the last bit as when it goes alone: sheaves only ever leave out what cannot be met.
@@ -11,10 +11,10 @@ use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
 use super::find::{Near, Seen, beyond, growth, pieces};
+use super::tree::Chord;
 use super::world::World;
-use crate::reference::bvh::Bounds;
-use crate::reference::four::{FourSegments, PIECES};
 use crate::reference::ray::{Follower, Stop, orbit_plane, sky_radius};
+use crate::reference::segments::{LANES, PIECES, Segments};
 
 /// A packet is split where its sheaf is wider than this part of its length; a third more or less costs no more than two per cent.
 const WIDE: f64 = 0.5;
@@ -35,7 +35,7 @@ struct Walk {
 /// What of a ray's step its packet needs.
 #[derive(Clone, Copy, Default)]
 struct Stride {
-    /// Group of four, and place in it.
+    /// Its number among the rays that took it, [`LANES`] at a time.
     slot: usize,
     /// Φ at the start of the step, radians.
     swept: f64,
@@ -65,7 +65,7 @@ impl World<'_> {
             let follower = Follower::new(position.length(), in_plane, tolerance, stop);
             Walk { follower, axes, seen: None, stride: Stride::default() }
         };
-        let mut march = March { world: self, walks: looks.iter().map(walk).collect(), fours: Vec::new(), tolerance, cross };
+        let mut march = March { world: self, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
         let everything = Near::all(self);
         let mut packets: Vec<Range<usize>> = vec![0..looks.len()];
         while march.step() {
@@ -84,7 +84,7 @@ impl World<'_> {
 struct March<'a> {
     world: &'a World<'a>,
     walks: Vec<Walk>,
-    fours: Vec<FourSegments>,
+    steps: Vec<Segments>,
     tolerance: f64,
     cross: &'a mut dyn FnMut(usize, Crossing),
 }
@@ -96,17 +96,17 @@ impl March<'_> {
             walk.seen = Some(beyond(&walk.follower, walk.axes));
         }
         let alive: Vec<usize> = (0..self.walks.len()).filter(|&i| self.walks[i].seen.is_none()).collect();
-        while self.fours.len() < alive.len().div_ceil(4) {
-            self.fours.push(FourSegments::empty());
+        while self.steps.len() < alive.len().div_ceil(LANES) {
+            self.steps.push(Segments::empty());
         }
-        for (group, (four, rays)) in self.fours.iter_mut().zip(alive.chunks(4)).enumerate() {
+        for (group, (step, rays)) in self.steps.iter_mut().zip(alive.chunks(LANES)).enumerate() {
             // The last of too few goes more than once.
-            let here = std::array::from_fn::<_, 4, _>(|lane| self.walks[rays[lane.min(rays.len() - 1)]].follower.here());
-            four.step(here.map(|here| here.0), &here.map(|here| here.1), self.tolerance);
+            let here = std::array::from_fn::<_, LANES, _>(|lane| self.walks[rays[lane.min(rays.len() - 1)]].follower.here());
+            step.step(here.map(|here| here.0), &here.map(|here| here.1), self.tolerance);
             for (lane, &ray) in rays.iter().enumerate() {
                 let walk = &mut self.walks[ray];
-                walk.stride = Stride::new(four, 4 * group + lane, walk.axes, walk.follower.swept);
-                walk.follower.advance(four.start[lane] + four.length[lane], four.end[lane]);
+                walk.stride = Stride::new(step, LANES * group + lane, walk.axes, walk.follower.swept);
+                walk.follower.advance(step.start[lane] + step.length[lane], step.end[lane]);
             }
         }
         !alive.is_empty()
@@ -152,7 +152,7 @@ impl March<'_> {
         for ray in packet {
             let Walk { axes, seen, stride, .. } = &mut self.walks[ray];
             if seen.is_none() && asked(stride) {
-                let segment = self.fours[stride.slot / 4].lane(stride.slot % 4);
+                let segment = self.steps[stride.slot / LANES].lane(stride.slot % LANES);
                 let mut cross = |crossing| (self.cross)(ray, crossing);
                 *seen = self.world.meet(&segment, *axes, stride.swept, near, &mut cross).map(Seen::Hit);
             }
@@ -167,10 +167,10 @@ fn quarters(packet: Range<usize>) -> impl Iterator<Item = Range<usize>> {
 }
 
 impl Stride {
-    fn new(four: &FourSegments, slot: usize, axes: [DVec3; 2], swept: f64) -> Stride {
-        let lane = slot % 4;
-        let (bend, length) = (four.bend[lane], four.length[lane]);
-        let along = four.along(lane);
+    fn new(step: &Segments, slot: usize, axes: [DVec3; 2], swept: f64) -> Stride {
+        let lane = slot % LANES;
+        let (bend, length) = (step.bend[lane], step.length[lane]);
+        let along = step.along(lane);
         let ends = [along[0], along[PIECES]];
         let own = length / pieces(bend, length, ends[0].distance(ends[1]));
         let height = |place: DVec2| axes[0].z * place.x + axes[1].z * place.y;
@@ -180,7 +180,7 @@ impl Stride {
             places: along.map(|place| axes[0] * place.x + axes[1] * place.y),
             // From the sheaf's chords to the curve, from it to the chords of a ray alone, and from those as far as boxes are grown for it.
             strays: growth(bend, length / PIECES as f64, ends) + 2.0 * growth(bend, own, ends),
-            start: four.start[lane],
+            start: step.start[lane],
             length,
             // The plane goes through the hole, round which a step turns by less than half a turn: it is crossed once at most.
             crosses: !(height(ends[0]) * height(ends[1]) > 0.0),
@@ -224,36 +224,31 @@ impl Sheaf {
     }
 
     /// A chord in the middle of a piece, and how far on each axis what the rays do strays from it.
-    fn chord(&self, piece: usize) -> [DVec3; 3] {
+    fn chord(&self, piece: usize) -> Chord {
         let ends = [piece, piece + 1];
         let [from, to] = ends.map(|k| 0.5 * (self.low[k] + self.high[k]));
         let [a, b] = ends.map(|k| 0.5 * (self.high[k] - self.low[k]));
         // Rounding: a few ulp of the distance from the hole.
         let rounding = 4e-15 * (1.0 + from.length().max(to.length()));
-        [from, to, a.max(b) + self.strays + rounding]
+        Chord::new(from, to, a.max(b) + self.strays + rounding)
     }
 
     /// What of `outer` the rays may meet.
     fn near(&self, world: &World, outer: &Near) -> Near {
-        let chords: [[DVec3; 3]; PIECES] = std::array::from_fn(|piece| self.chord(piece));
+        let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
         let tree = &world.held.tree;
         let held = match &outer.held {
             Some(leaves) => {
-                let passes = |leaf: &&u32| chords.iter().any(|&[from, to, grow]| tree.passes(**leaf, from, to, grow));
+                let passes = |leaf: &&u32| chords.iter().any(|chord| tree.passes(**leaf, chord));
                 Some(leaves.iter().filter(passes).copied().collect())
             }
             None => {
                 let mut leaves = Vec::new();
-                chords.iter().all(|&[from, to, grow]| tree.gather(from, to, grow, MOST_LEAVES, &mut leaves)).then_some(leaves)
+                chords.iter().all(|chord| tree.gather(chord, MOST_LEAVES, &mut leaves)).then_some(leaves)
             }
         };
         let touched = |number: &&u32| {
-            (0..PIECES).any(|k| {
-                let grow = DVec3::splat(self.strays);
-                let [low, high] = [self.low[k].min(self.low[k + 1]) - grow, self.high[k].max(self.high[k + 1]) + grow];
-                let bounds = Bounds { min: low.to_array(), max: high.to_array() };
-                world.flying[**number as usize].sweep.touches(&bounds, self.times[k][0], self.times[k + 1][1])
-            })
+            (0..PIECES).any(|k| world.flying[**number as usize].sweep.touches(&chords[k], self.times[k][0], self.times[k + 1][1]))
         };
         Near { held, flying: outer.flying.iter().filter(touched).copied().collect() }
     }

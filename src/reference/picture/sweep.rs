@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::tree::Chord;
 use super::world::Worldline;
 use crate::reference::bvh::Bounds;
 
@@ -60,27 +61,23 @@ impl Sweep {
         self.nodes[index] = Node { bounds: self.nodes[first].bounds.union(&self.nodes[first + 1].bounds), halves: first };
     }
 
-    /// Whether the body may be in `bounds` at some delay from `from` to `to` (r_s/c).
-    pub fn touches(&self, bounds: &Bounds<f64>, from: f64, to: f64) -> bool {
+    /// Whether the body may be met by the chord at some delay from `from` to `to` (r_s/c).
+    pub fn touches(&self, chord: &Chord, from: f64, to: f64) -> bool {
         let first = (from / WINDOW) as usize;
         let last = (to / WINDOW) as usize;
-        last >= self.windows || (first..=last).any(|window| self.touches_node(window, [WINDOW * window as f64, WINDOW], bounds, [from, to]))
+        last >= self.windows || (first..=last).any(|window| self.touches_node(window, [WINDOW * window as f64, WINDOW], chord, [from, to]))
     }
 
-    fn touches_node(&self, index: usize, [start, width]: [f64; 2], bounds: &Bounds<f64>, [from, to]: [f64; 2]) -> bool {
+    fn touches_node(&self, index: usize, [start, width]: [f64; 2], chord: &Chord, [from, to]: [f64; 2]) -> bool {
         let node = &self.nodes[index];
-        if start > to || start + width < from || !overlap(&node.bounds, bounds) {
+        if start > to || start + width < from || chord.enters(&node.bounds, 1.0).is_none() {
             return false;
         }
         let half = 0.5 * width;
         node.halves == 0
-            || self.touches_node(node.halves, [start, half], bounds, [from, to])
-            || self.touches_node(node.halves + 1, [start + half, half], bounds, [from, to])
+            || self.touches_node(node.halves, [start, half], chord, [from, to])
+            || self.touches_node(node.halves + 1, [start + half, half], chord, [from, to])
     }
-}
-
-fn overlap(a: &Bounds<f64>, b: &Bounds<f64>) -> bool {
-    (0..3).all(|axis| a.min[axis] <= b.max[axis] && b.min[axis] <= a.max[axis])
 }
 
 /// Nothing outruns light: |dx/dT| ≤ 1 + β, of which this is a bound while r stays above 0.4 of what it is here (1/√0.4 < 1.6).
