@@ -135,8 +135,8 @@ mod tests {
         let mut together = Segments::empty();
         for tolerance in [1e-6, 1e-12, 1e-16] {
             together.step(std::array::from_fn(|k| k as f64), &states, tolerance);
-            for k in 0..LANES {
-                let alone = Segment::step(k as f64, states[k], tolerance);
+            for (k, state) in states.iter().enumerate() {
+                let alone = Segment::step(k as f64, *state, tolerance);
                 let lane = together.lane(k);
                 assert_eq!(lane.length.to_bits(), alone.length.to_bits());
                 for part in [0.0, 0.3, 1.0] {

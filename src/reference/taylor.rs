@@ -170,7 +170,7 @@ fn square<N: Number>(v: &Vectors<N>, n: usize) -> N {
         sum = sum + dot(v[k], v[n - k]);
     }
     sum = sum + sum;
-    if n % 2 == 0 { sum + dot(v[n / 2], v[n / 2]) } else { sum }
+    if n.is_multiple_of(2) { sum + dot(v[n / 2], v[n / 2]) } else { sum }
 }
 
 #[inline(always)]

@@ -67,7 +67,7 @@ impl World<'_> {
         };
         let mut march = March { world: self, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
         let everything = Near::all(self);
-        let mut packets: Vec<Range<usize>> = vec![0..looks.len()];
+        let mut packets: Vec<Range<usize>> = std::iter::once(0..looks.len()).collect();
         while march.step() {
             let mut split = Vec::with_capacity(packets.len());
             packets.drain(..).for_each(|packet| march.split(packet, &mut split));
@@ -183,7 +183,7 @@ impl Stride {
             start: step.start[lane],
             length,
             // The plane goes through the hole, round which a step turns by less than half a turn: it is crossed once at most.
-            crosses: !(height(ends[0]) * height(ends[1]) > 0.0),
+            crosses: height(ends[0]) * height(ends[1]) <= 0.0,
         }
     }
 }
