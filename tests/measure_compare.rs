@@ -262,3 +262,44 @@ aurora = \"none\"
     assert!((pixels.len() as f64 / area - 1.0).abs() < 0.08, "{} pixels, {area}", pixels.len());
     assert!(pixels.iter().all(|&i| (picture.layers[i].delay + emission).abs() < planet.radius * 1.1));
 }
+
+#[test]
+fn thin_images_are_compared_by_the_area_they_cover() {
+    // Two hundred balls of half a pixel.
+    let case = scene(
+        "
+[camera]
+position = [0.0, 0.0, 60.0]
+[[prop]]
+name = \"dust\"
+model = \"lattice\"
+count = [14, 14, 1]
+spacing = 2.0
+size = 0.25
+triangles = 20
+",
+    );
+    let judge = case.trace(&Quality { samples: 5, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    // What a renderer hands in that draws thin images by coverage: exactly, doubled, and none.
+    let drawn = |factor: f32| {
+        let mut frame = Frame::of(&judge, &case);
+        for (shown, shares) in frame.shown.iter_mut().zip(&judge.shares) {
+            *shown = Default::default();
+            if let Some(&(object, order, _)) = shares.first()
+                && factor > 0.0
+            {
+                let coverage = shares.iter().map(|share| share.2).sum::<f32>() * factor;
+                *shown = lensrunner::measure::compare::Shown { object, order, body: [0.0; 3], coverage: coverage.min(0.99) };
+            }
+        }
+        frame
+    };
+    let exact = verdict(&case, &judge, &drawn(1.0));
+    let group = exact.groups.iter().find(|group| group.order == 1).unwrap();
+    assert!(group.thin[0] > 40.0 && group.pixels == 0, "{group:?}");
+    assert!(!exact.faults(&Limits::default()).iter().any(|fault| fault.contains("order 1")), "{:?}", exact.faults(&Limits::default()));
+    for factor in [0.0, 2.0] {
+        let found = faults(&case, &judge, &drawn(factor));
+        assert!(found.iter().any(|fault| fault.contains("dust order 1: thin images")), "{factor}: {found:?}");
+    }
+}

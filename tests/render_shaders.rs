@@ -32,22 +32,26 @@ fn run(pass: Pass, tail: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], out
     let sky = layout::TableTexture::of(&GPU, "sky", tables[1]);
     let rows = layout::storage(&GPU, "rows", input);
     let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
-    let tables_group = pipeline.get_bind_group_layout(0);
-    let group0 = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &tables_group,
-        entries: &[if tables[0].is_empty() {
-            wgpu::BindGroupEntry { binding: 2, resource: sky.binding() }
-        } else {
-            wgpu::BindGroupEntry { binding: 1, resource: slice.binding() }
-        }],
+    let with_tables = !tables[0].is_empty() || !tables[1].is_empty();
+    let group0 = with_tables.then(|| {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &pipeline.get_bind_group_layout(0),
+            entries: &[if tables[0].is_empty() {
+                wgpu::BindGroupEntry { binding: 2, resource: sky.binding() }
+            } else {
+                wgpu::BindGroupEntry { binding: 1, resource: slice.binding() }
+            }],
+        })
     });
     let group3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);
     let mut encoder = device.create_command_encoder(&Default::default());
     {
         let mut pass = encoder.begin_compute_pass(&Default::default());
         pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group0, &[]);
+        if let Some(group) = &group0 {
+            pass.set_bind_group(0, group, &[]);
+        }
         pass.set_bind_group(3, &group3, &[]);
         pass.dispatch_workgroups(input.len().div_ceil(64) as u32, 1, 1);
     }
@@ -176,5 +180,49 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         let want = lensrunner::scene::milky_way::direction_to_uv(*direction);
         let across = (got[0] - want.x).rem_euclid(1.0);
         assert!(across.min(1.0 - across) < 1e-5 && (got[1] - want.y).abs() < 1e-4, "{direction}: {got:?}, not {want}");
+    }
+}
+
+#[test]
+fn coverage_is_the_same_in_both_languages_and_right_on_average() {
+    use lensrunner::render::develop::coverage::covered;
+    let tail = format!(
+        "{ROWS}
+@compute @workgroup_size(64)
+fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if id.x >= arrayLength(&twin_rows) {{ return; }}
+    let row = twin_rows[id.x];
+    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(u32(row.z), u32(row.w)), 0.0, 0.0);
+}}"
+    );
+    let mut random = StdRng::seed_from_u64(9);
+    let rows: Vec<[f32; 4]> = (0..4000u32)
+        .map(|i| {
+            let sum = 3.0 * random.random::<f32>();
+            [sum, sum * random.random_range(-1.0..1.0f32), (i / 3) as f32, (1 + i % 3) as f32]
+        })
+        .collect();
+    let out = run(Pass::Compose, &tail, [&[], &[]], &rows, 1);
+    for (row, got) in rows.iter().zip(&out) {
+        let want = covered(row[0], row[1]);
+        assert!(close(got[0], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[0]);
+    }
+    // One image alone covers what its triangles add up to; the signs are even.
+    assert!([0.1f32, 0.7, 1.0, 1.3].iter().all(|&c| (covered(c, -c) - c.min(1.0)).abs() < 1e-6));
+    assert_eq!(covered(0.0, 0.0), 0.0);
+    let plus = out.iter().filter(|got| got[1] > 0.0).count();
+    assert!((1800..2200).contains(&plus), "{plus} of 4000 signs are plus");
+    // Images that know nothing of each other leave free the product of what each does.
+    for coverages in [vec![0.5f32, 0.5], vec![0.3, 0.6, 0.2], vec![0.2; 8]] {
+        let sum: f32 = coverages.iter().sum();
+        let free: f32 = coverages.iter().map(|c| 1.0 - c).product();
+        let count = 1 << coverages.len();
+        let mean = (0..count)
+            .map(|signs: u32| {
+                covered(sum, (0..coverages.len()).map(|k| if signs >> k & 1 == 0 { coverages[k] } else { -coverages[k] }).sum())
+            })
+            .sum::<f32>()
+            / count as f32;
+        assert!((mean - (1.0 - free)).abs() < 0.08, "{coverages:?}: {mean}, not {}", 1.0 - free);
     }
 }
