@@ -76,16 +76,18 @@ pub struct Limits {
     pub max: f64,
     /// Of mismatched pixels, as a part of the object's pixels and its rim.
     pub coverage: f64,
-    /// Of the difference in area of thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
+    /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
     /// triangles may make all or nothing, of a variance of 1/4 at most.
     pub thin: f64,
+    /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours.
+    pub flip: Option<f64>,
     /// Image orders that are drawn at all; higher ones are listed and not judged.
     pub orders: u32,
 }
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 3.0, orders: 3 }
+        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 3.0, flip: None, orders: 3 }
     }
 }
 
@@ -108,11 +110,19 @@ impl Verdict {
             if group.mismatched as f64 > allowed.max(1.0) {
                 faults.push(format!("{who}: {} pixels differ, allowed {:.1}", group.mismatched, allowed.max(1.0)));
             }
-            let [judge, shown] = group.thin;
-            let allowed = 0.5 * limits.thin * (group.touched.max(1) as f64).sqrt();
-            if (judge - shown).abs() > allowed {
-                faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1} (give or take {allowed:.1})"));
-            }
+        }
+        // Where several thin images cover a pixel a contestant cannot tell how much each does, and the nearest stands for all.
+        let drawn = self.groups.iter().filter(|group| group.order <= limits.orders);
+        let [judge, shown] = drawn.clone().fold([0.0; 2], |sum, group| [sum[0] + group.thin[0], sum[1] + group.thin[1]]);
+        let touched: usize = drawn.map(|group| group.touched).sum();
+        let allowed = 0.5 * limits.thin * (touched.max(1) as f64).sqrt();
+        if (judge - shown).abs() > allowed {
+            faults.push(format!("thin images cover {shown:.1} px together, not {judge:.1} (give or take {allowed:.1})"));
+        }
+        if let Some(allowed) = limits.flip
+            && self.flip > allowed
+        {
+            faults.push(format!("mean FLIP is {:.4}, not {allowed:.4}: more than half a pixel's shift makes", self.flip));
         }
         // A pixel that the border of two orders runs through is judged by coverage, like that of any border.
         for (count, what) in [
