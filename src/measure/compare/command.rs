@@ -61,7 +61,8 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     let verdict = compare(&judge, &frame, &case.probe(request.tolerance), &names, &difference);
-    let flip = (request.samples >= COLOUR_SAMPLES).then(|| colour_limit(&judge));
+    // Colours of surfaces follow from where their points are; what else differs there are steps along edges, of a ray a pixel in the game.
+    let flip = (request.samples >= COLOUR_SAMPLES && case.assembly.objects.is_empty()).then(|| colour_limit(&judge));
     let limits = Limits { orders: case.config.render.orders, flip, ..Limits::default() };
     let faults = verdict.faults(&limits);
     print!("{}", table(&verdict, &limits, &faults));

@@ -79,7 +79,7 @@ pub struct Limits {
     /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
     /// triangles may make all or nothing, of a variance of 1/4 at most.
     pub thin: f64,
-    /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours.
+    /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours, or where surfaces are.
     pub flip: Option<f64>,
     /// Image orders that are drawn at all; higher ones are listed and not judged.
     pub orders: u32,

@@ -37,7 +37,7 @@ pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
             group.flip
         );
     }
-    let colour = limits.flip.map_or("no limit below 16 rays a pixel".into(), |flip| format!("at most {flip:.4}"));
+    let colour = limits.flip.map_or("no limit with surfaces or below 16 rays a pixel".into(), |flip| format!("at most {flip:.4}"));
     let _ = writeln!(
         text,
         "wrong order {} px ({} of them beyond the rim), holes {} px, lit in the shadow {} px, mean FLIP {:.4} ({colour})",
