@@ -95,6 +95,9 @@ struct TraceArgs {
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
     tolerance: f64,
+    /// Rays along each side of a packet, 1 to 8: neighbours are followed together until they diverge. The picture is the same.
+    #[arg(long, value_name = "N", default_value_t = lensrunner::reference::picture::DEFAULT_PACKET)]
+    packet: u32,
     /// Adds what each pixel shows to an .exr.
     #[arg(long)]
     layers: bool,
@@ -283,6 +286,7 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         samples: args.samples,
         threads: args.threads,
         tolerance: args.tolerance,
+        packet: args.packet,
     };
     match trace::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
         Ok(rate) => {
@@ -303,6 +307,7 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
         samples: args.samples,
         threads: 0,
         tolerance: args.tolerance,
+        packet: lensrunner::reference::picture::DEFAULT_PACKET,
     };
     match command::run(&request, args.config.as_deref(), &args.output, &lensrunner::play::contestant::draw) {
         Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),

@@ -31,7 +31,7 @@ fn scene(text: &str) -> Case {
 }
 
 fn trace(case: &Case) -> Picture {
-    case.trace(&Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ())
+    case.trace(&Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ())
 }
 
 fn verdict(case: &Case, judge: &Picture, frame: &Frame) -> Verdict {
@@ -218,7 +218,7 @@ milky_way = false
     }
     let now = Worldline::at(&case.histories[0], 0.0);
     let still = Still(now);
-    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10 }, false, &|_| ());
+    let broken = case.trace_with(&[&still], &Quality { samples: 1, tolerance: 1e-10, packet: 8 }, false, &|_| ());
     let found = faults(&case, &judge, &Frame::of(&broken, &case));
     assert!(found.iter().any(|fault| fault.contains("quarry order 1")), "{found:?}");
 }
@@ -239,7 +239,7 @@ aurora = \"none\"
     let mut config = GameConfig::default();
     config.render.lensing = false;
     let case = Case::new(scene, config, 0.0, [160, 90]);
-    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
+    let picture = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
     let pixels: Vec<usize> = (0..picture.layers.len()).filter(|&i| picture.layers[i].object == 1).collect();
     let planet = case.scene.planet.unwrap();
     // Straight light: the emission time by iteration, which converges as the planet is slow.
@@ -261,4 +261,67 @@ aurora = \"none\"
     let area = std::f64::consts::PI * radius * radius;
     assert!((pixels.len() as f64 / area - 1.0).abs() < 0.08, "{} pixels, {area}", pixels.len());
     assert!(pixels.iter().all(|&i| (picture.layers[i].delay + emission).abs() < planet.radius * 1.1));
+}
+
+#[test]
+fn thin_images_are_compared_by_the_area_they_cover() {
+    // Two hundred balls of half a pixel.
+    let case = scene(
+        "
+[camera]
+position = [0.0, 0.0, 60.0]
+[[prop]]
+name = \"dust\"
+model = \"lattice\"
+count = [14, 14, 1]
+spacing = 2.0
+size = 0.25
+triangles = 20
+",
+    );
+    let judge = case.trace(&Quality { samples: 5, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    // What a renderer hands in that draws thin images by coverage: exactly, doubled, and none.
+    let drawn = |factor: f32| {
+        let mut frame = Frame::of(&judge, &case);
+        for (shown, shares) in frame.shown.iter_mut().zip(&judge.shares) {
+            *shown = Default::default();
+            if let Some(&(object, order, _)) = shares.first()
+                && factor > 0.0
+            {
+                let coverage = shares.iter().map(|share| share.2).sum::<f32>() * factor;
+                *shown = lensrunner::measure::compare::Shown { object, order, body: [0.0; 3], coverage: coverage.min(0.99) };
+            }
+        }
+        frame
+    };
+    let exact = verdict(&case, &judge, &drawn(1.0));
+    let group = exact.groups.iter().find(|group| group.order == 1).unwrap();
+    assert!(group.thin[0] > 40.0 && group.pixels == 0, "{group:?}");
+    assert_eq!(exact.faults(&Limits::default()), Vec::<String>::new());
+    for factor in [0.0, 2.0] {
+        let found = faults(&case, &judge, &drawn(factor));
+        assert!(found.iter().any(|fault| fault.contains("thin images cover")), "{factor}: {found:?}");
+    }
+}
+
+#[test]
+fn colours_of_the_disk_are_judged_where_the_judge_knows_them() {
+    use lensrunner::measure::compare::command::colour_limit;
+    let mut case = Case::new(lensrunner::scene::load("disk").unwrap(), GameConfig::default(), 0.0, [96, 54]);
+    case.scene.sky.stars = false;
+    case.scene.sky.milky_way = false;
+    let traced = |samples| case.trace(&Quality { samples, tolerance: 1e-8, packet: 8 }, false, &|_| ());
+    let judge = traced(4);
+    let limits = Limits { flip: Some(colour_limit(&judge)), ..Limits::default() };
+    let found = |frame: &Frame| verdict(&case, &judge, frame).faults(&limits);
+    assert_eq!(found(&Frame::of(&judge, &case)), Vec::<String>::new());
+    // Another grid of rays sees the same disk.
+    assert_eq!(found(&Frame::of(&traced(5), &case)), Vec::<String>::new());
+    // Moved by two pixels; a third darker.
+    let mut darker = Frame::of(&judge, &case);
+    darker.light.iter_mut().for_each(|rgb| *rgb = rgb.map(|c| c / 1.5));
+    for broken in [moved(&Frame::of(&judge, &case), 2), darker] {
+        let faults = found(&broken);
+        assert!(faults.iter().any(|fault| fault.contains("FLIP")), "{faults:?} {limits:?}");
+    }
 }

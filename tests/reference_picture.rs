@@ -342,3 +342,98 @@ fn crossings_of_the_disk_are_those_of_the_closed_form() {
     }
     assert!(checked > 200 && second > 2, "{checked} {second}");
 }
+
+/// The directions of a small screen's pixels seen by a far camera, in quarters of quarters.
+fn screen(side: usize, packet: usize, towards: DVec3, spread: f64) -> (Vec<DVec3>, Vec<usize>) {
+    let (order, starts) = reference::bvh::order::squares([side, side], packet);
+    let (right, up) = (towards.any_orthogonal_vector().normalize(), towards.cross(towards.any_orthogonal_vector()).normalize());
+    let place = |v: usize| spread * ((v as f64 + 0.5) / side as f64 - 0.5);
+    let looks = order.iter().map(|&i| (towards + right * place(i as usize % side) + up * place(i as usize / side)).normalize());
+    (looks.collect(), starts)
+}
+
+/// Every number of what is seen, to the last bit.
+fn bits(seen: &Seen) -> Vec<u64> {
+    match seen {
+        Seen::Captured => vec![0],
+        Seen::Sky { direction, swept, energy } => [1.0, direction.x, direction.y, direction.z, *swept, *energy].map(f64::to_bits).to_vec(),
+        Seen::Hit(hit) => {
+            let (p, m) = (hit.position, hit.momentum);
+            let numbers = [p.x, p.y, p.z, m.x, m.y, m.z, hit.swept, hit.delay];
+            let whole = [2, hit.object as u64, hit.triangle as u64, u64::from(hit.order)];
+            whole.into_iter().chain(numbers.into_iter().chain(hit.barycentrics).map(f64::to_bits)).collect()
+        }
+    }
+}
+
+#[test]
+fn packets_of_every_size_see_what_single_rays_see() {
+    let mut rng = StdRng::seed_from_u64(21);
+    // Held triangles near and far round the hole, and two bodies that fly before it and through its plane.
+    let (corners, triangles) = strewn(150, 2.5, 12.0, &mut rng);
+    let (mut small, few) = strewn(40, 1.0, 2.5, &mut rng);
+    small.iter_mut().for_each(|v| *v = (*v * 0.4).as_vec3().as_dvec3());
+    let models = [model(&corners, &triangles), model(&small, &few)];
+    let flights = [
+        Flight { start: DVec3::new(5.0, 4.0, 2.0), momentum: DVec3::new(-0.5, 0.3, -0.2), turning: DVec3::new(0.1, 0.4, 0.0) },
+        Flight { start: DVec3::new(-4.0, 1.0, -6.0), momentum: DVec3::new(0.1, -0.6, 0.3), turning: DVec3::ZERO },
+    ];
+    let things = vec![thing(0, held()), thing(1, Motion::Flying(&flights[0])), thing(1, Motion::Flying(&flights[1]))];
+    let (mut hits, mut flown, mut captured, mut crossings) = (0, 0, 0, 0);
+    for hole in [true, false] {
+        let world = World::new(&models, things.clone(), 3.0, hole);
+        // The whole hole, a coarse screen whose neighbours part at once; its edge magnified; the near view of a body; from inside.
+        let views = [
+            (DVec3::new(0.0, -3.0, 14.0), DVec3::new(0.05, 0.2, -1.0), 0.7),
+            (DVec3::new(0.0, -3.0, 14.0), DVec3::new(0.19, 0.2, -1.0), 0.02),
+            (DVec3::new(7.0, 5.0, 3.0), DVec3::new(-1.0, -0.6, -0.6), 0.5),
+            (DVec3::new(0.4, 0.5, 0.1), DVec3::new(1.0, 0.4, 0.3), 1.0),
+        ];
+        for (position, towards, spread) in views {
+            for packet in [1, 2, 3, 5, 8] {
+                let (looks, starts) = screen(16, packet, towards, spread);
+                for tile in starts.windows(2).map(|ends| &looks[ends[0]..ends[1]]) {
+                    let mut crossed = vec![Vec::new(); tile.len()];
+                    let together = world.look_together(position, tile, 1e-11, &mut |ray, crossing| crossed[ray].push(crossing));
+                    assert_eq!(together.len(), tile.len());
+                    for (ray, look) in tile.iter().enumerate() {
+                        let mut alone = Vec::new();
+                        let seen = world.look_through(position, *look, 1e-11, &mut |crossing| alone.push(crossing));
+                        assert_eq!(bits(&together[ray]), bits(&seen), "{packet}: {position} {look}: {:?} {seen:?}", together[ray]);
+                        assert_eq!(crossed[ray], alone, "{packet}: {position} {look}");
+                        hits += usize::from(matches!(seen, Seen::Hit(_)));
+                        flown += usize::from(matches!(seen, Seen::Hit(hit) if hit.object > 0));
+                        captured += usize::from(seen == Seen::Captured);
+                        crossings += alone.len();
+                    }
+                }
+            }
+        }
+    }
+    assert!(hits > 1000 && flown > 100 && captured > 100 && crossings > 100, "{hits} {flown} {captured} {crossings}");
+}
+
+#[test]
+fn scenes_in_packets_are_the_same_pictures() {
+    use lensrunner::measure::trace::Case;
+    const SIZE: [usize; 2] = [40, 24];
+    for name in ["ring", "chase", "parade"] {
+        let scene = lensrunner::scene::load(name).unwrap();
+        let case = Case::new(scene, lensrunner::scene::GameConfig::default(), 1.0, SIZE.map(|side| side as u32));
+        let ships: Vec<&dyn Worldline> = case.histories.iter().map(|history| history as &dyn Worldline).collect();
+        let (world, camera) = (case.world(&ships), &case.camera);
+        let look = |i: usize| camera.look((i % SIZE[0]) as f64 + 0.5, (i / SIZE[0]) as f64 + 0.5).0;
+        let alone: Vec<Seen> = (0..SIZE[0] * SIZE[1]).map(|i| world.look(camera.position, look(i), 1e-11)).collect();
+        assert!(alone.iter().any(|seen| matches!(seen, Seen::Hit(_))), "{name} shows nothing");
+        for packet in 1..=8 {
+            let (order, starts) = reference::bvh::order::squares(SIZE, packet);
+            for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
+                let looks: Vec<DVec3> = tile.iter().map(|&i| look(i as usize)).collect();
+                let together = world.look_together(camera.position, &looks, 1e-11, &mut |_, _| ());
+                for (seen, &i) in together.iter().zip(tile) {
+                    assert_eq!(bits(seen), bits(&alone[i as usize]), "{name}, packets of {packet}, pixel {i}");
+                }
+            }
+        }
+    }
+}

@@ -13,7 +13,7 @@ fn ships_are_whole_where_the_camera_crosses_the_horizon() {
     for at in [1.1, 1.2, 1.25] {
         let case = Case::new(scene::load("plunge").unwrap(), GameConfig::default(), at, size);
         let frame = contestant::draw(&case).unwrap();
-        let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9 }, false, &|_| ());
+        let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
         let wanted = |x: usize, y: usize| judge.layers[y * size[0] as usize + x].object;
         let (mut inner, mut wrong) = (0, 0);
         for y in 1..size[1] as usize - 1 {

@@ -129,3 +129,40 @@ fn the_panorama_is_the_same_in_both_languages() {
         assert!(across.min(1.0 - across) < 1e-5 && (got[1] - want.y).abs() < 1e-4, "{direction}: {got:?}, not {want}");
     }
 }
+
+#[test]
+fn coverage_is_the_same_in_both_languages_and_right_on_average() {
+    use lensrunner::render::develop::coverage::covered;
+    let body = "
+    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(u32(row.z), u32(row.w)), 0.0, 0.0);";
+    let mut random = StdRng::seed_from_u64(9);
+    let rows: Vec<[f32; 4]> = (0..4000u32)
+        .map(|i| {
+            let sum = 3.0 * random.random::<f32>();
+            [sum, sum * random.random_range(-1.0..1.0f32), (i / 3) as f32, (1 + i % 3) as f32]
+        })
+        .collect();
+    let out = run(Pass::Compose, body, [&[], &[]], &rows, 1);
+    for (row, got) in rows.iter().zip(&out) {
+        let want = covered(row[0], row[1]);
+        assert!(close(got[0], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[0]);
+    }
+    // One image alone covers what its triangles add up to; the signs are even.
+    assert!([0.1f32, 0.7, 1.0, 1.3].iter().all(|&c| (covered(c, -c) - c.min(1.0)).abs() < 1e-6));
+    assert_eq!(covered(0.0, 0.0), 0.0);
+    let plus = out.iter().filter(|got| got[1] > 0.0).count();
+    assert!((1800..2200).contains(&plus), "{plus} of 4000 signs are plus");
+    // Images that know nothing of each other leave free the product of what each does.
+    for coverages in [vec![0.5f32, 0.5], vec![0.3, 0.6, 0.2], vec![0.2; 8]] {
+        let sum: f32 = coverages.iter().sum();
+        let free: f32 = coverages.iter().map(|c| 1.0 - c).product();
+        let count = 1 << coverages.len();
+        let mean = (0..count)
+            .map(|signs: u32| {
+                covered(sum, (0..coverages.len()).map(|k| if signs >> k & 1 == 0 { coverages[k] } else { -coverages[k] }).sum())
+            })
+            .sum::<f32>()
+            / count as f32;
+        assert!((mean - (1.0 - free)).abs() < 0.08, "{coverages:?}: {mean}, not {}", 1.0 - free);
+    }
+}

@@ -1,6 +1,7 @@
-// Lays the sum of the thin triangles over the picture, once: premultiplied colour, with coverage held at one.
+// Lays the sum of the thin triangles over the picture, once: their mean colour, as far as they cover the pixel.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
+@group(2) @binding(1) var signed_source: texture_2d<f32>;
 
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
@@ -14,5 +15,6 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if sum.a <= 0.0 {
         discard;
     }
-    return vec4<f32>(sum.rgb / max(sum.a, 1.0), min(sum.a, 1.0));
+    let part = covered(sum.a, textureLoad(signed_source, vec2<i32>(position.xy), 0).r);
+    return vec4<f32>(sum.rgb * (part / sum.a), part);
 }

@@ -45,13 +45,20 @@ fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
     return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y);
 }
 
-/// Colour times coverage, and coverage: both are added, and the sum is laid over the picture once. The order does not matter.
+struct Thin {
+    /// Colour times coverage, and coverage.
+    @location(0) light: vec4<f32>,
+    /// Coverage with the sign of its image.
+    @location(1) signed_coverage: f32,
+}
+
+/// All is added, and the sum is laid over the picture once. The order does not matter.
 @fragment
-fn thin_fragment(in: Surface) -> @location(0) vec4<f32> {
+fn thin_fragment(in: Surface) -> Thin {
     if hidden(in) {
         discard;
     }
-    return vec4<f32>(shaded(in) * in.coverage, in.coverage);
+    return Thin(vec4<f32>(shaded(in) * in.coverage, in.coverage), in.coverage * coverage_sign(in.which.x, in.which.y));
 }
 
 /// Geometry inside the horizon is not seen from outside.

@@ -36,6 +36,8 @@ pub struct Request {
     pub threads: usize,
     /// Local error of each step of a ray.
     pub tolerance: f64,
+    /// Rays along each side of a packet; 1 for each alone.
+    pub packet: u32,
 }
 
 /// Why there is no picture.
@@ -83,6 +85,9 @@ impl Request {
         }
         if !(1e-17..=1e-3).contains(&self.tolerance) {
             return input(format!("--tolerance {}: must be from 1e-17 to 1e-3", self.tolerance));
+        }
+        if !(1..=8).contains(&self.packet) {
+            return input(format!("--packet {}: must be from 1 (every ray alone) to 8 rays along a side", self.packet));
         }
         if self.threads > 1024 {
             return input(format!("--threads {}: must be from 0 (as many as there are cores) to 1024", self.threads));
@@ -287,7 +292,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
         bar.set_style(style);
     }
     let started = Instant::now();
-    let quality = Quality { samples: side, tolerance: request.tolerance };
+    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
     let picture = threads.install(|| case.trace(&quality, true, &|pixels| bar.inc(pixels)));
     bar.finish_and_clear();
     let rate = f64::from(width) * f64::from(height) * f64::from(request.samples)

@@ -11,8 +11,9 @@
 
 use glam::DVec2;
 
-/// The highest order of the series; the optimum at a tolerance of 1e-17 is 22.
-pub const MAX_ORDER: usize = 24;
+use super::taylor::{Scratch, series};
+
+pub use super::taylor::MAX_ORDER;
 
 type Series = [DVec2; MAX_ORDER + 1];
 
@@ -52,27 +53,19 @@ pub struct Segment {
     pub start: f64,
     /// How much delay it covers, in r_s/c.
     pub length: f64,
-    order: usize,
-    x: Series,
-    p: Series,
+    pub(super) order: usize,
+    pub(super) x: Series,
+    pub(super) p: Series,
 }
 
 impl Segment {
     /// The step that follows `state` backwards in time, with a local error of about `tolerance` relative to r and |p|.
     pub fn step(start: f64, state: State, tolerance: f64) -> Segment {
         let order = order_for(tolerance);
-        let (x, p) = series(state, order);
-        let r = state.position.length();
-        let w = state.momentum.length();
-        // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
-        let mut length: f64 = r / (1.0 + 1.0 / r.sqrt());
-        for n in [order - 1, order] {
-            let size = (x[n].abs().max_element() / r).max(p[n].abs().max_element() / w);
-            if size > 0.0 {
-                length = length.min((tolerance / size).powf(1.0 / n as f64));
-            }
-        }
-        Segment { start, length, order, x, p }
+        let (mut x, mut p) = ([[0.0; 2]; MAX_ORDER + 1], [[0.0; 2]; MAX_ORDER + 1]);
+        series(state.position.to_array(), state.momentum.to_array(), order, &mut x, &mut p, &mut Scratch::default());
+        let (x, p) = (x.map(DVec2::from_array), p.map(DVec2::from_array));
+        Segment { start, length: step_length(&state, order, tolerance, |n| [x[n], p[n]]), order, x, p }
     }
 
     /// Light in flat space, without a hole: from `state` straight on against its momentum, for a delay of `length`.
@@ -174,67 +167,24 @@ pub fn root(mut a: f64, mut b: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
     s
 }
 
-/// The cheapest order for a tolerance is −(1/2) ln tolerance (Jorba and Zou, section 3.2.1); two more for the estimate.
-fn order_for(tolerance: f64) -> usize {
-    ((-0.5 * tolerance.ln()).ceil() as usize + 2).clamp(6, MAX_ORDER)
-}
-
-/// The Taylor coefficients of x and p in τ: dx/dτ = qx − ip, dp/dτ = (3/2)fx − qp. Each coefficient of a product is a sum over the
-/// earlier ones; sums over the same terms share a loop.
-fn series(state: State, order: usize) -> (Series, Series) {
-    let mut x = [DVec2::ZERO; MAX_ORDER + 1];
-    let mut p = [DVec2::ZERO; MAX_ORDER + 1];
-    (x[0], p[0]) = (state.position, state.momentum);
-    let zero = [0.0; MAX_ORDER + 1];
-    let mut s = zero; // r² = x·x
-    let mut w = zero; // ω² = p·p
-    let mut m = zero; // x·p
-    let mut q = zero; // r^{-3/2} = s^{-3/4}: βn = qx
-    let mut g = zero; // r^{-7/2} = s^{-7/4}
-    let mut i = zero; // 1/ω = w^{-1/2}
-    let mut f = zero; // gm
-    for n in 0..order {
-        let (mut sum_s, mut sum_w, mut sum_m) = (0.0, 0.0, 0.0);
-        for ((xa, pa), (xb, pb)) in pairs(&x, &p, n).zip(pairs(&x, &p, n).rev()) {
-            sum_s += xa.dot(*xb);
-            sum_w += pa.dot(*pb);
-            sum_m += xa.dot(*pb);
+/// How long a step with these coefficients of x and p may be for the tolerance.
+pub(super) fn step_length(state: &State, order: usize, tolerance: f64, coefficients: impl Fn(usize) -> [DVec2; 2]) -> f64 {
+    let r = state.position.length();
+    let w = state.momentum.length();
+    // Never further than r in one step, so that no step can sweep half a turn even when the last coefficients happen to vanish.
+    let longest = r / (1.0 + 1.0 / r.sqrt());
+    let mut exponent = f64::INFINITY;
+    for n in [order - 1, order] {
+        let [x, p] = coefficients(n);
+        let size = (x.abs().max_element() / r).max(p.abs().max_element() / w);
+        if size > 0.0 {
+            exponent = exponent.min((tolerance / size).ln() / n as f64);
         }
-        (s[n], w[n], m[n]) = (sum_s, sum_w, sum_m);
-        if n == 0 {
-            let r = s[0].sqrt();
-            q[0] = 1.0 / (r * r.sqrt());
-            g[0] = q[0] / s[0];
-            i[0] = 1.0 / w[0].sqrt();
-        } else {
-            // y = s^a: n s₀ yₙ = Σ_{j=1..n} (j(a + 1) − n) s_j y_{n−j}, which is s y' = a s' y term by term.
-            let (mut sum_q, mut sum_g, mut sum_i) = (0.0, 0.0, 0.0);
-            let count = n as f64;
-            let mut k = 0.0;
-            for ((sa, wa), ((qb, gb), ib)) in s[1..=n].iter().zip(&w[1..=n]).zip(q[..n].iter().zip(&g[..n]).zip(&i[..n]).rev()) {
-                k += 1.0;
-                sum_q += (0.25 * k - count) * sa * qb;
-                sum_g += (-0.75 * k - count) * sa * gb;
-                sum_i += (0.5 * k - count) * wa * ib;
-            }
-            q[n] = sum_q / (count * s[0]);
-            g[n] = sum_g / (count * s[0]);
-            i[n] = sum_i / (count * w[0]);
-        }
-        f[n] = g[..=n].iter().zip(m[..=n].iter().rev()).map(|(a, b)| a * b).sum();
-        let (mut dx, mut dp) = (DVec2::ZERO, DVec2::ZERO);
-        for (((q, i), f), (x, p)) in q[..=n].iter().zip(&i[..=n]).zip(&f[..=n]).zip(pairs(&x, &p, n).rev()) {
-            dx += *q * *x - *i * *p;
-            dp += 1.5 * f * *x - *q * *p;
-        }
-        let next = 1.0 / (n + 1) as f64;
-        x[n + 1] = next * dx;
-        p[n + 1] = next * dp;
     }
-    (x, p)
+    exponent.exp().min(longest)
 }
 
-/// Coefficients 0 to n of two series together.
-fn pairs<'a>(x: &'a Series, p: &'a Series, n: usize) -> impl DoubleEndedIterator<Item = (&'a DVec2, &'a DVec2)> + ExactSizeIterator {
-    x[..=n].iter().zip(&p[..=n])
+/// The cheapest order for a tolerance is −(1/2) ln tolerance (Jorba and Zou, section 3.2.1); two more for the estimate.
+pub(super) fn order_for(tolerance: f64) -> usize {
+    ((-0.5 * tolerance.ln()).ceil() as usize + 2).clamp(6, MAX_ORDER)
 }

@@ -2,6 +2,7 @@
 //! `spacetime::light` nor with the tables of `lensing`.
 //!
 //! - [`geodesic`]: one step of the equations of motion, a Taylor series with error control that is its own dense output.
+//! - `taylor`, `segments`: its coefficients, and steps of several rays side by side.
 //! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
 //! - [`shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
@@ -17,7 +18,9 @@ pub mod geodesic;
 pub mod picture;
 pub mod ray;
 pub mod scenes;
+mod segments;
 pub mod shoot;
+mod taylor;
 pub mod thin_disk;
 pub mod trace;
 

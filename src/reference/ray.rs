@@ -200,8 +200,18 @@ impl Follower {
             return None;
         }
         let segment = Segment::step(self.delay, self.state, self.tolerance);
-        self.delay = segment.end();
-        self.state = segment.at(segment.length);
+        self.advance(segment.end(), segment.at(segment.length));
+        Some(segment)
+    }
+
+    /// Where the next step begins: the delay (r_s/c) and the light then.
+    pub fn here(&self) -> (f64, State) {
+        (self.delay, self.state)
+    }
+
+    /// Takes the step that ends at this delay (r_s/c) in this state.
+    pub fn advance(&mut self, delay: f64, state: State) {
+        (self.delay, self.state) = (delay, state);
         self.swept = unwrap(self.state.position.y.atan2(self.state.position.x), self.swept);
         self.steps += 1;
         let r = self.state.position.length();
@@ -215,7 +225,6 @@ impl Follower {
         } else if self.steps >= MAX_STEPS {
             self.end = Some(End::Steps);
         }
-        Some(segment)
     }
 
     /// The energy of the light, in units of the frequency that a rain observer at the camera sees.

@@ -10,6 +10,7 @@ use crate::scene::model::Model;
 use super::Gpu;
 use super::aurora::Aurora;
 use super::develop::Develop;
+use super::develop::coverage::covered;
 use super::disk::types::DiskCounters;
 use super::disk::{Disk, DiskPasses};
 use super::frame::{FrameInput, blackbody_table, uniform};
@@ -301,7 +302,7 @@ impl Renderer {
             {
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some("thin"),
-                    color_attachments: &[Some(colour(&self.targets.thin, true))],
+                    color_attachments: &[Some(colour(&self.targets.thin, true)), Some(colour(&self.targets.thin_signed, true))],
                     depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
                     timestamp_writes: self.timing.render("thin"),
                     ..Default::default()
@@ -355,8 +356,10 @@ impl Renderer {
             _ => Default::default(),
         };
         let thin = if self.geometry.has_thin() {
-            let halves = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
-            halves.chunks_exact(8).map(|texel| half::f16::from_le_bytes([texel[6], texel[7]]).to_f32()).collect()
+            let sums = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
+            let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 2)?;
+            let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
+            sums.chunks_exact(8).zip(signed.chunks_exact(2)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
         } else {
             Vec::new()
         };

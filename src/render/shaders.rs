@@ -16,6 +16,7 @@ const LENSING_CAMERA: &str = include_str!("../../shaders/functions/lensing_camer
 const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
 const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
+const COVERAGE: &str = include_str!("../../shaders/functions/coverage.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PLACEMENT: &str = include_str!("../../shaders/geometry/placement.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
@@ -167,14 +168,15 @@ impl Pass {
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
-            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, SHADE],
+            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
             Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
             Pass::AuroraResolve => vec![],
-            Pass::Compose | Pass::Bloom => vec![],
+            Pass::Compose => vec![COVERAGE],
+            Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices => {
                 vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]

@@ -1,7 +1,7 @@
 //! The textures that a frame is drawn into, all of the size of the output.
 
 use super::geometry::LAYERS_FORMAT;
-use super::layout::{DEPTH_FORMAT, HDR_FORMAT};
+use super::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
 
 /// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of about the
 /// same angle it counts the same at every resolution.
@@ -37,6 +37,10 @@ pub struct Targets {
     pub thin_texture: wgpu::Texture,
     /// Sum of thin triangles.
     pub thin: wgpu::TextureView,
+    /// Sum of their coverage with signs, as a texture to copy from.
+    pub thin_signed_texture: wgpu::Texture,
+    /// Sum of their coverage with signs.
+    pub thin_signed: wgpu::TextureView,
     /// The picture at a quarter of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,
     /// What the pixels show; made when first asked for.
@@ -49,6 +53,7 @@ impl Targets {
         let size = size.map(|side| side.max(1));
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
         let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
+        let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, SIGNED_FORMAT);
         let mut bloom = Vec::new();
         let mut level = size;
         while bloom.len() < BLOOM_LEVELS {
@@ -66,6 +71,8 @@ impl Targets {
             depth: target(device, "depth", size, DEPTH_FORMAT).1,
             thin_texture,
             thin,
+            thin_signed_texture,
+            thin_signed,
             bloom,
             layers: None,
         }

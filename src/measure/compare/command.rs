@@ -55,26 +55,49 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
         bar.set_style(style);
     }
-    let judge = case.trace(&Quality { samples: side, tolerance: request.tolerance }, true, &|pixels| bar.inc(pixels));
+    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
+    let judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     let verdict = compare(&judge, &frame, &case.probe(request.tolerance), &names, &difference);
-    let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
+    // Colours of surfaces follow from where their points are; what else differs there are steps along edges, of a ray a pixel in the game.
+    let flip = (request.samples >= COLOUR_SAMPLES && case.assembly.objects.is_empty()).then(|| colour_limit(&judge));
+    let limits = Limits { orders: case.config.render.orders, flip, ..Limits::default() };
     let faults = verdict.faults(&limits);
-    print!("{}", table(&verdict, &faults));
+    print!("{}", table(&verdict, &limits, &faults));
     let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
     write_png(output, &bytes, size)?;
     Ok(faults)
 }
 
+/// From this many rays a pixel on the judge's colours are judged by: with fewer its own streaks are rough.
+const COLOUR_SAMPLES: u32 = 16;
+
+/// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel, which every surface point may be displaced by.
+pub fn colour_limit(judge: &Picture) -> f64 {
+    let width = judge.size[0] as usize;
+    let moved: Vec<[f32; 3]> = (0..judge.light.len())
+        .map(|i| {
+            let left = judge.light[if i % width > 0 { i - 1 } else { i }];
+            std::array::from_fn(|channel| 0.5 * (judge.light[i][channel] + left[channel]))
+        })
+        .collect();
+    let map = contrast(judge, &moved);
+    map.iter().map(|d| f64::from(*d)).sum::<f64>() / map.len().max(1) as f64
+}
+
 /// ꟻLIP of the two pictures, both exposed so that the judge's brightest hundredth is white.
 pub fn difference(judge: &Picture, frame: &Frame) -> Vec<f32> {
+    contrast(judge, &frame.light)
+}
+
+fn contrast(judge: &Picture, light: &[[f32; 3]]) -> Vec<f32> {
     let mut peaks: Vec<f32> = judge.light.iter().map(|rgb| rgb.iter().copied().fold(0.0, f32::max)).filter(|peak| *peak > 0.0).collect();
     peaks.sort_by(f32::total_cmp);
     let white = peaks.get(peaks.len() * 99 / 100).copied().unwrap_or(1.0).max(1e-9);
     let exposed = |light: &[[f32; 3]]| -> Vec<[f32; 3]> { light.iter().map(|rgb| rgb.map(|c| c / white)).collect() };
-    flip(&exposed(&judge.light), &exposed(&frame.light), judge.size)
+    flip(&exposed(&judge.light), &exposed(light), judge.size)
 }
 
 /// The models of a case with the first two of their points' coordinates as texture coordinates, and with the third: a renderer that draws

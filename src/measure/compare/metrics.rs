@@ -1,6 +1,6 @@
 //! How far a picture is from the judge's.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use super::Frame;
 use super::displacement::{Measured, Probe, displacements};
@@ -42,6 +42,8 @@ pub struct Group {
     pub displacement: Displacement,
     /// Images narrower than a pixel: their area in pixels to the judge and to the contestant.
     pub thin: [f64; 2],
+    /// Pixels of which they cover a part to the judge.
+    pub touched: usize,
     /// Mean ꟻLIP over the judge's pixels of it.
     pub flip: f64,
 }
@@ -74,15 +76,18 @@ pub struct Limits {
     pub max: f64,
     /// Of mismatched pixels, as a part of the object's pixels and its rim.
     pub coverage: f64,
-    /// Of the difference in area of thin images, as a part of their area, where that is more than 20 pixels.
+    /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
+    /// triangles may make all or nothing, of a variance of 1/4 at most.
     pub thin: f64,
+    /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours, or where surfaces are.
+    pub flip: Option<f64>,
     /// Image orders that are drawn at all; higher ones are listed and not judged.
     pub orders: u32,
 }
 
 impl Default for Limits {
     fn default() -> Limits {
-        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 0.2, orders: 3 }
+        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 3.0, flip: None, orders: 3 }
     }
 }
 
@@ -105,10 +110,19 @@ impl Verdict {
             if group.mismatched as f64 > allowed.max(1.0) {
                 faults.push(format!("{who}: {} pixels differ, allowed {:.1}", group.mismatched, allowed.max(1.0)));
             }
-            let [judge, shown] = group.thin;
-            if (judge - shown).abs() > (limits.thin * judge).max(limits.thin * 20.0) {
-                faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1}"));
-            }
+        }
+        // Where several thin images cover a pixel a contestant cannot tell how much each does, and the nearest stands for all.
+        let drawn = self.groups.iter().filter(|group| group.order <= limits.orders);
+        let [judge, shown] = drawn.clone().fold([0.0; 2], |sum, group| [sum[0] + group.thin[0], sum[1] + group.thin[1]]);
+        let touched: usize = drawn.map(|group| group.touched).sum();
+        let allowed = 0.5 * limits.thin * (touched.max(1) as f64).sqrt();
+        if (judge - shown).abs() > allowed {
+            faults.push(format!("thin images cover {shown:.1} px together, not {judge:.1} (give or take {allowed:.1})"));
+        }
+        if let Some(allowed) = limits.flip
+            && self.flip > allowed
+        {
+            faults.push(format!("mean FLIP is {:.4}, not {allowed:.4}: more than half a pixel's shift makes", self.flip));
         }
         // A pixel that the border of two orders runs through is judged by coverage, like that of any border.
         for (count, what) in [
@@ -129,7 +143,7 @@ impl Verdict {
 pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
     let grid = Grid { width, height };
-    let thin = thin_images(judge);
+    let thin = thin_images(judge, frame);
     let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
     let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
@@ -145,6 +159,13 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             count > 0 && count < around.len()
         };
         let agree = layer.object == shown.object && layer.order == shown.order;
+        // What a pixel shows behind or beside a thin image that is there is a matter of how much that covers, and compared so.
+        let shares = |j: usize, object: u32, order: u32| judge.shares[j].iter().any(|share| (share.0, share.1) == (object, order));
+        let beside_thin = if is_thin(shown.object, shown.order) {
+            shown.coverage < 1.0 || around.iter().any(|&j| shares(j, shown.object, shown.order))
+        } else {
+            is_thin(layer.object, layer.order) && shares(i, shown.object, shown.order)
+        };
         if layer.object > 0 && layer.object == shown.object && layer.order != shown.order {
             wrong_order += 1;
             let near = around.iter().any(|&j| (judge.layers[j].object, judge.layers[j].order) == (shown.object, shown.order));
@@ -154,7 +175,9 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
         lit += usize::from(frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]));
         for &(object, order, share) in &judge.shares[i] {
             if is_thin(object, order) {
-                tallies.entry((name(object), order)).or_default().thin[0] += f64::from(share);
+                let tally = tallies.entry((name(object), order)).or_default();
+                tally.thin[0] += f64::from(share);
+                tally.touched += 1;
             }
         }
         if shown.object > 0 && is_thin(shown.object, shown.order) {
@@ -165,10 +188,10 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             tally.pixels += 1;
             tally.flip += f64::from(difference[i]);
             tally.rim += usize::from(at_rim(layer.object, layer.order));
-            if !agree {
+            if !agree && !beside_thin {
                 tally.mismatched += 1;
                 tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
-            } else {
+            } else if agree {
                 match measured[i] {
                     Some(Measured::Pixels(d)) => {
                         tally.displacements.push((d, i));
@@ -179,7 +202,7 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
                 }
             }
         }
-        if shown.object > 0 && !agree && !is_thin(shown.object, shown.order) {
+        if shown.object > 0 && !agree && !beside_thin && !is_thin(shown.object, shown.order) {
             let tally = tallies.entry((name(shown.object), shown.order)).or_default();
             tally.mismatched += 1;
             let rim = at_rim(shown.object, shown.order);
@@ -192,15 +215,27 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
     Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced }
 }
 
-/// Objects and orders that nowhere fill a pixel.
-fn thin_images(judge: &Picture) -> std::collections::HashSet<(u32, u32)> {
-    let mut fullest: BTreeMap<(u32, u32), f32> = BTreeMap::new();
+/// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
+/// by coverage, if they hardly do: drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
+fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
+    // Pixels touched and pixels filled.
+    let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
     for &(object, order, share) in judge.shares.iter().flatten() {
-        let most = fullest.entry((object, order)).or_default();
-        *most = most.max(share);
+        let [touched, filled] = counts.entry((object, order)).or_default();
+        *touched += 1;
+        *filled += usize::from(share >= FULL);
     }
-    fullest.into_iter().filter(|(_, most)| *most < 0.999).map(|(key, _)| key).collect()
+    let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
+    let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(|shown| (shown.object, shown.order));
+    // What not one sample of the judge has met is narrow for sure.
+    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| MOSTLY * filled < *touched));
+    nowhere.chain(hardly).collect()
 }
+
+/// A pixel is filled from this part on: all samples of any number but for rounding.
+const FULL: f32 = 0.999;
+/// One in so many pixels filled is still narrow: of a line one pixel wide, across any grid, none to a third is.
+const MOSTLY: usize = 3;
 
 #[derive(Default)]
 struct Tally {
@@ -212,6 +247,7 @@ struct Tally {
     displacements: Vec<(f64, usize)>,
     apart: usize,
     thin: [f64; 2],
+    touched: usize,
     flip: f64,
 }
 
@@ -237,6 +273,7 @@ impl Tally {
             beyond_rim: self.beyond_rim,
             displacement,
             thin: self.thin,
+            touched: self.touched,
             flip: self.flip / self.pixels.max(1) as f64,
         }
     }

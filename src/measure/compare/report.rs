@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use super::Frame;
-use super::metrics::Verdict;
+use super::metrics::{Limits, Verdict};
 use crate::reference::picture::Picture;
 use crate::reference::picture::develop::{Development, develop};
 
 /// The verdict as a table, with what goes beyond the limits below.
-pub fn table(verdict: &Verdict, faults: &[String]) -> String {
+pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
@@ -37,9 +37,10 @@ pub fn table(verdict: &Verdict, faults: &[String]) -> String {
             group.flip
         );
     }
+    let colour = limits.flip.map_or("no limit with surfaces or below 16 rays a pixel".into(), |flip| format!("at most {flip:.4}"));
     let _ = writeln!(
         text,
-        "wrong order {} px ({} of them beyond the rim), holes {} px, lit in the shadow {} px, mean FLIP {:.4}",
+        "wrong order {} px ({} of them beyond the rim), holes {} px, lit in the shadow {} px, mean FLIP {:.4} ({colour})",
         verdict.wrong_order, verdict.wrong_beyond_rim, verdict.holes, verdict.lit, verdict.flip
     );
     for fault in faults {

@@ -3,11 +3,14 @@
 //! A piece from s₀ to s₁ differs from its chord, at equal parameter, by at most |s₁ − s₀|² max|x''| / 8 (the sagitta): so a box that the curve
 //! meets, grown by that much, is met by the chord. Flying bodies are asked in their rest frame, where they stand still and the curve moves.
 
+use std::cell::OnceCell;
 use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
+use super::sweep::{fastest, is_short};
+use super::tree::Chord;
 use super::world::{Flying, Motion, World, Worldline};
 use crate::reference::geodesic::{Segment, State, root};
 use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius, unwrap};
@@ -42,8 +45,40 @@ struct Piece<'a> {
 
 impl Piece<'_> {
     fn place(&self, elapsed: f64) -> DVec3 {
-        let v = self.segment.position(elapsed);
+        self.embed(self.segment.position(elapsed))
+    }
+
+    fn embed(&self, v: DVec2) -> DVec3 {
         self.axes[0] * v.x + self.axes[1] * v.y
+    }
+}
+
+/// A piece's two ends in the plane of the orbit.
+struct Ends {
+    places: [DVec2; 2],
+    /// dx/dτ, asked for by triangles alone.
+    rates: OnceCell<[DVec2; 2]>,
+}
+
+impl Ends {
+    fn rates(&self, piece: &Piece) -> [DVec2; 2] {
+        *self.rates.get_or_init(|| [piece.from, piece.to].map(|elapsed| piece.segment.velocity(elapsed)))
+    }
+}
+
+/// What a ray may meet in a step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Near {
+    /// Leaves of the tree of what is held; None where nobody has looked.
+    pub held: Option<Vec<u32>>,
+    /// Numbers among the flying.
+    pub flying: Vec<u32>,
+}
+
+impl Near {
+    /// Everything.
+    pub fn all(world: &World) -> Near {
+        Near { held: None, flying: (0..world.flying.len() as u32).collect() }
     }
 }
 
@@ -54,6 +89,16 @@ struct Met {
     thing: u32,
     triangle: u32,
     barycentrics: [f64; 3],
+}
+
+impl Met {
+    /// Takes the nearer one; of two at the same place, on a shared edge, the one of lower number: the order in which they were found says nothing.
+    fn offer(self, met: &mut Option<Met>) {
+        let key = |met: &Met| (met.thing, met.triangle);
+        if met.is_none_or(|other| self.elapsed < other.elapsed || self.elapsed == other.elapsed && key(&self) < key(&other)) {
+            *met = Some(self);
+        }
+    }
 }
 
 /// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
@@ -69,13 +114,14 @@ impl World<'_> {
     /// The same, telling on the way of every crossing of the plane z = 0, in order.
     pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
-        let radius = self.held.radius.max(sky_radius(position.length())).max(self.flying_radius());
+        let near = Near::all(self);
+        let radius = self.radius.max(sky_radius(position.length()));
         if !self.hole {
             let state = State { position: DVec2::new(position.length(), 0.0), momentum: -in_plane };
             let segment = Segment::straight(0.0, state, position.length() + radius);
             let direction = axes[0] * in_plane.x + axes[1] * in_plane.y;
             let swept = in_plane.y.atan2(in_plane.x);
-            return match self.meet(&segment, axes, 0.0, cross) {
+            return match self.meet(&segment, axes, 0.0, &near, cross) {
                 Some(hit) => Seen::Hit(hit),
                 None => Seen::Sky { direction, swept, energy: 1.0 },
             };
@@ -83,51 +129,48 @@ impl World<'_> {
         let mut follower = Follower::new(position.length(), in_plane, tolerance, Stop { radius, ..Stop::default() });
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
-            if let Some(hit) = self.meet(&segment, axes, swept, cross) {
+            if let Some(hit) = self.meet(&segment, axes, swept, &near, cross) {
                 return Seen::Hit(hit);
             }
             swept = follower.swept;
         }
-        match follower.sky_swept() {
-            Some(swept) if follower.end == Some(End::Escaped) => {
-                let direction = axes[0] * swept.cos() + axes[1] * swept.sin();
-                Seen::Sky { direction, swept, energy: follower.energy() }
-            }
-            _ => Seen::Captured,
-        }
+        beyond(&follower, axes)
     }
 
-    /// Beyond this radius nothing flies at any time that matters.
-    fn flying_radius(&self) -> f64 {
-        self.flying
-            .iter()
-            .map(|flying| match self.things[flying.thing as usize].motion {
-                Motion::Flying(line) => 2.0 * line.at(self.time).position.length() + flying.reach,
-                Motion::Held { .. } => 0.0,
-            })
-            .fold(0.0, f64::max)
-    }
-
-    /// The first meeting in one step of the ray, which had swept `swept` when it began.
-    fn meet(&self, segment: &Segment, axes: [DVec3; 2], swept: f64, cross: &mut dyn FnMut(Crossing)) -> Option<Hit> {
+    /// The first meeting in one step of the ray, which had swept `swept` when it began, with what is `near` it.
+    pub(super) fn meet(
+        &self,
+        segment: &Segment,
+        axes: [DVec3; 2],
+        swept: f64,
+        near: &Near,
+        cross: &mut dyn FnMut(Crossing),
+    ) -> Option<Hit> {
         let bend = segment.bend();
-        let whole = Piece { segment, axes, from: 0.0, to: segment.length };
-        let chord = whole.place(0.0).distance(whole.place(segment.length));
-        // Pieces whose sagitta is a fiftieth of their chord: boxes hardly grow, and there are few of them.
-        let sagitta = bend * segment.length * segment.length / 8.0;
-        let pieces = (50.0 * sagitta / chord.max(1e-300)).ceil().clamp(1.0, 64.0);
+        let (mut start, last) = (segment.position(0.0), segment.position(segment.length));
+        let pieces = pieces(bend, segment.length, start.distance(last));
         let step = segment.length / pieces;
         for k in 0..pieces as usize {
-            let to = if k + 1 == pieces as usize { segment.length } else { step * (k + 1) as f64 };
+            let is_last = k + 1 == pieces as usize;
+            let to = if is_last { segment.length } else { step * (k + 1) as f64 };
             let piece = Piece { segment, axes, from: step * k as f64, to };
+            let end = if is_last { last } else { segment.position(to) };
+            let ends = Ends { places: [start, end], rates: OnceCell::new() };
+            start = end;
+            let grow = growth(bend, to - piece.from, ends.places);
             let mut met = None;
-            self.meet_held(&piece, bend, &mut met);
-            for flying in &self.flying {
-                if let Motion::Flying(line) = self.things[flying.thing as usize].motion {
+            self.meet_held(&piece, &ends, grow, near.held.as_deref(), &mut met);
+            for &number in &near.flying {
+                let flying = &self.flying[number as usize];
+                let [a, b] = ends.places.map(|place| piece.embed(place));
+                let chord = Chord::new(a, b, DVec3::splat(grow));
+                if let Motion::Flying(line) = self.things[flying.thing as usize].motion
+                    && flying.sweep.touches(&chord, segment.start + piece.from, segment.start + to)
+                {
                     self.meet_flying(&piece, flying, line, &mut met);
                 }
             }
-            if let Some(crossing) = cross_plane(&piece, met.map_or(piece.to, |met| met.elapsed)) {
+            if let Some(crossing) = cross_plane(&piece, &ends, met.map(|met| met.elapsed)) {
                 cross(crossing);
             }
             if let Some(met) = met {
@@ -153,23 +196,20 @@ impl World<'_> {
         }
     }
 
-    fn meet_held(&self, piece: &Piece, bend: f64, met: &mut Option<Met>) {
-        let (from, to) = (piece.place(piece.from), piece.place(piece.to));
+    fn meet_held(&self, piece: &Piece, ends: &Ends, grow: f64, leaves: Option<&[u32]>, met: &mut Option<Met>) {
+        let [from, to] = ends.places.map(|place| piece.embed(place));
         let span = piece.to - piece.from;
-        // Rounding of positions: a few ulp of the distance from the hole.
-        let grow = bend * span * span / 8.0 + 1e-15 * (1.0 + from.length().max(to.length()));
-        self.held.tree.along(from, to, grow, 1.0, |item, until| {
-            let end = (piece.from + until * span).min(piece.to);
+        let meet = |item: u32, until: f64| {
             let corners = self.held.triangles[item as usize].map(|i| self.held.vertices[i as usize]);
-            if let Some((elapsed, barycentrics)) = cross_held(piece, corners, end)
-                && met.is_none_or(|met| elapsed < met.elapsed)
-            {
-                let (thing, triangle) = self.held.owners[item as usize];
-                *met = Some(Met { elapsed, thing, triangle, barycentrics });
-                return (elapsed - piece.from) / span;
-            }
-            until
-        });
+            let Some((elapsed, barycentrics)) = cross_held(piece, ends, corners) else { return until };
+            let (thing, triangle) = self.held.owners[item as usize];
+            Met { elapsed, thing, triangle, barycentrics }.offer(met);
+            (elapsed - piece.from) / span
+        };
+        match leaves {
+            Some(leaves) => self.held.tree.along_leaves(leaves, from, to, grow, meet),
+            None => self.held.tree.along(from, to, grow, 1.0, meet),
+        }
     }
 
     /// Nearer and nearer halves of the piece, until body and light are sure to miss each other or are close for a moment only.
@@ -181,12 +221,10 @@ impl World<'_> {
         let middle = piece.from + half;
         let light = piece.segment.at(middle).position;
         let centre = line.at(self.time - piece.segment.start - middle).position;
-        // Nothing outruns light: |dx/dT| ≤ 1 + β, of which 1 + 1.6/√r is a bound while r stays above 0.4 of itself, as it does for this long.
-        let fastest = |r: f64| 1.0 + 1.6 / r.sqrt();
         let (r_light, r_body) = (light.length(), centre.length());
         let straying = half * (fastest(r_light) + fastest(r_body));
-        let short = half * fastest(r_light) <= 0.25 * r_light && half * fastest(r_body) <= 0.25 * r_body;
-        let apart = (piece.axes[0] * light.x + piece.axes[1] * light.y).distance(centre);
+        let short = is_short(half, r_light) && is_short(half, r_body);
+        let apart = piece.embed(light).distance(centre);
         // A length is never longer on the slice than at rest.
         if (short || !self.hole && straying < apart) && apart > flying.reach + straying {
             return;
@@ -222,11 +260,11 @@ impl World<'_> {
                     continue;
                 }
                 let elapsed = falsi((at(k), heights[k]), (at(k + 1), heights[k + 1]), |s| height(body(s)));
-                if met.is_some_and(|met| met.elapsed <= elapsed) {
+                if met.is_some_and(|met| met.elapsed < elapsed) {
                     break;
                 }
                 if let Some(barycentrics) = weights(corners, normal, body(elapsed)) {
-                    *met = Some(Met { elapsed, thing: flying.thing, triangle: item, barycentrics });
+                    Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
                     // A later crossing of this triangle is of no interest. The tree's own bound stays loose by the sagitta.
                     return ((elapsed - piece.from) / span).min(until);
                 }
@@ -236,12 +274,36 @@ impl World<'_> {
     }
 }
 
-/// Where a piece goes through z = 0 before the elapsed time `end`. The plane goes through the hole, round which a segment turns by less than
-/// half a turn, so it does so at most once. A piece that starts on the plane has been told of by the one before.
-fn cross_plane(piece: &Piece, end: f64) -> Option<Crossing> {
+/// What is seen by a ray that has met nothing.
+pub(super) fn beyond(follower: &Follower, axes: [DVec3; 2]) -> Seen {
+    match follower.sky_swept() {
+        Some(swept) if follower.end == Some(End::Escaped) => {
+            let direction = axes[0] * swept.cos() + axes[1] * swept.sin();
+            Seen::Sky { direction, swept, energy: follower.energy() }
+        }
+        _ => Seen::Captured,
+    }
+}
+
+/// Into how many pieces a step of this bend, length and chord is cut, so that the sagitta of each is at most a fiftieth of its chord: boxes hardly
+/// grow, and there are few pieces.
+pub(super) fn pieces(bend: f64, length: f64, chord: f64) -> f64 {
+    let sagitta = bend * length * length / 8.0;
+    (50.0 * sagitta / chord.max(1e-300)).ceil().clamp(1.0, 64.0)
+}
+
+/// How far a piece of this delay strays from the chord between its ends, and rounding: a few ulp of the distance from the hole.
+pub(super) fn growth(bend: f64, span: f64, ends: [DVec2; 2]) -> f64 {
+    bend * span * span / 8.0 + 1e-15 * (1.0 + ends[0].length().max(ends[1].length()))
+}
+
+/// Where a piece goes through z = 0 before it has met something at the elapsed time `met`. The plane goes through the hole, round which a segment
+/// turns by less than half a turn, so it does so at most once. A piece that starts on the plane has been told of by the one before.
+fn cross_plane(piece: &Piece, ends: &Ends, met: Option<f64>) -> Option<Crossing> {
     let a = DVec2::new(piece.axes[0].z, piece.axes[1].z);
-    let height = |s: f64| a.dot(piece.segment.position(s));
-    let (h0, h1) = (height(piece.from), height(end));
+    let end = met.unwrap_or(piece.to);
+    let h0 = a.dot(ends.places[0]);
+    let h1 = a.dot(met.map_or(ends.places[1], |elapsed| piece.segment.position(elapsed)));
     if h0 == 0.0 || h0 * h1 > 0.0 {
         return None;
     }
@@ -256,19 +318,18 @@ fn cross_plane(piece: &Piece, end: f64) -> Option<Crossing> {
     })
 }
 
-/// The first crossing of a piece with a triangle that does not move, up to the elapsed time `end`.
+/// The first crossing of a piece with a triangle that does not move.
 ///
 /// The triangle's plane cuts the plane of the orbit in a line a·x = c. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and turns
 /// by less than half a turn in a segment, so it crosses a line at most twice, once on each side of where it runs parallel to it.
-fn cross_held(piece: &Piece, corners: [DVec3; 3], end: f64) -> Option<(f64, [f64; 3])> {
+fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let a = DVec2::new(normal.dot(piece.axes[0]), normal.dot(piece.axes[1]));
     let c = normal.dot(corners[0]);
     let segment = piece.segment;
     let height = |s: f64| a.dot(segment.position(s)) - c;
-    let rate = |s: f64| a.dot(segment.velocity(s));
-    let (from, to) = (piece.from, end);
-    let (h0, h1) = (height(from), height(to));
+    let (from, to) = (piece.from, piece.to);
+    let [h0, h1] = ends.places.map(|place| a.dot(place) - c);
     let try_at = |elapsed: f64| weights(corners, normal, piece.place(elapsed)).map(|weights| (elapsed, weights));
     if h0 == 0.0 && h1 == 0.0 {
         // The ray runs in the plane of the triangle: it sees no surface.
@@ -278,10 +339,11 @@ fn cross_held(piece: &Piece, corners: [DVec3; 3], end: f64) -> Option<(f64, [f64
         return try_at(segment.cross_line(a, c, from, to));
     }
     // Both ends on one side: only a piece that first nears the line and then leaves it can touch it in between.
-    if h0 * rate(from) >= 0.0 || h1 * rate(to) <= 0.0 {
+    let [rate0, rate1] = ends.rates(piece).map(|rate| a.dot(rate));
+    if h0 * rate0 >= 0.0 || h1 * rate1 <= 0.0 {
         return None;
     }
-    let middle = root(from, to, |s| (rate(s), a.dot(segment.acceleration(s))));
+    let middle = root(from, to, |s| (a.dot(segment.velocity(s)), a.dot(segment.acceleration(s))));
     if h0 * height(middle) > 0.0 {
         return None;
     }

@@ -2,15 +2,18 @@
 //!
 //! - [`world`]: the things of a scene, with worldlines handed in from above.
 //! - [`tree`]: boxes over triangles, asked along pieces of a curve.
-//! - `find`: what one look direction shows.
+//! - `find`: what one look direction shows; `packet`: the same for neighbours together.
+//! - `sweep`: where flying bodies may be at which delay.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`develop`]: linear light to a picture for the eye.
 
 pub mod develop;
 pub mod disk;
 mod find;
+mod packet;
 pub mod shade;
 pub mod sky;
+mod sweep;
 pub mod texture;
 pub mod tree;
 pub mod world;
@@ -26,6 +29,7 @@ pub use disk::{Crossing, Disk};
 pub use find::Seen;
 pub use world::{Motion, Pose, Thing, World, Worldline};
 
+use super::bvh::order::squares;
 use super::trace::{Camera, Hit};
 use shade::{Shift, Surface, detail, shaded, texel};
 use sky::{Background, SPOT_SIGMA, Spot};
@@ -50,7 +54,12 @@ pub struct Quality {
     pub samples: u32,
     /// Local error of each step of a ray.
     pub tolerance: f64,
+    /// Rays along each side of a packet; with 1 each goes alone. The picture is the same to the last bit.
+    pub packet: u32,
 }
+
+/// Rays along each side of a packet unless asked otherwise.
+pub const DEFAULT_PACKET: u32 = 8;
 
 /// What the centre of a pixel shows, for comparing pictures. All are 0 where it shows no surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -196,10 +205,11 @@ impl Painter<'_> {
         let width = self.camera.size[0];
         let (columns, rows) = ((width * n) as usize, ((end - first) * n) as usize);
         let part = 1.0 / f64::from(n);
-        let samples: Vec<Sample> = (0..rows)
-            .flat_map(|row| (0..columns).map(move |column| (row, column)))
-            .map(|(row, column)| self.sample((column as f64 + 0.5) * part, f64::from(first) + (row as f64 + 0.5) * part))
-            .collect();
+        let place = |index: usize| {
+            let (row, column) = (index / columns, index % columns);
+            [(column as f64 + 0.5) * part, f64::from(first) + (row as f64 + 0.5) * part]
+        };
+        let samples = self.samples(columns, rows, &place);
         let grid = Grid { samples: &samples, columns, rows };
         let pixels = (width * (end - first)) as usize;
         let mut band = Band {
@@ -249,17 +259,49 @@ impl Painter<'_> {
         band
     }
 
+    /// The rays of a band, `place` giving the place of each on the screen.
+    fn samples(&self, columns: usize, rows: usize, place: &dyn Fn(usize) -> [f64; 2]) -> Vec<Sample> {
+        let packet = self.quality.packet as usize;
+        if packet <= 1 {
+            return (0..columns * rows).map(place).map(|[x, y]| self.sample(x, y)).collect();
+        }
+        let blank = Sample { end: Ending::Dark, veil: Vec3::ZERO, through: 1.0 };
+        let mut samples = vec![blank; columns * rows];
+        let (order, starts) = squares([columns, rows], packet);
+        for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
+            let rays: Vec<(DVec3, f64)> = tile.iter().map(|&index| place(index as usize)).map(|[x, y]| self.camera.look(x, y)).collect();
+            let looks: Vec<DVec3> = rays.iter().map(|ray| ray.0).collect();
+            let mut veils = vec![(Vec3::ZERO, 1.0); tile.len()];
+            let seen = self.world.look_together(self.camera.position, &looks, self.quality.tolerance, &mut |ray, crossing| {
+                self.dim(&mut veils[ray], &crossing, rays[ray].1);
+            });
+            for (k, &index) in tile.iter().enumerate() {
+                samples[index as usize] = self.ended(seen[k], veils[k], rays[k].1);
+            }
+        }
+        samples
+    }
+
     fn sample(&self, x: f64, y: f64) -> Sample {
         let (look, blue) = self.camera.look(x, y);
-        let (mut veil, mut through) = (Vec3::ZERO, 1.0);
-        let end = self.world.look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| {
-            if let Some(disk) = self.setting.disk {
-                let (light, opacity) = disk.light(&crossing, blue, self.world.time, self.setting.shift);
-                veil += light * through;
-                through *= 1.0 - opacity;
-            }
-        });
-        let end = match end {
+        let mut veil = (Vec3::ZERO, 1.0);
+        let seen = self
+            .world
+            .look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| self.dim(&mut veil, &crossing, blue));
+        self.ended(seen, veil, blue)
+    }
+
+    /// What the disk adds to the light in front, and takes from what comes through.
+    fn dim(&self, (light, through): &mut (Vec3, f32), crossing: &Crossing, blue: f64) {
+        if let Some(disk) = self.setting.disk {
+            let (added, opacity) = disk.light(crossing, blue, self.world.time, self.setting.shift);
+            *light += added * *through;
+            *through *= 1.0 - opacity;
+        }
+    }
+
+    fn ended(&self, seen: Seen, (veil, through): (Vec3, f32), blue: f64) -> Sample {
+        let end = match seen {
             Seen::Captured => Ending::Dark,
             Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
             Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },

@@ -12,19 +12,25 @@ const SETTINGS: Settings = Settings { costs: Costs { node: 1.0, primitive: 4.0 }
 pub struct Tree(bvh::Tree<f64>);
 
 /// Where a chord passes boxes that are grown on all sides.
-struct Chord {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord {
     from: DVec3,
     step: DVec3,
-    grow: f64,
+    grow: DVec3,
 }
 
 impl Chord {
+    /// From `from` to `to`, boxes grown by `grow` on each axis, all in r_s.
+    pub fn new(from: DVec3, to: DVec3, grow: DVec3) -> Chord {
+        Chord { from, step: to - from, grow }
+    }
+
     /// The fraction of the chord at which it enters the grown box, or None where it misses it before `until`. A chord that lies in a face, or
     /// starts on one, is inside.
-    fn enters(&self, bounds: &Bounds<f64>, until: f64) -> Option<f64> {
+    pub fn enters(&self, bounds: &Bounds<f64>, until: f64) -> Option<f64> {
         let (mut enter, mut leave) = (0.0f64, until);
         for axis in 0..3 {
-            let (low, high) = (bounds.min[axis] - self.grow - self.from[axis], bounds.max[axis] + self.grow - self.from[axis]);
+            let (low, high) = (bounds.min[axis] - self.grow[axis] - self.from[axis], bounds.max[axis] + self.grow[axis] - self.from[axis]);
             let step = self.step[axis];
             if step == 0.0 {
                 if low > 0.0 || high < 0.0 {
@@ -53,7 +59,7 @@ impl Tree {
     /// the fraction of the chord beyond which nothing is of interest any more.
     pub fn along(&self, from: DVec3, to: DVec3, grow: f64, mut until: f64, mut meet: impl FnMut(u32, f64) -> f64) {
         let Some(root) = self.0.nodes.first() else { return };
-        let chord = Chord { from, step: to - from, grow };
+        let chord = Chord::new(from, to, DVec3::splat(grow));
         let mut stack = [(0.0, 0); bvh::MAX_DEPTH + 1];
         let mut depth = 0;
         if let Some(enter) = chord.enters(&root.bounds, until) {
@@ -83,5 +89,51 @@ impl Tree {
                 }
             }
         }
+    }
+    /// The same for those leaves alone of which [`Tree::gather`] told, in any order.
+    pub fn along_leaves(&self, leaves: &[u32], from: DVec3, to: DVec3, grow: f64, mut meet: impl FnMut(u32, f64) -> f64) {
+        let chord = Chord::new(from, to, DVec3::splat(grow));
+        let mut until = 1.0;
+        for &leaf in leaves {
+            let node = &self.0.nodes[leaf as usize];
+            if chord.enters(&node.bounds, until).is_some() {
+                for &item in &self.0.order[node.run()] {
+                    until = until.min(meet(item, until));
+                }
+            }
+        }
+    }
+
+    /// Adds to `leaves` those whose boxes the chord passes; false, and no use, where they would be more than `most`.
+    pub(super) fn gather(&self, chord: &Chord, most: usize, leaves: &mut Vec<u32>) -> bool {
+        if self.0.nodes.is_empty() {
+            return true;
+        }
+        let mut stack = [0; bvh::MAX_DEPTH + 1];
+        let mut depth = 1;
+        while depth > 0 {
+            depth -= 1;
+            let index = stack[depth];
+            let node = &self.0.nodes[index];
+            if chord.enters(&node.bounds, 1.0).is_none() {
+                continue;
+            }
+            if !node.is_leaf() {
+                let [first, second] = node.children();
+                (stack[depth], stack[depth + 1]) = (first, second);
+                depth += 2;
+            } else if !leaves.contains(&(index as u32)) {
+                if leaves.len() == most {
+                    return false;
+                }
+                leaves.push(index as u32);
+            }
+        }
+        true
+    }
+
+    /// Whether the chord passes the box of a leaf.
+    pub(super) fn passes(&self, leaf: u32, chord: &Chord) -> bool {
+        chord.enters(&self.0.nodes[leaf as usize].bounds, 1.0).is_some()
     }
 }

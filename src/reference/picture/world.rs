@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::sweep::Sweep;
 use super::tree::Tree;
 use crate::scene::lighting::Surroundings;
 use crate::scene::model::Model;
@@ -82,6 +83,8 @@ pub struct World<'a> {
     pub hole: bool,
     pub(super) held: Held,
     pub(super) flying: Vec<Flying>,
+    /// Beyond this radius nothing is, at any time that matters, in r_s.
+    pub(super) radius: f64,
 }
 
 /// All triangles that are held in place, together.
@@ -91,8 +94,6 @@ pub(super) struct Held {
     /// For each triangle its thing and its number in the model.
     pub owners: Vec<(u32, u32)>,
     pub tree: Tree,
-    /// The farthest vertex from the hole, in r_s.
-    pub radius: f64,
 }
 
 /// A flying thing in its rest frame.
@@ -103,13 +104,19 @@ pub(super) struct Flying {
     pub tree: Tree,
     /// The farthest corner from the centre, in r_s.
     pub reach: f64,
+    /// Where it may be at which delay.
+    pub sweep: Sweep,
 }
+
+/// Windows of delay are kept back to this and twice the body's radius (r_s/c): beyond are cameras far away, and light that winds.
+const OLDEST: f64 = 100.0;
 
 impl<'a> World<'a> {
     /// Builds the trees. `time` is T at the camera.
     pub fn new(models: &'a [Model], things: Vec<Thing<'a>>, time: f64, hole: bool) -> World<'a> {
-        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: Tree::new(&[], &[]), radius: 0.0 };
+        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: Tree::new(&[], &[]) };
         let mut flying = Vec::new();
+        let mut radius = 0.0;
         for (index, thing) in things.iter().enumerate() {
             let model = &models[thing.model];
             let corners = model.vertices.iter().map(|v| DVec3::from(v.position.map(f64::from)) * thing.scale);
@@ -121,16 +128,19 @@ impl<'a> World<'a> {
                     held.triangles.extend(model.triangles.iter().map(|t| t.map(|i| i + first)));
                     held.owners.extend((0..model.triangles.len() as u32).map(|t| (index as u32, t)));
                 }
-                Motion::Flying(_) => {
+                Motion::Flying(line) => {
                     let vertices: Vec<DVec3> = corners.collect();
                     let tree = Tree::new(&vertices, &model.triangles);
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-                    flying.push(Flying { thing: index as u32, vertices, tree, reach });
+                    let far = line.at(time).position.length();
+                    radius = f64::max(radius, 2.0 * far + reach);
+                    let sweep = Sweep::new(line, time, OLDEST + 2.0 * far, reach);
+                    flying.push(Flying { thing: index as u32, vertices, tree, reach, sweep });
                 }
             }
         }
         held.tree = Tree::new(&held.vertices, &held.triangles);
-        held.radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-        World { models, things, time, hole, held, flying }
+        let radius = held.vertices.iter().map(|v| v.length()).fold(radius, f64::max);
+        World { models, things, time, hole, held, flying, radius }
     }
 }

@@ -1,5 +1,7 @@
 //! Development: thin triangles laid over, bloom, exposure, tone curve.
 
+pub mod coverage;
+
 use wgpu::ShaderStages;
 
 use super::Gpu;
@@ -11,7 +13,7 @@ use super::timing::Timing;
 /// The passes after the picture is drawn.
 #[derive(Debug)]
 pub struct Develop {
-    texture_layout: wgpu::BindGroupLayout,
+    thin_layout: wgpu::BindGroupLayout,
     sampled_layout: wgpu::BindGroupLayout,
     meter_layout: wgpu::BindGroupLayout,
     develop_layout: wgpu::BindGroupLayout,
@@ -39,8 +41,8 @@ impl Develop {
     /// Compiles the passes for an output of this format, which is to encode sRGB by itself.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, output: wgpu::TextureFormat) -> Self {
         let fragment = ShaderStages::FRAGMENT;
-        let texture_layout = layout(device, "texture", fragment, &[Slot::Texture]);
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
+        let thin_layout = layout(device, "thin", fragment, &[Slot::Texture, Slot::Texture]);
         let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture]);
         let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
@@ -56,7 +58,7 @@ impl Develop {
         };
         let add = wgpu::BlendState { color: one, alpha: one };
         Develop {
-            compose: pass("compose", Pass::Compose, "fragment", &texture_layout, HDR_FORMAT, Some(over)),
+            compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(add)),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
@@ -68,7 +70,7 @@ impl Develop {
                 ..Default::default()
             }),
             adapted: buffer(device, "adapted", 16, wgpu::BufferUsages::UNIFORM),
-            texture_layout,
+            thin_layout,
             sampled_layout,
             meter_layout,
             develop_layout,
@@ -82,7 +84,7 @@ impl Develop {
         let device = &gpu.device;
         let views = std::iter::once(&targets.picture).chain(&targets.bloom);
         self.groups = Some(Groups {
-            thin: bind(device, "thin", &self.texture_layout, &[TextureView(&targets.thin)]),
+            thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
             sampled: views
                 .map(|view| bind(device, "sampled", &self.sampled_layout, &[TextureView(view), Sampler(&self.sampler)]))
                 .collect(),

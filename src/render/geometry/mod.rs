@@ -7,7 +7,7 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use super::Gpu;
 use super::frame::Capacity;
-use super::layout::{Growing, HDR_FORMAT, Raster, Slot, TableTexture, bind, buffer, compute_of, layout, module, raster_of};
+use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, compute_of, layout, module, raster_of};
 use super::method::Method;
 use super::models::Models;
 use super::placements::{Placed, THIN};
@@ -143,7 +143,7 @@ impl Geometry {
         let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
         let draws = Draws {
             opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
-            thin: draw("thin", "thin_vertex", "thin_fragment", HDR_FORMAT, Some(sum), false),
+            thin: draw_to("thin", "thin_vertex", "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false),
             layers: layers("layers", "opaque_vertex"),
             layers_thin: layers("layers thin", "thin_vertex"),
         };

@@ -1,0 +1,11 @@
+//! Coverage of a pixel by several thin images: the twin of `shaders/functions/coverage.wgsl`.
+
+/// The part of a pixel that thin images cover together, from the sum of their coverages and the sum with each image's sign: `covered` of WGSL.
+pub fn covered(sum: f32, signed: f32) -> f32 {
+    if sum <= 0.0 {
+        return 0.0;
+    }
+    let count = (sum * sum / (signed * signed).max(1e-12)).clamp(1.0, 1000.0);
+    let each = (sum / count).min(1.0);
+    1.0 - (1.0 - each).powf(count)
+}
