@@ -16,7 +16,7 @@ pub struct Slice {
     /// Nodes along r and Φ; there are two more coefficients than nodes each way.
     pub size: [u32; 2],
     /// The storage buffer of the shader: four texels with the constants of `camera` and the size, then the coefficients, r fastest:
-    /// the turns of w and w_e in radians in 0 and 2, the residual of the delay in r_s/c in 1, 3 unused.
+    /// the tangents of half the turns of w and w_e in 0 and 2, the residual of the delay in r_s/c in 1, 3 unused.
     pub(super) texels: Vec<[f32; 4]>,
 }
 
