@@ -384,10 +384,10 @@ fn no_ray() -> LensRay {
 
 fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
     let cones = light_cones(vec2<f32>(w, w_e), e, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
-    return answer(cam, c, vec4<f32>(w, e, w_e, delay), cones);
+    return ray_with(cam, c, vec4<f32>(w, e, w_e, delay), cones);
 }
 
-fn answer(cam: LensCamera, c: f32, ray: vec4<f32>, cones: vec4<f32>) -> LensRay {
+fn ray_with(cam: LensCamera, c: f32, ray: vec4<f32>, cones: vec4<f32>) -> LensRay {
     let twice = cones.x + cones.z;
     let left = cones.y + cones.w;
     if !finite(abs(twice) + abs(left) + abs(ray.x) + abs(ray.z) + abs(ray.w)) {
@@ -420,7 +420,7 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
         let joint = joined(w.x, w.y, cam, c, room);
         let cones = light_cones(joint.xz, joint.y, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
         let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens.x, joint.y) * (across + table.y);
-        return answer(cam, c, vec4<f32>(joint, delay), cones);
+        return ray_with(cam, c, vec4<f32>(joint, delay), cones);
     }
     if SEES_INSIDE && cam.room < 0.0 {
         let ray = inside(cam, at, swept, elapsed);

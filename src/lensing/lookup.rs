@@ -136,19 +136,23 @@ fn cell(x: f32, n: u32) -> (u32, f32) {
     (i, p - i as f32)
 }
 
-/// The residuals of the method "table-linear", from texels of [`Slice::nodes`]: the twin of `residuals` in its shader.
-pub fn residuals_linear(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+/// The residuals of the method "table-linear", from a texel of [`Slice::nodes`] by its index: the twin of `residuals` in its shader.
+pub fn residuals_linear(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
     let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
     let at = HEADER + (j * nx + i) as usize;
     let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
-    let row = |at: usize, h: usize| mix(texels[at][h], texels[at + 1][h], tx);
-    [0, 1, 2].map(|h| mix(row(at, h), row(at + nx as usize, h), ty))
+    let row = |at: usize| {
+        let (a, b) = (texel(at), texel(at + 1));
+        [0, 1, 2].map(|h| mix(a[h], b[h], tx))
+    };
+    let (low, high) = (row(at), row(at + nx as usize));
+    [0, 1, 2].map(|h| mix(low[h], high[h], ty))
 }
 
-/// The residuals of the method "table-half", from texels of [`Slice::halves`]: the twin of `residuals` in its shader.
-pub fn residuals_half(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+/// The residuals of the method "table-half", from a texel of [`Slice::halves`] by its index: the twin of `residuals` in its shader.
+pub fn residuals_half(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
     let half = |index: usize| {
-        let texel = texels[HEADER + index / 2].map(f32::to_bits);
+        let texel = texel(HEADER + index / 2).map(f32::to_bits);
         let pair = if index % 2 == 1 { [texel[2], texel[3]] } else { [texel[0], texel[1]] };
         [pair[0] & 0xffff, pair[0] >> 16, pair[1] & 0xffff].map(|bits| half::f16::from_bits(bits as u16).to_f32())
     };
@@ -221,7 +225,7 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
         let [w, e, w_e] = joined(w, w_e, cam, c, room);
         let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
         let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens[0], e) * (across + table[1]);
-        return answer(cam, c, [w, e, w_e, delay], cones);
+        return ray_with(cam, c, [w, e, w_e, delay], cones);
     }
     if cam.room < 0.0 {
         let Some(ray) = inside(cam, at, swept, elapsed) else { return NOTHING };
@@ -234,12 +238,12 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
 #[inline]
 pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
     let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
-    answer(cam, c, [w, e, w_e, delay], cones)
+    ray_with(cam, c, [w, e, w_e, delay], cones)
 }
 
 /// The same with the photon's [`light_cones`].
 #[inline]
-pub fn answer(cam: &Camera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
+pub fn ray_with(cam: &Camera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
     let twice = seen + seen_less;
     let left = emitted + emitted_less;
     if !finite(twice.abs() + left.abs() + w.abs() + w_e.abs() + delay.abs()) {
