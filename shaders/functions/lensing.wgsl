@@ -43,7 +43,7 @@ struct LensCamera {
     ny: u32,
     share: f32,  // a/(1 + a)
     reach: f32,  // a/(1 + 4a)
-    lift: f32,   // a⁴/(1 + a⁴)
+    lift: f32,   // a⁴/(1 + a⁴), at least 1e-4
 }
 
 struct Place {
@@ -213,7 +213,8 @@ fn delay_across(cam: LensCamera, r: f32, c: f32, room: f32, dr: f32, lens: vec3<
 }
 
 fn delay_factor(cam: LensCamera, c: f32, k: f32, e: f32) -> f32 {
-    let c4 = c * c * c * c;
+    let near = c + 0.01;
+    let c4 = near * near * near * near;
     return e / sqrt(e * e + 0.5 * k * c4 * c4 * cam.lift);
 }
 
@@ -224,9 +225,10 @@ fn delay_along(cam: LensCamera, r: f32, c: f32, dr: f32, cones: vec4<f32>) -> f3
 
 fn angle(across: f32, height: f32, r: f32) -> f32 {
     let ahead = abs(height);
-    let x = 2.0 * short_arctan(min(across, ahead) / (r + max(across, ahead)));
-    let acute = select(x, 0.5 * HALF_TURN - x, across > ahead);
-    return select(acute, HALF_TURN - acute, height < 0.0);
+    let steep = across > ahead;
+    let behind = height < 0.0;
+    let x = short_arctan(min(across, ahead) / (r + max(across, ahead)));
+    return select(select(0.0, HALF_TURN, behind), 0.5 * HALF_TURN, steep) + select(-2.0, 2.0, steep == behind) * x;
 }
 
 fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {

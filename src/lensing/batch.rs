@@ -264,7 +264,8 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     let direct = dr + all(3.0) * log;
     let mean = all(1.0) + dr.abs().simd_gt(all(1e-6 * cam.l)).select(all(3.0) * log / dr, all(3.0 * cam.a));
     let across = mean * (all(1.0) + all(3.0) * c) * (open + k * c * c * all(cam.share)) * r * l * q;
-    let c4 = c * c * c * c;
+    let near_hole = c + all(0.01);
+    let c4 = near_hole * near_hole * near_hole * near_hole;
     let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(cam.lift)).sqrt();
     let along = all(2.0) * ((emitted * seen_less * (r * l)).ln() - dr / (r * root_c + all(cam.l * cam.beta)));
     let delay = along + factor * ((direct * direct + across).sqrt() - all(2.0) * lens + table[1]);

@@ -53,7 +53,7 @@ pub struct Camera {
     pub share: Real,
     /// a/(1 + 4a).
     pub reach: Real,
-    /// a⁴/(1 + a⁴).
+    /// a⁴/(1 + a⁴), at least 1e-4.
     pub lift: Real,
 }
 
@@ -79,7 +79,7 @@ pub fn camera(l: f64) -> Camera {
         scale: (1.0 / (last - first)) as Real,
         share: (a / (1.0 + a)) as Real,
         reach: (a / (1.0 + 4.0 * a)) as Real,
-        lift: (a.powi(4) / (1.0 + a.powi(4))) as Real,
+        lift: (a.powi(4) / (1.0 + a.powi(4))).max(1e-4) as Real,
     }
 }
 
@@ -225,7 +225,9 @@ pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _,
 /// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
 #[inline]
 pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
-    let c4 = c * c * c * c;
+    // Far away it is 1 all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
+    let near = c + 0.01;
+    let c4 = near * near * near * near;
     e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt()
 }
 

@@ -67,9 +67,9 @@ pub const NOTHING: LensRay = LensRay {
 #[inline]
 pub fn angle(across: f32, height: f32, r: f32) -> f32 {
     let ahead = height.abs();
-    let x = 2.0 * short_arctan(least(across, ahead) / (r + most(across, ahead)));
-    let x = above(across - ahead, 0.5 * HALF_TURN - x, x);
-    above(-height, HALF_TURN - x, x)
+    let from = [0.0, 0.5 * HALF_TURN, HALF_TURN, 0.5 * HALF_TURN][usize::from(across > ahead) + 2 * usize::from(height < 0.0)];
+    let twice = [-2.0, 2.0][usize::from((across > ahead) == (height < 0.0))];
+    from + twice * short_arctan(least(across, ahead) / (r + most(across, ahead)))
 }
 
 /// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
