@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use lensrunner::lensing::{
-    LensRay, Scheme, Slice, Table, closed, double, lens_lookup_aged, lens_lookup_at, lookup, score, shooting, single,
+    LensRay, Scheme, Slice, Table, closed, double, elementary, grid, lens_lookup_aged, lens_lookup_at, lookup, score, shooting, single,
 };
 use lensrunner::measure::methods::{self, Approximation, Flat, Integrate, Newton, Paper, Projector, Query};
 use lensrunner::reference;
@@ -236,8 +236,11 @@ fn single_precision_follows_double() {
                     assert!(off < 2e-5, "L {l} c {c} Φ {sweep}: {w} and {v}, {off} rad");
                 }
                 let room = 1.0 - c;
-                let want = double::axes(&wide, c, room, sweep);
-                let got = single::axes(&narrow, c as f32, room as f32, sweep as f32);
+                let want = grid::coordinates(&wide, c, sweep);
+                let (d, p) = (c as f32, sweep as f32);
+                let [_, h, _] = single::lens_equation(&narrow, d, bent as f32, elementary::single::stumpff((0.25 * bent * bent) as f32));
+                let logs = [d + narrow.soft, single::near_axis(p), 0.5 * h].map(elementary::single::ln);
+                let got = single::axes(&narrow, (room as f32).sqrt(), p, logs);
                 for (got, want) in got.into_iter().zip(want) {
                     assert!((f64::from(got) - want).abs() < 2e-6, "L {l} c {c} Φ {sweep}");
                 }
@@ -249,13 +252,14 @@ fn single_precision_follows_double() {
 /// The polynomials of the f32 copy against the library, over the ranges that they are for.
 #[test]
 fn elementary_functions_are_the_librarys() {
-    use lensrunner::lensing::elementary::single::{above, ln, ln4, log1p, short_arctan, stumpff};
+    use lensrunner::lensing::elementary::single::{above, ln, ln4, log1p, short_arctan, stumpff, stumpffs};
     for i in 0..=20_000 {
         let part = f64::from(i) / 20_000.0;
         let x = (10f64.powf(60.0 * part - 30.0)) as f32;
         let (got, want) = (f64::from(ln(x)), f64::from(x).ln());
         assert!((got - want).abs() < 1.2e-7 * (1.0 + want.abs()), "ln {x}: {got}, not {want}");
-        assert_eq!(ln4([x, 1.0, 2.0, x]), [ln(x), ln(1.0), ln(2.0), ln(x)]);
+        assert_eq!(ln4([x, 1.0, 2.0], x), [ln(x), ln(1.0), ln(2.0), log1p(x)]);
+        assert_eq!(stumpffs([x.min(4.0), 0.5]), [stumpff(x.min(4.0)), stumpff(0.5)]);
         for x in [x, -(part as f32) * 0.999, part as f32 * 1e-3] {
             let (got, want) = (f64::from(log1p(x)), f64::from(x).ln_1p());
             // 1 + x is rounded where it is not small.

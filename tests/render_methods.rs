@@ -29,8 +29,8 @@ fn twin(method: Method, slice: &Slice, texels: &[[f32; 4]], row: [f32; 4]) -> Op
     let nothing = LensRay { valid: false, ..table() };
     Some(match method {
         Method::Table => table(),
-        Method::TableLinear => lookup_with(cam, at, sweep, elapsed, |x, y| residuals_linear(texels, slice.size, x, y)),
-        Method::TableHalf => lookup_with(cam, at, sweep, elapsed, |x, y| residuals_half(texels, slice.size, x, y)),
+        Method::TableLinear => lookup_with(cam, at, sweep, elapsed, |x, y| residuals_linear(|i| texels[i], slice.size, x, y)),
+        Method::TableHalf => lookup_with(cam, at, sweep, elapsed, |x, y| residuals_half(|i| texels[i], slice.size, x, y)),
         Method::Newton => shooting::refined_ray(cam, at, sweep, table()),
         Method::Exact if !outside => table(),
         Method::Exact => shooting::exact_ray(cam, at, sweep),

@@ -13,11 +13,13 @@
 //   const SEES_INSIDE: bool, false in passes that never look from inside the horizon at what is inside: they compile in half the time
 //   fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32>, of residuals.wgsl or a method's own
 //   fn lens_texel(index: u32) -> vec4<f32>
-// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (turn of w,
-// delay, turn of w_e, unused), r fastest.
+// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (tangent of half the
+// turn of w, delay, the same of w_e, unused), r fastest.
 
-const BEND_START: f32 = 3.6;
-const BEND_RANGE: f32 = 0.5;
+const BEND_START: f32 = 3.4;
+const BEND_RANGE: f32 = 1.4;
+/// The least 1 − 1/r that the logarithm of the horizon is taken of.
+const LEAST_ROOM: f32 = 1e-7;
 const SMALLEST_SWEEP: f32 = 1e-9;
 const HALF_TURN: f32 = 3.14159265358979;
 const LARGEST_SWEEP: f32 = 9.42477796076938;
@@ -41,7 +43,7 @@ struct LensCamera {
     ny: u32,
     share: f32,  // a/(1 + a)
     reach: f32,  // a/(1 + 4a)
-    lift: f32,   // a⁴/(1 + a⁴)
+    lift: f32,   // a⁴/(1 + a⁴), at least 1e-4
 }
 
 struct Place {
@@ -83,55 +85,78 @@ fn short_arctan(t: f32) -> f32 {
     return t + t * y * (p + y2 * ((-0.14243837705 + y * 0.10595915130) - y2 * 0.06083223004));
 }
 
-/// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, for −1 ≤ x ≤ 4.4.
+/// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, of both, for −1 ≤ x ≤ 4.5.
+fn stumpffs(pair: vec2<f32>) -> vec4<f32> {
+    let x = pair.xxyy;
+    let square = x * x;
+    let low = 1.0 + x * vec2<f32>(-0.16666667004543, -0.49999999998826).xyxy;
+    let middle = vec2<f32>(0.00833333768415, 0.0416666673983).xyxy + x * vec2<f32>(-0.00019840930941, -0.00138888919447).xyxy;
+    let high = vec2<f32>(2.75098584e-6, 2.48009826069e-5).xyxy + x * vec2<f32>(-2.34998e-8, -2.75080533053e-7).xyxy;
+    let last = square * vec2<f32>(0.0, 1.95904e-9).xyxy;
+    return low + square * (middle + square * (high + last));
+}
+
+/// Those of one.
 fn stumpff(x: f32) -> vec2<f32> {
-    let x2 = x * x;
-    let x4 = x2 * x2;
-    let s = (-0.16666667004543 + x * 0.00833333768415) + x2 * (-0.00019840930941 + x * 2.75098584e-6);
-    let c = (-0.49999999998826 + x * 0.0416666673983) + x2 * (-0.00138888919447 + x * 2.48009826069e-5);
-    return vec2<f32>(1.0 + x * (s - x4 * 2.34998e-8), 1.0 + x * (c + x4 * (-2.75080533053e-7 + x * 1.95904e-9)));
+    return stumpffs(vec2<f32>(x, x)).xy;
 }
 
-const SWEEP_END: f32 = 5.23910259165662;
-
-fn axes(cam: LensCamera, c: f32, room: f32, sweep: f32) -> vec2<f32> {
-    let s2 = 7.84 * (cam.share + c);
-    let off = sweep - HALF_TURN;
-    let first = HALF_TURN + sqrt(HALF_TURN * HALF_TURN + s2);
-    let last = 2.0 * HALF_TURN + sqrt(4.0 * HALF_TURN * HALF_TURN + s2);
-    let root = sqrt(off * off + s2);
-    let here = select(first * (root + off), first, off < 0.0) / select(s2, root - off, off < 0.0);
-    let near = 10.0 * sweep + sqrt(1.0 + 100.0 * sweep * sweep);
-    let logs = log(vec4<f32>(c + cam.soft, here, first * last / s2, near));
-    return vec2<f32>(
-        (logs.x - 2.0 * sqrt(max(room, 0.0)) - cam.start) * cam.scale,
-        (sweep + 0.3 * logs.y + logs.w) / (LARGEST_SWEEP + SWEEP_END + 0.3 * logs.z));
-}
+const SWEEP_LENGTH: f32 = 17.0;
 
 fn bent_sweep(sweep: f32) -> f32 {
     if sweep <= BEND_START {
         return sweep;
     }
-    let x = (sweep - BEND_START) / BEND_RANGE;
-    let x2 = x * x;
-    return BEND_START + (sweep - BEND_START) / sqrt(sqrt(1.0 + x2 * x2));
+    let off = sweep - BEND_START;
+    let x = off * (1.0 / BEND_RANGE);
+    let x4 = x * x * (x * x);
+    return BEND_START + off / (1.0 + x4);
 }
 
-fn basis(cam: LensCamera, sweep: f32) -> vec2<f32> {
-    let square = sweep * sweep;
-    let x = -0.25 * cam.bend * square;
+/// (K, h, q) for Stumpff's functions of Φ²/4: 1 − cos Φ; twice cos(Φ/2), kept positive beyond π by the width of the Einstein ring; the square of the
+/// chord between two unit vectors less what the lens takes.
+fn lens_equation(cam: LensCamera, c: f32, bent: f32, half: vec2<f32>) -> vec3<f32> {
+    let x = bent * half.x;
+    let square = x * x;
+    let k = 0.5 * square;
+    let y = 2.0 * half.y;
+    let quarter = 0.5 * (cam.share + c) * k * k;
+    let large = 0.5 * abs(y) + sqrt(0.25 * y * y + quarter);
+    if y > 0.0 {
+        return vec3<f32>(k, large, square - quarter - quarter / large * y);
+    }
+    return vec3<f32>(k, quarter / large, square - quarter - large * y);
+}
+
+/// e to the arsinh(10 Φ).
+fn near_axis(sweep: f32) -> f32 {
+    return 10.0 * sweep + sqrt(1.0 + 100.0 * sweep * sweep);
+}
+
+/// The table's first two coordinates, from the logarithms of c + `soft`, of `near_axis` and of h/2.
+fn axes(cam: LensCamera, root_room: f32, sweep: f32, logs: vec3<f32>) -> vec2<f32> {
+    return vec2<f32>((logs.x - 2.0 * root_room - cam.start) * cam.scale, (sweep + logs.y - 0.3 * logs.z) * (1.0 / SWEEP_LENGTH));
+}
+
+fn half_angle(cam: LensCamera, sweep: f32) -> f32 {
+    return -0.25 * cam.bend * sweep * sweep;
+}
+
+fn basis(cam: LensCamera, sweep: f32, x: f32, half: vec2<f32>) -> vec2<f32> {
     if x < -1.0 {
         let up = exp(cam.rate * sweep);
         let down = 1.0 / up;
         return vec2<f32>(0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate));
     }
-    // By the half angle.
-    let half = stumpff(x);
-    return vec2<f32>(sweep * half.x * half.y, 0.5 * square * half.x * half.x);
+    return vec2<f32>(sweep * half.x * half.y, 0.5 * sweep * sweep * half.x * half.x);
 }
 
 fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
-    let sk = basis(cam, bent);
+    let x = half_angle(cam, bent);
+    return slopes(cam, rise, basis(cam, bent, x, stumpff(x)));
+}
+
+fn slopes(cam: LensCamera, rise: f32, sk: vec2<f32>) -> vec2<f32> {
     let s = sk.x;
     let k = sk.y;
     // What is right only in weak fields, held down where K grows.
@@ -147,31 +172,30 @@ fn slope_guess(cam: LensCamera, rise: f32, bent: f32) -> vec2<f32> {
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
         let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
-        return vec2<f32>(w, (turn * rise + f * k + rest) / s + w * am * s * s);
+        return vec2<f32>(w, (turn * rise + f * k + rest) * (1.0 / s) + w * am * s * s);
     }
-    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w);
+    return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w));
 }
 
 fn energy(w: f32, u: f32, room: f32) -> f32 {
     return sqrt(max(w * w + u * u * room, 0.0));
 }
 
-fn radial_momentum(w: f32, e: f32, u: f32, beta: f32, room: f32) -> f32 {
-    let along = beta * e;
-    let outward = max(w, -e) > 0.0;
-    return select(u * u - e * e, w + along, outward) / select(along - w, room, outward);
+/// Frequency plus outward momentum at the camera and at the point, then frequency less it.
+fn light_cones(w: vec2<f32>, e: f32, u: vec2<f32>, beta: vec2<f32>, room: vec2<f32>) -> vec4<f32> {
+    let rising = max(w, vec2<f32>(-e)) > vec2<f32>(0.0);
+    let square = u * u;
+    let over = select(square, e + w, rising) * (beta + 1.0);
+    let under = select(e - w, room, rising);
+    return vec4<f32>(over, square * under) / vec4<f32>(under, over);
 }
 
-fn turned_slope(guess: f32, u: f32, turn: f32) -> f32 {
-    // tan(turn/2) = p/q by Padé's approximant.
-    let x = 0.5 * turn;
-    let y = x * x;
-    let p = x * (945.0 - y * (105.0 - y));
-    let q = 945.0 - y * (420.0 - 15.0 * y);
-    // Cosine and sine of the turn, both times p² + q², which cancels.
-    let ct = q * q - p * p;
-    let st = 2.0 * p * q;
-    let sine = max(u * ct - guess * st, 1e-6 * u);
+/// The slopes whose angles are those of the guesses turned by twice the angles whose tangents are `turns`.
+fn turned_slopes(guess: vec2<f32>, u: vec2<f32>, turn: vec2<f32>) -> vec2<f32> {
+    // Cosine and sine of the turn, both times 1 + turn², which cancels.
+    let ct = 1.0 - turn * turn;
+    let st = turn + turn;
+    let sine = max(u * ct - guess * st, u * 1e-6);
     return u * (guess * ct + u * st) / sine;
 }
 
@@ -179,42 +203,32 @@ fn emission_scale(cam: LensCamera, c: f32) -> f32 {
     return c + cam.reach;
 }
 
-fn delay_parts(cam: LensCamera, r: f32, room: f32, dr: f32, bent: f32, w: f32, e: f32, w_e: f32) -> vec3<f32> {
-    let l = cam.l;
-    let a = cam.a;
-    let c = 1.0 / r;
-    let root_c = sqrt(c);
-    let half = stumpff(0.25 * bent * bent);
-    let x = bent * half.x;
-    let k = 0.5 * x * x;
-    let y = 2.0 * half.y;
-    let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
-    let large = 0.5 * (abs(y) + sqrt(y * y + soft));
-    let small = 0.25 * soft / large;
-    let h = select(small, large, y > 0.0);
-    let excess = select(large, small, y > 0.0);
-    let q = x * x - 0.25 * soft - excess * y;
-    let fall = dr / (r * root_c + l * cam.beta);
-    let lg = log1p(dr * a);
-    let mean = 1.0 + 3.0 * select(a, lg / dr, abs(dr) > 1e-6 * l);
-    let direct = dr + 3.0 * lg;
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * l * q;
-    let chord = sqrt(direct * direct + across);
-    let out = select(c, w_e + e, w_e > 0.0);
-    let out_over = select(e - w_e, room * c, w_e > 0.0);
-    let back = select(e - w, a * cam.room, w > 0.0);
-    let back_over = select(a, e + w, w > 0.0);
-    let doppler = out * back * (1.0 + root_c) / (out_over * back_over * (1.0 + cam.beta));
-    let c4 = c * c * c * c;
-    let factor = e / sqrt(e * e + 0.5 * k * c4 * c4 * cam.lift);
-    return vec3<f32>(2.0 * (log(doppler) - fall), chord - 2.0 * log(0.5 * h), factor);
+/// The part of the delay that is regular across the Einstein ring. `logs` are ln(r/L) and ln(h/2).
+fn delay_across(cam: LensCamera, r: f32, c: f32, room: f32, dr: f32, lens: vec3<f32>, logs: vec2<f32>) -> f32 {
+    // Exact along Φ = 0.
+    let direct = dr + 3.0 * logs.x;
+    let mean = 1.0 + 3.0 * select(cam.a, logs.x / dr, abs(dr) > 1e-6 * cam.l);
+    let across = mean * (1.0 + 3.0 * c) * (room + lens.x * c * c * cam.share) * r * cam.l * lens.z;
+    return sqrt(direct * direct + across) - 2.0 * logs.y;
+}
+
+fn delay_factor(cam: LensCamera, c: f32, k: f32, e: f32) -> f32 {
+    let near = c + 0.01;
+    let c4 = near * near * near * near;
+    return e / sqrt(e * e + 0.5 * k * c4 * c4 * cam.lift);
+}
+
+/// The rest of the delay: what is singular at the horizon and what falls with the rain.
+fn delay_along(cam: LensCamera, r: f32, c: f32, dr: f32, cones: vec4<f32>) -> f32 {
+    return 2.0 * (log(cones.y * cones.z * (r * cam.l)) - dr / (r * sqrt(c) + cam.l * cam.beta));
 }
 
 fn angle(across: f32, height: f32, r: f32) -> f32 {
     let ahead = abs(height);
-    let x = 2.0 * short_arctan(min(across, ahead) / (r + max(across, ahead)));
-    let acute = select(x, 0.5 * HALF_TURN - x, across > ahead);
-    return select(acute, HALF_TURN - acute, height < 0.0);
+    let steep = across > ahead;
+    let behind = height < 0.0;
+    let x = short_arctan(min(across, ahead) / (r + max(across, ahead)));
+    return select(select(0.0, HALF_TURN, behind), 0.5 * HALF_TURN, steep) + select(-2.0, 2.0, steep == behind) * x;
 }
 
 fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
@@ -222,11 +236,11 @@ fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
     let r = sqrt(height * height + across * across);
     let inverse = 1.0 / r;
     let phi = angle(across, height, r);
-    if square < 0.25 * cam.l * cam.l {
-        let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-        return Place(r, cam.room + dr * inverse * cam.a, dr, phi);
-    }
-    return Place(r, (r - 1.0) * inverse, r - cam.l, phi);
+    let near = square < 0.25 * cam.l * cam.l;
+    let offset = (2.0 * cam.l * along + square) / (r + cam.l);
+    // r − 1 and r − L: near the camera from the offset, elsewhere from the place.
+    let above = select(r - 1.0, cam.room * cam.l + offset, near);
+    return Place(r, above * inverse, select(r - cam.l, offset, near), phi);
 }
 
 const SIXTH: f32 = 0.166666666666667;
@@ -251,18 +265,18 @@ fn lens_camera() -> LensCamera {
 }
 
 fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
+    let here = cam.a * cam.a * cam.room;
+    let there = c * c * room;
     if cam.room <= 0.0 {
         // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
-        let e = energy(w_e, c, room);
-        return vec3<f32>(-sqrt(e * e - cam.a * cam.a * cam.room), e, w_e);
+        let square = max(w_e * w_e + there, 0.0);
+        return vec3<f32>(-sqrt(square - here), sqrt(square), w_e);
     }
-    let e = energy(w, cam.a, cam.room);
+    let square = max(w * w + here, 0.0);
     // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    if square > 0.3 * e * e {
-        return vec3<f32>(w, e, select(sqrt(square), -sqrt(square), w_e < 0.0));
-    }
-    return vec3<f32>(w, e, w_e);
+    let rest = square - there;
+    let root = sqrt(max(rest, 0.0));
+    return vec3<f32>(w, sqrt(square), select(w_e, select(root, -root, w_e < 0.0), rest > 0.3 * square));
 }
 
 const INSIDE_STEPS: u32 = 6u;
@@ -371,16 +385,19 @@ fn no_ray() -> LensRay {
 }
 
 fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
-    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
-    let frequency = e + cam.beta * radial;
-    let root_c = sqrt(c);
-    let leaving = radial_momentum(w_e, e, c, root_c, room);
-    let emission_frequency = e + root_c * leaving;
-    if !finite(abs(frequency) + abs(emission_frequency) + abs(w) + abs(w_e) + abs(delay)) {
+    let cones = light_cones(vec2<f32>(w, w_e), e, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
+    return ray_with(cam, c, vec4<f32>(w, e, w_e, delay), cones);
+}
+
+fn ray_with(cam: LensCamera, c: f32, ray: vec4<f32>, cones: vec4<f32>) -> LensRay {
+    let twice = cones.x + cones.z;
+    let left = cones.y + cones.w;
+    if !finite(abs(twice) + abs(left) + abs(ray.x) + abs(ray.z) + abs(ray.w)) {
         return no_ray();
     }
-    let inverse = 1.0 / frequency;
-    return LensRay(-radial * inverse, cam.a * inverse, delay, frequency, leaving, c, emission_frequency, w, w_e, e, true);
+    let inverse = 1.0 / twice;
+    return LensRay((cones.z - cones.x) * inverse, 2.0 * cam.a * inverse, ray.w, 0.5 * twice, 0.5 * (cones.y - cones.w), c, 0.5 * left,
+        ray.x, ray.z, ray.y, true);
 }
 
 fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
@@ -389,36 +406,31 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
     }
     let swept = max(sweep, SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    var w = 0.0;
-    var e = 0.0;
-    var w_e = 0.0;
-    var delay = 0.0;
     var room = at.room;
     if room > 0.0 {
-        room = max(room, 1e-4);
+        room = max(room, LEAST_ROOM);
         let bent = bent_sweep(swept);
-        let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
-        let xy = axes(cam, c, room, swept);
+        let square = half_angle(cam, bent);
+        let halves = stumpffs(vec2<f32>(0.25 * bent * bent, square));
+        let guesses = slopes(cam, -at.dr * c * cam.a, basis(cam, bent, square, halves.zw));
+        let lens = lens_equation(cam, c, bent, halves.xy);
+        let logs = log(vec3<f32>(c + cam.soft, near_axis(swept), 0.5 * lens.y));
+        let xy = axes(cam, sqrt(room), swept, logs);
+        let across = delay_across(cam, at.r, c, room, at.dr, lens, vec2<f32>(log1p(at.dr * cam.a), logs.z));
         let table = residuals(cam, xy.x, xy.y);
-        let ray = joined(turned_slope(guess.x, cam.a, table.x), turned_slope(guess.y, emission_scale(cam, c), table.z), cam, c, room);
-        w = ray.x;
-        e = ray.y;
-        w_e = ray.z;
-        let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
-        delay = parts.x + parts.z * (parts.y + table.y);
-    } else if SEES_INSIDE && cam.room < 0.0 {
-        let ray = inside(cam, at, swept, elapsed);
-        w = ray.x;
-        e = ray.y;
-        w_e = ray.z;
-        delay = ray.w;
-        if !(delay > 0.0) {
-            return no_ray();
-        }
-    } else {
-        return no_ray();
+        let w = turned_slopes(guesses, vec2<f32>(cam.a, emission_scale(cam, c)), table.xz);
+        let joint = joined(w.x, w.y, cam, c, room);
+        let cones = light_cones(joint.xz, joint.y, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
+        let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens.x, joint.y) * (across + table.y);
+        return ray_with(cam, c, vec4<f32>(joint, delay), cones);
     }
-    return ray_of(cam, c, room, w, e, w_e, delay);
+    if SEES_INSIDE && cam.room < 0.0 {
+        let ray = inside(cam, at, swept, elapsed);
+        if ray.w > 0.0 {
+            return ray_of(cam, c, room, ray.x, ray.y, ray.z, ray.w);
+        }
+    }
+    return no_ray();
 }
 
 /// Φ of `order` for the point at `at`.

@@ -24,5 +24,5 @@ fn refined_ray(cam: LensCamera, at: Place, sweep: f32, ray: LensRay) -> LensRay 
     if fired.fate != MET || !(turn < MOST_REFINED) || (cam.room < 0.0 && moved >= 0.0) {
         return ray;
     }
-    return ray_of(cam, c, max(at.room, 1e-4), w, fan_energy(cam, moved), ray.emission_slope, ray.delay);
+    return ray_of(cam, c, max(at.room, LEAST_ROOM), w, fan_energy(cam, moved), ray.emission_slope, ray.delay);
 }

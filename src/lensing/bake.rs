@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::double::{Camera, bent_sweep, delay_parts, emission_scale, slope_guess};
+use super::double::{Camera, bent_sweep, delay_across, delay_along, delay_factor, emission_scale, lens_equation, light_cones, slope_guess};
+use super::elementary::double::stumpff;
 use super::table::{Scheme, Table};
 use super::{grid, spline};
 use crate::spacetime::light::{Branch, Ray, delay, join_near};
@@ -10,7 +11,7 @@ use crate::spacetime::light::{Branch, Ray, delay, join_near};
 /// The smallest angle swept at which the bake asks for a ray, in radians; the limit at 0 is reached long before.
 const SMALLEST_BAKED_SWEEP: f64 = 1e-4;
 
-/// The residuals at one place: the turn of the camera's slope, that of the delay, the turn of the point's slope.
+/// The residuals at one place: the tangent of half the turn of the camera's slope, that of the delay, the same of the point's slope.
 /// None where no ray joins the two.
 pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let bent = bent_sweep(sweep);
@@ -18,10 +19,13 @@ pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let ray = join_near(c, sweep, cam.a, Branch::Plus, Some(w0))?;
     let time = delay(&ray, c, sweep, cam.a);
     let Ray { slope: w, emission_slope: w_e, energy: e } = ray;
-    let r = 1.0 / c;
-    let scale = emission_scale(cam, c);
-    let parts = delay_parts(cam, r, 1.0 - c, r - cam.l, bent, w, e, w_e);
-    Some([cam.a.atan2(-w) - cam.a.atan2(-w0), (time - parts[0]) / parts[2] - parts[1], scale.atan2(-w_e) - scale.atan2(-w_e0)])
+    let (r, room, dr) = (1.0 / c, 1.0 - c, 1.0 / c - cam.l);
+    let lens = lens_equation(cam, c, bent, stumpff(0.25 * bent * bent));
+    let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+    let rest = time - delay_along(cam, r, c, dr, cones);
+    let across = delay_across(cam, r, c, room, dr, lens, [(r * cam.a).ln(), (0.5 * lens[1]).ln()]);
+    let turn = |u: f64, from: f64, to: f64| (0.5 * (u.atan2(-to) - u.atan2(-from))).tan();
+    Some([turn(cam.a, w0, w), rest / delay_factor(cam, c, lens[0], e) - across, turn(emission_scale(cam, c), w_e0, w_e)])
 }
 
 /// How many nodes along r, Φ and L a table of `nodes` has: the interpolation in L needs the most.

@@ -3,8 +3,8 @@
 
 use wide::f32x8;
 
-use super::lookup::{LensRay, lens_lookup_aged};
-use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, LARGEST_SWEEP, SMALLEST_SWEEP, SWEEP_END};
+use super::lookup::{LEAST_ROOM, LensRay, YOUNG, lens_lookup_aged};
+use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, SMALLEST_SWEEP, SWEEP_LENGTH};
 use super::slice::{HEADER, Slice};
 
 /// Points in a batch.
@@ -101,33 +101,19 @@ pub(crate) fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) ->
     let inverse = all(1.0) / r;
     let phi = angle(across * inverse, height * inverse);
     let near = square.simd_lt(all(0.25 * cam.l * cam.l));
-    let dr = (all(2.0) * l * along + square) / (r + l);
-    let room = near.select(all(cam.room) + dr * inverse * all(1.0 / cam.l), (r - all(1.0)) * inverse);
-    [r, room, near.select(dr, r - l), phi]
-}
-
-fn opened(x: f32x8) -> f32x8 {
-    let root = (all(1.0) + x * x).sqrt();
-    x.simd_lt(all(0.0)).select(all(1.0) / (root - x), root + x)
-}
-
-fn sweep_axis(cam: &Camera, c: f32x8, sweep: f32x8) -> f32x8 {
-    let over = all(1.0) / (all(2.8) * (all(cam.a / (1.0 + cam.a)) + c).sqrt());
-    let first = opened(all(HALF_TURN) * over);
-    let here = first * opened((sweep - all(HALF_TURN)) * over);
-    let length = all(LARGEST_SWEEP + SWEEP_END) + all(0.3) * (first * opened(all(2.0 * HALF_TURN) * over)).ln();
-    (sweep + all(0.3) * here.ln() + opened(all(10.0) * sweep).ln()) / length
+    let offset = (all(2.0) * l * along + square) / (r + l);
+    let height = near.select(all(cam.room * cam.l) + offset, r - all(1.0));
+    [r, height * inverse, near.select(offset, r - l), phi]
 }
 
 fn bent_sweep(sweep: f32x8) -> f32x8 {
-    let beyond = sweep.simd_gt(all(BEND_START));
-    if !beyond.any() {
+    let off = most(sweep - all(BEND_START), 0.0);
+    if !off.simd_gt(all(0.0)).any() {
         return sweep;
     }
-    let off = sweep - all(BEND_START);
     let x = off * all(1.0 / BEND_RANGE);
     let x2 = x * x;
-    beyond.select(all(BEND_START) + off / (all(1.0) + x2 * x2).sqrt().sqrt(), sweep)
+    sweep - off + off / (all(1.0) + x2 * x2)
 }
 
 fn basis(cam: &Camera, sweep: f32x8) -> [f32x8; 2] {
@@ -151,7 +137,7 @@ fn basis(cam: &Camera, sweep: f32x8) -> [f32x8; 2] {
     [small.select(small_s, s), small.select(small_k, k)]
 }
 
-fn slope_guess(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
+fn slopes(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
     let [s, k] = basis(cam, bent);
     let m = all(cam.fade) / (all(1.0) + all(cam.a) * all(cam.a) * k * k);
     let am = all(cam.a) * m;
@@ -172,65 +158,44 @@ fn slope_guess(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
 }
 
 fn turned_slope(guess: f32x8, u: f32x8, turn: f32x8) -> f32x8 {
-    let x = all(0.5) * turn;
-    let y = x * x;
-    let p = x * (all(945.0) - y * (all(105.0) - y));
-    let q = all(945.0) - y * (all(420.0) - all(15.0) * y);
-    let (ct, st) = (q * q - p * p, all(2.0) * p * q);
+    let (ct, st) = (all(1.0) - turn * turn, turn + turn);
     let sine = (u * ct - guess * st).fast_max(all(1e-6) * u);
     u * (guess * ct + u * st) / sine
 }
 
-fn energy(w: f32x8, u: f32x8, room: f32x8) -> f32x8 {
-    most(w * w + u * u * room, 0.0).sqrt()
-}
-
 fn joined(w: f32x8, w_e: f32x8, cam: &Camera, c: f32x8, room: f32x8) -> [f32x8; 3] {
+    let (here, there) = (all(cam.a * cam.a * cam.room), c * c * room);
     if cam.room <= 0.0 {
-        let e = energy(w_e, c, room);
-        return [-(e * e - all(cam.a * cam.a * cam.room)).sqrt(), e, w_e];
+        let square = most(w_e * w_e + there, 0.0);
+        return [-(square - here).sqrt(), square.sqrt(), w_e];
     }
-    let e = energy(w, all(cam.a), all(cam.room));
-    let square = e * e - c * c * room;
-    let sure = square.simd_gt(all(0.3) * e * e);
-    let root = most(square, 0.0).sqrt();
-    [w, e, sure.select(w_e.simd_lt(all(0.0)).select(-root, root), w_e)]
+    let square = most(w * w + here, 0.0);
+    let rest = square - there;
+    let root = most(rest, 0.0).sqrt();
+    let sure = rest.simd_gt(all(0.3) * square);
+    [w, square.sqrt(), sure.select(w_e.simd_lt(all(0.0)).select(-root, root), w_e)]
 }
 
-fn radial_momentum(w: f32x8, e: f32x8, u: f32x8, beta: f32x8, room: f32x8) -> f32x8 {
-    w.simd_gt(all(0.0)).select((w + beta * e) / room, (u * u - e * e) / (beta * e - w))
+/// Frequency plus outward momentum, and frequency less it.
+fn light_cone(w: f32x8, e: f32x8, u: f32x8, beta: f32x8, room: f32x8) -> [f32x8; 2] {
+    let rising = w.simd_gt(all(0.0));
+    let square = u * u;
+    let over = rising.select(e + w, square) * (all(1.0) + beta);
+    let under = rising.select(room, e - w);
+    [over / under, square * under / over]
 }
 
-/// The three parts of the delay; `at` is r, 1 − 1/r, r − L.
-fn delay_parts(cam: &Camera, [r, room, dr]: [f32x8; 3], c: f32x8, bent: f32x8, [w, e, w_e]: [f32x8; 3]) -> [f32x8; 3] {
-    let (l, a) = (cam.l, all(cam.a));
-    let root_r = r.sqrt();
-    let root_l = all(l.sqrt());
-    let (sin, cos) = (all(0.5) * bent).sin_cos();
-    let x = all(2.0) * sin;
-    let k = all(0.5) * x * x;
-    let y = all(2.0) * cos;
-    let soft = all(2.0) * (a + c) / (all(1.0) + a + c) * k * k;
-    let reach = (y * y + soft).sqrt();
+/// (K, h, q): see `formulas`.
+fn lens_equation(cam: &Camera, c: f32x8, bent: f32x8) -> [f32x8; 3] {
+    let (sine, cosine) = (all(0.5) * bent).sin_cos();
+    let square = all(4.0) * sine * sine;
+    let k = all(0.5) * square;
+    let y = all(2.0) * cosine;
+    let quarter = all(0.5) * (all(cam.share) + c) * k * k;
+    let large = all(0.5) * y.abs() + (all(0.25) * y * y + quarter).sqrt();
+    let small = quarter / large;
     let ahead = y.simd_gt(all(0.0));
-    let other = all(0.5) * soft / (reach + y.abs());
-    let sum = all(0.5) * (y.abs() + reach);
-    let h = ahead.select(sum, other);
-    let excess = ahead.select(other, sum);
-    let q = x * x - excess * (h + y);
-    let fall = dr / (root_r + root_l);
-    let far = dr.abs().simd_gt(all(1e-6 * l));
-    let mean = all(1.0) + far.select(all(3.0) * log1p(dr * a) / dr, all(3.0) * a);
-    let rain = root_l * (all(1.0) + root_r) / (root_r * (all(1.0) + root_l));
-    let across = mean * (all(1.0) + all(3.0) * c) * (room + k * c * c * a * all(1.0 / (1.0 + cam.a))) * r * all(l) * q;
-    let chord = (mean * mean * dr * dr + across).sqrt();
-    let zero = all(0.0);
-    let out = w_e.simd_gt(zero).select((w_e + e) * r / room, c / (e - w_e));
-    let back = w.simd_gt(zero).select(a * all(cam.room) / (e + w), (e - w) * all(l));
-    let a4 = cam.a * cam.a * cam.a * cam.a;
-    let c4 = c * c * c * c;
-    let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(a4 / (1.0 + a4))).sqrt();
-    [all(2.0) * ((out * back * rain).ln() - fall), chord - all(2.0) * (all(0.5) * h).ln(), factor]
+    [k, ahead.select(large, small), square - quarter - ahead.select(small, large) * y]
 }
 
 /// The three residuals of each point at coordinates in 0..=1, clamped.
@@ -273,6 +238,7 @@ fn spline_weights(t: f32x8) -> [f32x8; 4] {
 /// `height` = L + along. As [`super::lens_lookup_at`] for each; points inside the horizon go through it one by one.
 pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES], height: [f32; LANES], order: u32) -> LensRays {
     let cam = &slice.camera;
+    let sides = [along, across, height];
     let [r, room, dr, phi] = place(cam, along.into(), across.into(), height.into());
     let sweep = match order {
         2 => all(2.0 * HALF_TURN) - phi,
@@ -280,25 +246,35 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
         _ => phi,
     };
     let swept = most(sweep, SMALLEST_SWEEP);
-    let c = all(1.0) / r;
-    let open = most(room, 1e-4);
+    let (l, c) = (all(cam.l), all(1.0) / r);
+    let open = most(room, LEAST_ROOM);
     let bent = bent_sweep(swept);
-    let guess = slope_guess(cam, -dr * c * all(cam.a), bent);
+    let guess = slopes(cam, -dr * c * all(cam.a), bent);
+    let [k, h, q] = lens_equation(cam, c, bent);
+    let lens = (all(0.5) * h).ln();
+    let near = (all(10.0) * swept + (all(1.0) + all(100.0) * swept * swept).sqrt()).ln();
     let x = ((c + all(cam.soft)).ln() - all(2.0) * open.sqrt() - all(cam.start)) * all(cam.scale);
-    let table = residuals(slice, x, sweep_axis(cam, c, swept));
-    let scale = c + all(cam.a / (1.0 + 4.0 * cam.a));
-    let ends = joined(turned_slope(guess[0], all(cam.a), table[0]), turned_slope(guess[1], scale, table[2]), cam, c, open);
-    let parts = delay_parts(cam, [r, open, dr], c, bent, ends);
-    let [w, e, w_e] = ends;
-    let delay = parts[0] + parts[2] * (parts[1] + table[1]);
-    let radial = radial_momentum(w, e, all(cam.a), all(cam.beta), all(cam.room));
-    let frequency = (radial * radial + all(cam.a * cam.a)).sqrt();
-    let leaving = radial_momentum(w_e, e, c, c.sqrt(), open);
-    let emission_frequency = (leaving * leaving + c * c).sqrt();
-    let over = all(1.0) / frequency;
+    let table = residuals(slice, x, (swept + near - all(0.3) * lens) * all(1.0 / SWEEP_LENGTH));
+    let scale = c + all(cam.reach);
+    let [w, e, w_e] = joined(turned_slope(guess[0], all(cam.a), table[0]), turned_slope(guess[1], scale, table[2]), cam, c, open);
+    let root_c = c.sqrt();
+    let [seen, seen_less] = light_cone(w, e, all(cam.a), all(cam.beta), all(cam.room));
+    let [emitted, emitted_less] = light_cone(w_e, e, c, root_c, open);
+    let log = log1p(dr * all(cam.a));
+    let direct = dr + all(3.0) * log;
+    let mean = all(1.0) + dr.abs().simd_gt(all(1e-6 * cam.l)).select(all(3.0) * log / dr, all(3.0 * cam.a));
+    let across = mean * (all(1.0) + all(3.0) * c) * (open + k * c * c * all(cam.share)) * r * l * q;
+    let near_hole = c + all(0.01);
+    let c4 = near_hole * near_hole * near_hole * near_hole;
+    let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(cam.lift)).sqrt();
+    let along = all(2.0) * ((emitted * seen_less * (r * l)).ln() - dr / (r * root_c + all(cam.l * cam.beta)));
+    let delay = along + factor * ((direct * direct + across).sqrt() - all(2.0) * lens + table[1]);
+    let (frequency, emission_frequency) = (all(0.5) * (seen + seen_less), all(0.5) * (emitted + emitted_less));
+    let leaving = all(0.5) * (emitted - emitted_less);
+    let over = all(0.5) / frequency;
     let mut rays = LensRays {
-        cos_psi: (-radial * over).to_array(),
-        sin_psi: (all(cam.a) * over).to_array(),
+        cos_psi: ((seen_less - seen) * over).to_array(),
+        sin_psi: (all(2.0 * cam.a) * over).to_array(),
         delay: delay.to_array(),
         frequency: frequency.to_array(),
         emission_radial: leaving.to_array(),
@@ -315,7 +291,7 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     let plain = plain.to_bitmask();
     if plain != (1 << LANES) - 1 {
         for i in (0..LANES).filter(|i| plain >> i & 1 == 0) {
-            rays.set(i, lens_lookup_aged(slice, along[i], across[i], height[i], order, super::lookup::YOUNG));
+            rays.set(i, lens_lookup_aged(slice, sides[0][i], sides[1][i], sides[2][i], order, YOUNG));
         }
     }
     rays

@@ -4,25 +4,24 @@
 /// In f32. The coefficients are minimax fits over the ranges given.
 #[allow(clippy::excessive_precision)]
 pub mod single {
-    /// `yes` where x > 0, else `no`, both at hand. Which it is changes from point to point, and a branch foreseen wrongly costs more than both;
-    /// the compiler makes branches of plain conditions, so the mask is made in the registers themselves.
-    #[cfg(target_arch = "x86_64")]
-    #[allow(unsafe_code)]
-    #[inline(always)]
-    pub fn above(x: f32, yes: f32, no: f32) -> f32 {
-        use std::arch::x86_64::{_mm_and_ps, _mm_andnot_ps, _mm_cmpgt_ss, _mm_cvtss_f32, _mm_or_ps, _mm_set_ss};
-        // SAFETY: these are instructions of SSE, which every processor of this kind has.
-        unsafe {
-            let mask = _mm_cmpgt_ss(_mm_set_ss(x), _mm_set_ss(0.0));
-            _mm_cvtss_f32(_mm_or_ps(_mm_and_ps(mask, _mm_set_ss(yes)), _mm_andnot_ps(mask, _mm_set_ss(no))))
-        }
-    }
+    use wide::{f32x4, i32x4};
 
     /// `yes` where x > 0, else `no`.
-    #[cfg(not(target_arch = "x86_64"))]
     #[inline(always)]
     pub fn above(x: f32, yes: f32, no: f32) -> f32 {
         if x > 0.0 { yes } else { no }
+    }
+
+    /// The smaller of two that are numbers: one instruction, where the library's `min` also decides about NaN.
+    #[inline(always)]
+    pub fn least(a: f32, b: f32) -> f32 {
+        if a < b { a } else { b }
+    }
+
+    /// The larger of two that are numbers.
+    #[inline(always)]
+    pub fn most(a: f32, b: f32) -> f32 {
+        if a > b { a } else { b }
     }
 
     /// The bits of √½, where the mantissa that a logarithm is taken of begins.
@@ -52,10 +51,19 @@ pub mod single {
         exponent as f32 * std::f32::consts::LN_2 + ln_near_one(f)
     }
 
-    /// Four of them at once.
+    /// ln a, ln b, ln c and ln(1 + x), the last accurate for small x.
     #[inline(always)]
-    pub fn ln4([a, b, c, d]: [f32; 4]) -> [f32; 4] {
-        [ln(a), ln(b), ln(c), ln(d)]
+    pub fn ln4([a, b, c]: [f32; 3], x: f32) -> [f32; 4] {
+        let bits: i32x4 = bytemuck::cast(f32x4::from([a, b, c, 1.0 + x]));
+        let exponent = (bits - i32x4::splat(MANTISSA_START as i32)) >> 23;
+        let mantissa: f32x4 = bytemuck::cast(bits - (exponent << 23));
+        let small = f32x4::from([1.0, 1.0, 1.0, x]);
+        let f = small.abs().simd_lt(f32x4::splat(0.29)).select(small, mantissa - f32x4::ONE);
+        let square = f * f;
+        let p = (0.333_333_167_26 - f * 0.250_008_104_06) + square * (0.200_022_862_71 - f * 0.166_245_540_16);
+        let q = (0.141_811_920_37 - f * 0.131_287_551_67) + square * (0.128_816_468_81 - f * 0.078_596_097_35);
+        let near = f + square * (f * (p + square * square * q) - 0.5);
+        (f32x4::from_i32x4(exponent) * std::f32::consts::LN_2 + near).to_array()
     }
 
     /// ln(1 + x) for x > −1, accurate for small x.
@@ -73,13 +81,25 @@ pub mod single {
         t + t * y * (p + y2 * ((-0.142_438_377_05 + y * 0.105_959_151_30) - y2 * 0.060_832_230_04))
     }
 
-    /// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, for −1 ≤ x ≤ 4.4 (√x up to 2.1): off by 2e-9.
+    /// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, of both, for −1 ≤ x ≤ 4.5 (√x up to 2.12): off by 2e-9.
+    #[inline(always)]
+    pub fn stumpffs([a, b]: [f32; 2]) -> [[f32; 2]; 2] {
+        let lanes = |s: f32, c: f32| f32x4::from([s, c, s, c]);
+        let x = f32x4::from([a, a, b, b]);
+        let square = x * x;
+        let low = 1.0 + x * lanes(-0.166_666_670_045_43, -0.499_999_999_988_26);
+        let middle = lanes(0.008_333_337_684_15, 0.041_666_667_398_3) + x * lanes(-0.000_198_409_309_41, -0.001_388_889_194_47);
+        let high = lanes(2.750_985_84e-6, 2.480_098_260_69e-5) + x * lanes(-2.349_98e-8, -2.750_805_330_53e-7);
+        let last = square * lanes(0.0, 1.959_04e-9);
+        let value = low + square * (middle + square * (high + last));
+        let [s, c, t, d] = value.to_array();
+        [[s, c], [t, d]]
+    }
+
+    /// Those of one.
     #[inline(always)]
     pub fn stumpff(x: f32) -> [f32; 2] {
-        let (x2, x4) = (x * x, x * x * (x * x));
-        let s = (-0.166_666_670_045_43 + x * 0.008_333_337_684_15) + x2 * (-0.000_198_409_309_41 + x * 2.750_985_84e-6);
-        let c = (-0.499_999_999_988_26 + x * 0.041_666_667_398_3) + x2 * (-0.001_388_889_194_47 + x * 2.480_098_260_69e-5);
-        [1.0 + x * (s - x4 * 2.349_98e-8), 1.0 + x * (c + x4 * (-2.750_805_330_53e-7 + x * 1.959_04e-9))]
+        stumpffs([x, x])[0]
     }
 }
 
@@ -95,11 +115,6 @@ pub mod double {
         x.ln()
     }
 
-    /// Four of them.
-    pub fn ln4(x: [f64; 4]) -> [f64; 4] {
-        x.map(f64::ln)
-    }
-
     /// ln(1 + x).
     pub fn log1p(x: f64) -> f64 {
         x.ln_1p()
@@ -112,5 +127,10 @@ pub mod double {
         }
         let root = x.abs().sqrt();
         if x > 0.0 { [root.sin() / root, root.cos()] } else { [root.sinh() / root, root.cosh()] }
+    }
+
+    /// Those of both.
+    pub fn stumpffs(x: [f64; 2]) -> [[f64; 2]; 2] {
+        x.map(stumpff)
     }
 }

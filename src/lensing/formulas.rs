@@ -1,5 +1,6 @@
 // The formulas of the lookup, written once and compiled for both precisions by `mod.rs` (`type Real`): in f64 for the bake, in
-// f32 as the twin of shaders/functions/lensing.wgsl, function for function under the same names.
+// f32 as the twin of shaders/functions/lensing.wgsl, function for function under the same names. What is needed at the camera and at the point
+// alike is done in two lanes of one register.
 //
 // Symbols: a = 1/L, c = 1/r, Φ the angle swept, w = du/dΦ at the camera, w_e the same at the point, e = 1/b with
 // e² = w² + a² − a³ = w_e² + c² − c³; T is Painlevé–Gullstrand time. Lengths in r_s, times in r_s/c, angles in radians.
@@ -9,17 +10,19 @@
 // the Einstein ring), and going over into the ray that winds around the photon sphere for a camera near the hole.
 
 /// Beyond this angle swept, in radians, the closed forms see less and less of Φ: they only need to stay smooth there.
-pub const BEND_START: Real = 3.6;
-/// How far they still go beyond it, in radians.
-pub const BEND_RANGE: Real = 0.5;
+pub const BEND_START: Real = 3.4;
+/// The width of what they still go beyond it, in radians: they reach 0.57 of it.
+pub const BEND_RANGE: Real = 1.4;
+/// The length of the second axis before it is scaled to 1: the most that it is at Φ = 3π.
+pub const SWEEP_LENGTH: Real = 17.0;
 /// The smallest angle swept, in radians: a point exactly on the axis is looked up as if this far off it.
 pub const SMALLEST_SWEEP: Real = 1e-9;
 /// Half the turn, in radians.
 pub const HALF_TURN: Real = std::f64::consts::PI as Real;
 /// The largest angle swept in the table, in radians: 3π.
 pub const LARGEST_SWEEP: Real = (3.0 * std::f64::consts::PI) as Real;
-/// The table's range of 1/r, in 1/r_s: r from 1.00035 to 10,526.
-pub const POINT_RANGE: [Real; 2] = [0.95e-4, 0.999_65];
+/// The table's range of 1/r, in 1/r_s: r from 1.000001 to 10,526. The second is 1 − 2⁻²⁰, the same in both precisions.
+pub const POINT_RANGE: [Real; 2] = [0.95e-4, 0.999_999_046_325_683_6];
 
 /// The constants of one camera radius, which the processor computes once a frame in f64.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +53,7 @@ pub struct Camera {
     pub share: Real,
     /// a/(1 + 4a).
     pub reach: Real,
-    /// a⁴/(1 + a⁴).
+    /// a⁴/(1 + a⁴), at least 1e-4.
     pub lift: Real,
 }
 
@@ -76,65 +79,80 @@ pub fn camera(l: f64) -> Camera {
         scale: (1.0 / (last - first)) as Real,
         share: (a / (1.0 + a)) as Real,
         reach: (a / (1.0 + 4.0 * a)) as Real,
-        lift: (a.powi(4) / (1.0 + a.powi(4))) as Real,
+        lift: (a.powi(4) / (1.0 + a.powi(4))).max(1e-4) as Real,
     }
 }
 
-/// arsinh(10 Φ) at the end of the table, Φ = 3π.
-pub const SWEEP_END: Real = 5.239_102_591_656_62;
-
-/// The table's first two coordinates, each in 0..=1.
-///
-/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `room` = 1 − 1/r. The second runs over Φ
-/// from 0 to 3π: Φ + 0.3 arsinh((Φ − π)/s) + arsinh(10 Φ), stretched around π by the width `s` of the Einstein ring and near 0, less what it
-/// is at 0 and over its length.
-#[inline]
-pub fn axes(cam: &Camera, c: Real, room: Real, sweep: Real) -> [Real; 2] {
-    // e to the arsinh(x/s) is (x + √(x² + s²))/s, so that sums of arsinh go under one logarithm; for x < 0 its inverse loses nothing.
-    let s2 = 7.84 * (cam.share + c);
-    let off = sweep - HALF_TURN;
-    let first = HALF_TURN + (HALF_TURN * HALF_TURN + s2).sqrt();
-    let last = 2.0 * HALF_TURN + (4.0 * HALF_TURN * HALF_TURN + s2).sqrt();
-    let root = (off * off + s2).sqrt();
-    let (up, down) = (above(-off, first, first * (root + off)), above(-off, root - off, s2));
-    let near = 10.0 * sweep + (1.0 + 100.0 * sweep * sweep).sqrt();
-    let [point, here, length, near] = ln4([c + cam.soft, up / down, first * last / s2, near]);
-    [
-        (point - 2.0 * room.max(0.0).sqrt() - cam.start) * cam.scale,
-        (sweep + 0.3 * here + near) / (LARGEST_SWEEP + SWEEP_END + 0.3 * length),
-    ]
-}
-
-/// Φ as the closed forms see it: itself up to `BEND_START`, then levelling off, four times differentiable.
+/// Φ as the closed forms see it: itself up to `BEND_START`, then somewhat beyond and back toward it, three times differentiable.
 #[inline]
 pub fn bent_sweep(sweep: Real) -> Real {
     if sweep <= BEND_START {
         return sweep;
     }
-    let x = (sweep - BEND_START) / BEND_RANGE;
-    let x2 = x * x;
-    BEND_START + (sweep - BEND_START) / (1.0 + x2 * x2).sqrt().sqrt()
+    let off = sweep - BEND_START;
+    let x = off * (1.0 / BEND_RANGE);
+    let x4 = x * x * (x * x);
+    BEND_START + off / (1.0 + x4)
 }
 
-/// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin.
+/// What the delay's closed form and the table share of the sweep: K = 1 − cos Φ, h and q, for Stumpff's functions of Φ²/4.
+///
+/// h is half the chord's fall, cos(Φ/2), doubled and kept positive beyond π: (y + √(y² + s²))/2 with y = 2 cos(Φ/2) and the width s of the Einstein
+/// ring; q is the square of the chord between two unit vectors less what the lens takes.
 #[inline]
-pub fn basis(cam: &Camera, sweep: Real) -> [Real; 2] {
+pub fn lens_equation(cam: &Camera, c: Real, bent: Real, [sine, cosine]: [Real; 2]) -> [Real; 3] {
+    let x = bent * sine;
+    let square = x * x;
+    let k = 0.5 * square;
+    let y = 2.0 * cosine;
+    let quarter = 0.5 * (cam.share + c) * k * k;
+    let large = 0.5 * y.abs() + (0.25 * y * y + quarter).sqrt();
+    // x² − excess (h + y), where excess h is a quarter of the softening. Which of the two is h depends on the order: a branch that is foreseen.
+    if y > 0.0 { [k, large, square - quarter - quarter / large * y] } else { [k, quarter / large, square - quarter - large * y] }
+}
+
+/// e to the arsinh(10 Φ).
+#[inline]
+pub fn near_axis(sweep: Real) -> Real {
+    10.0 * sweep + (1.0 + 100.0 * sweep * sweep).sqrt()
+}
+
+/// The table's first two coordinates, each in 0..=1, from the logarithms of c + `soft`, of [`near_axis`] and of h/2.
+///
+/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The second runs
+/// over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the Einstein ring.
+#[inline]
+pub fn axes(cam: &Camera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> [Real; 2] {
+    [(point - 2.0 * root_room - cam.start) * cam.scale, (sweep + near - 0.3 * lens) * (1.0 / SWEEP_LENGTH)]
+}
+
+/// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin, from [`half_angle`] and Stumpff's functions of it.
+#[inline]
+pub fn basis(cam: &Camera, sweep: Real, x: Real, [sine, cosine]: [Real; 2]) -> [Real; 2] {
     let square = sweep * sweep;
-    let x = -0.25 * cam.bend * square;
     if x < -1.0 {
         let up = (cam.rate * sweep).exp();
         let down = 1.0 / up;
         return [0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate)];
     }
-    // By the half angle.
-    let [sine, cosine] = stumpff(x);
     [sweep * sine * cosine, 0.5 * square * sine * sine]
 }
 
-/// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
+/// The square of half the angle that [`basis`] is taken of, negative where it is hyperbolic.
 #[inline]
+pub fn half_angle(cam: &Camera, sweep: Real) -> Real {
+    -0.25 * cam.bend * sweep * sweep
+}
+
+/// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
 pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
-    let [s, k] = basis(cam, bent);
+    let x = half_angle(cam, bent);
+    slopes(cam, rise, basis(cam, bent, x, stumpff(x)))
+}
+
+/// The same from [`basis`].
+#[inline]
+pub fn slopes(cam: &Camera, rise: Real, [s, k]: [Real; 2]) -> [Real; 2] {
     // What is right only in weak fields, held down where K grows.
     let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
     let am = cam.a * m;
@@ -148,12 +166,9 @@ pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
         let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
-        return [w, (turn * rise + f * k + rest) / s + w * am * s * s];
+        return [w, (turn * rise + f * k + rest) * (1.0 / s) + w * am * s * s];
     }
-    [
-        w,
-        w * (turn * (1.0 + am * k) + am * s * s) + f * s + am * f * k * s + m * k * s * w * w,
-    ]
+    [w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w)]
 }
 
 /// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
@@ -162,27 +177,33 @@ pub fn energy(w: Real, u: Real, room: Real) -> Real {
     (w * w + u * u * room).max(0.0).sqrt()
 }
 
-/// The photon's outward rain-frame momentum per angular momentum at u, for slope w and energy e, `room` = 1 − u; the one against the
-/// sweep is u. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
+/// The photon's rain-frame momentum per angular momentum at two places, [camera, point], at u with the river's speed `beta` and `room` = 1 − u, for
+/// slopes w and the energy e: frequency plus outward momentum at both, then frequency less it. Their product is u², the square of the momentum
+/// against the sweep. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
 #[inline]
-pub fn radial_momentum(w: Real, e: Real, u: Real, beta: Real, room: Real) -> Real {
-    let along = beta * e;
-    above(w.max(-e), w + along, u * u - e * e) / above(w.max(-e), room, along - w)
+pub fn light_cones(w: [Real; 2], e: Real, u: [Real; 2], beta: [Real; 2], room: [Real; 2]) -> [Real; 4] {
+    let pair = |[a, b]: [Real; 2]| Four::from([a, b, a, b]);
+    let (w, u, e) = (pair(w), pair(u), Four::splat(e));
+    let rising = w.simd_gt(Four::ZERO) | Four::ZERO.simd_gt(e);
+    let square = u * u;
+    let over = (rising.select(e + w, square) * (pair(beta) + 1.0)).to_array();
+    let under = rising.select(pair(room), e - w);
+    let back = (square * under).to_array();
+    let under = under.to_array();
+    (Four::from([over[0], over[1], back[0], back[1]]) / Four::from([under[0], under[1], over[0], over[1]])).to_array()
 }
 
-/// The slope whose angle atan2(u, −slope) is that of `guess` turned by `turn` (at most 2 radians either way): how the table corrects a
-/// closed form.
+/// The slopes whose angles atan2(u, −slope) are those of the guesses turned by twice the angles whose tangents are `turns`: how the table corrects
+/// the closed forms.
 #[inline]
-pub fn turned_slope(guess: Real, u: Real, turn: Real) -> Real {
-    // tan(turn/2) = p/q by Padé's approximant of order 5 over 4: off by 1e-7 at the largest turn, and no sine is called.
-    let x = 0.5 * turn;
-    let y = x * x;
-    let p = x * (945.0 - y * (105.0 - y));
-    let q = 945.0 - y * (420.0 - 15.0 * y);
-    // Cosine and sine of the turn, both times p² + q², which cancels.
-    let (ct, st) = (q * q - p * p, 2.0 * p * q);
-    let sine = (u * ct - guess * st).max(1e-6 * u);
-    u * (guess * ct + u * st) / sine
+pub fn turned_slopes(guesses: [Real; 2], u: [Real; 2], turns: [Real; 2]) -> [Real; 2] {
+    let pair = |[a, b]: [Real; 2]| Four::from([a, b, a, b]);
+    let (guess, u, turn) = (pair(guesses), pair(u), pair(turns));
+    // Cosine and sine of the turn, both times 1 + turn², which cancels.
+    let (ct, st) = (Four::ONE - turn * turn, turn + turn);
+    let sine = (u * ct - guess * st).fast_max(u * 1e-6);
+    let [w, w_e, ..] = (u * (guess * ct + u * st) / sine).to_array();
+    [w, w_e]
 }
 
 /// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
@@ -191,46 +212,28 @@ pub fn emission_scale(cam: &Camera, c: Real) -> Real {
     c + cam.reach
 }
 
-/// The parts of the delay T = p₀ + p₂ (p₁ + table): what is singular at the horizon and what falls with the rain; the chord and
-/// Shapiro's logarithm, both regular across the Einstein ring; a factor that goes to zero with e at the horizon.
-/// `room` = 1 − 1/r, `dr` = r − L; w, e, w_e are those of the ray.
+/// The part of the delay that is regular across the Einstein ring: the chord and Shapiro's logarithm. `logs` are ln(r/L) and ln(h/2).
 #[inline]
-pub fn delay_parts(
-    cam: &Camera,
-    r: Real,
-    room: Real,
-    dr: Real,
-    bent: Real,
-    w: Real,
-    e: Real,
-    w_e: Real,
-) -> [Real; 3] {
-    let (l, a) = (cam.l, cam.a);
-    let c = 1.0 / r;
-    let root_c = c.sqrt();
-    let [sine, cosine] = stumpff(0.25 * bent * bent);
-    let x = bent * sine;
-    let k = 0.5 * x * x;
-    // Half the chord's fall: 2 cos(Φ/2), kept positive beyond π as in the lens equation.
-    let y = 2.0 * cosine;
-    let soft = 2.0 * (a + c) / (1.0 + a + c) * k * k;
-    let large = 0.5 * (y.abs() + (y * y + soft).sqrt());
-    let small = 0.25 * soft / large;
-    let (h, excess) = (above(y, large, small), above(y, small, large));
-    // x² − excess (h + y), where excess h = soft/4.
-    let q = x * x - 0.25 * soft - excess * y;
-    let fall = dr / (r * root_c + l * cam.beta);
-    // 1 + 3 ln(r/L)/(r − L): exact along Φ = 0.
-    let log = log1p(dr * a);
-    let mean = 1.0 + 3.0 * above(dr.abs() - 1e-6 * l, log / dr, a);
-    let direct = dr + 3.0 * log;
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * l * q;
-    let chord = (direct * direct + across).sqrt();
-    // The ray at the point, at the camera, and of the fall with the rain what is not 2 (√r − √L).
-    let (out, out_over) = (above(w_e, w_e + e, c), above(w_e, room * c, e - w_e));
-    let (back, back_over) = (above(w, a * cam.room, e - w), above(w, e + w, a));
-    let doppler = out * back * (1.0 + root_c) / (out_over * back_over * (1.0 + cam.beta));
-    let c4 = c * c * c * c;
-    let factor = e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt();
-    [2.0 * (ln(doppler) - fall), chord - 2.0 * ln(0.5 * h), factor]
+pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _, q]: [Real; 3], logs: [Real; 2]) -> Real {
+    // Exact along Φ = 0.
+    let direct = dr + 3.0 * logs[0];
+    let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs[0] / dr } else { cam.a };
+    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * cam.l * q;
+    (direct * direct + across).sqrt() - 2.0 * logs[1]
+}
+
+/// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
+#[inline]
+pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
+    // Far away it is 1 all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
+    let near = c + 0.01;
+    let c4 = near * near * near * near;
+    e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt()
+}
+
+/// The rest of the delay: what is singular at the horizon and what falls with the rain, from the photon's [`light_cones`].
+#[inline]
+pub fn delay_along(cam: &Camera, r: Real, c: Real, dr: Real, cones: [Real; 4]) -> Real {
+    // The river's fall is 2 (√r − √L).
+    2.0 * (ln(cones[1] * cones[2] * (r * cam.l)) - dr / (r * c.sqrt() + cam.l * cam.beta))
 }

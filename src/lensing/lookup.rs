@@ -2,7 +2,7 @@
 
 use wide::f32x4;
 
-use super::elementary::single::{above, short_arctan};
+use super::elementary::single::{above, least, ln4, most, short_arctan, stumpffs};
 use super::inside::inside;
 use super::single::*;
 use super::slice::{HEADER, Slice};
@@ -67,9 +67,9 @@ pub const NOTHING: LensRay = LensRay {
 #[inline]
 pub fn angle(across: f32, height: f32, r: f32) -> f32 {
     let ahead = height.abs();
-    let x = 2.0 * short_arctan(across.min(ahead) / (r + across.max(ahead)));
-    let x = above(across - ahead, 0.5 * HALF_TURN - x, x);
-    above(-height, HALF_TURN - x, x)
+    let from = [0.0, 0.5 * HALF_TURN, HALF_TURN, 0.5 * HALF_TURN][usize::from(across > ahead) + 2 * usize::from(height < 0.0)];
+    let twice = [-2.0, 2.0][usize::from((across > ahead) == (height < 0.0))];
+    from + twice * short_arctan(least(across, ahead) / (r + most(across, ahead)))
 }
 
 /// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
@@ -81,10 +81,14 @@ pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     let inverse = 1.0 / r;
     let phi = angle(across, height, r);
     let near = 0.25 * cam.l * cam.l - square;
-    let dr = (2.0 * cam.l * along + square) / (r + cam.l);
-    let room = above(near, cam.room + dr * inverse * cam.a, (r - 1.0) * inverse);
-    Place { r, room, dr: above(near, dr, r - cam.l), phi }
+    let offset = (2.0 * cam.l * along + square) / (r + cam.l);
+    // r − 1 and r − L: near the camera from the offset, elsewhere from the place.
+    let height = above(near, cam.room * cam.l + offset, r - 1.0);
+    Place { r, room: height * inverse, dr: above(near, offset, r - cam.l), phi }
 }
+
+/// The least 1 − 1/r that the logarithm of the horizon is taken of.
+pub const LEAST_ROOM: f32 = 1e-7;
 
 /// The outermost weight at a node.
 pub const SIXTH: f32 = 1.0 / 6.0;
@@ -100,23 +104,27 @@ pub fn spline_weights(t: f32) -> [f32; 4] {
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
 #[inline]
 pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
-    let [nx, ny] = slice.size;
-    let px = x.clamp(0.0, 1.0) * (nx - 1) as f32;
-    let py = y.clamp(0.0, 1.0) * (ny - 1) as f32;
-    let i = (px as u32).min(nx - 2);
-    let j = (py as u32).min(ny - 2);
-    let wx = spline_weights(px - i as f32);
-    let wy = spline_weights(py - j as f32);
+    let wide = slice.size[0] as i32 + 2;
+    let cells = f32x4::from([(wide - 3) as f32, (slice.size[1] - 1) as f32, 0.0, 0.0]);
+    let place = f32x4::from([x, y, 0.0, 0.0]).fast_max(f32x4::ZERO).fast_min(f32x4::ONE) * cells;
+    let first = place.fast_min(cells - 0.5).fast_trunc_int();
+    let [tx, ty, ..] = (place - f32x4::from_i32x4(first)).to_array();
+    let [i, j, ..] = first.to_array();
+    // The weights of both: those of the nodes beside the place, and the outer ones.
+    let t = f32x4::from([tx, 1.0 - tx, ty, 1.0 - ty]);
+    let square = t * t;
+    let inner = (square * (t * 0.5 - 1.0) + 4.0 * SIXTH).to_array();
+    let outer = (square * t * SIXTH).to_array();
+    let wx = [outer[1], inner[0], inner[1], outer[0]].map(f32x4::splat);
+    let wy = [outer[3], inner[2], inner[3], outer[2]].map(f32x4::splat);
     // Four channels at once: a texel is one register.
-    let mut sum = f32x4::ZERO;
-    for (b, weight) in wy.into_iter().enumerate() {
-        let at = HEADER + ((j + b as u32) * (nx + 2) + i) as usize;
-        let mut row = f32x4::ZERO;
-        for (texel, weight) in slice.texels[at..at + 4].iter().zip(wx) {
-            row += f32x4::from(*texel) * f32x4::splat(weight);
-        }
-        sum += row * f32x4::splat(weight);
-    }
+    let at = HEADER + (j * wide + i) as usize;
+    let row = |b: usize| {
+        let row = slice.texels[at + b * wide as usize..].first_chunk().unwrap_or(&[[0.0; 4]; 4]);
+        let [p, q, r, s] = row.map(f32x4::from);
+        (p * wx[0] + q * wx[1] + (r * wx[2] + s * wx[3])) * wy[b]
+    };
+    let sum = row(0) + row(1) + (row(2) + row(3));
     let [turn, delay, emission_turn, _] = sum.to_array();
     [turn, delay, emission_turn]
 }
@@ -128,19 +136,23 @@ fn cell(x: f32, n: u32) -> (u32, f32) {
     (i, p - i as f32)
 }
 
-/// The residuals of the method "table-linear", from texels of [`Slice::nodes`]: the twin of `residuals` in its shader.
-pub fn residuals_linear(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+/// The residuals of the method "table-linear", from a texel of [`Slice::nodes`] by its index: the twin of `residuals` in its shader.
+pub fn residuals_linear(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
     let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
     let at = HEADER + (j * nx + i) as usize;
     let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
-    let row = |at: usize, h: usize| mix(texels[at][h], texels[at + 1][h], tx);
-    [0, 1, 2].map(|h| mix(row(at, h), row(at + nx as usize, h), ty))
+    let row = |at: usize| {
+        let (a, b) = (texel(at), texel(at + 1));
+        [0, 1, 2].map(|h| mix(a[h], b[h], tx))
+    };
+    let (low, high) = (row(at), row(at + nx as usize));
+    [0, 1, 2].map(|h| mix(low[h], high[h], ty))
 }
 
-/// The residuals of the method "table-half", from texels of [`Slice::halves`]: the twin of `residuals` in its shader.
-pub fn residuals_half(texels: &[[f32; 4]], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
+/// The residuals of the method "table-half", from a texel of [`Slice::halves`] by its index: the twin of `residuals` in its shader.
+pub fn residuals_half(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
     let half = |index: usize| {
-        let texel = texels[HEADER + index / 2].map(f32::to_bits);
+        let texel = texel(HEADER + index / 2).map(f32::to_bits);
         let pair = if index % 2 == 1 { [texel[2], texel[3]] } else { [texel[0], texel[1]] };
         [pair[0] & 0xffff, pair[0] >> 16, pair[1] & 0xffff].map(|bits| half::f16::from_bits(bits as u16).to_f32())
     };
@@ -164,16 +176,17 @@ pub fn finite(x: f32) -> bool {
 /// (w, e, w_e) made consistent from the two slopes of the table: each is taken from where it is well conditioned.
 #[inline]
 pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
+    let (here, there) = (cam.a * cam.a * cam.room, c * c * room);
     if cam.room <= 0.0 {
         // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
-        let e = energy(w_e, c, room);
-        return [-(e * e - cam.a * cam.a * cam.room).sqrt(), e, w_e];
+        let square = (w_e * w_e + there).max(0.0);
+        return [-(square - here).sqrt(), square.sqrt(), w_e];
     }
-    let e = energy(w, cam.a, cam.room);
+    let square = (w * w + here).max(0.0);
     // Away from a turning point the energy gives the magnitude more precisely.
-    let square = e * e - c * c * room;
-    let root = square.max(0.0).sqrt();
-    [w, e, above(square - 0.3 * e * e, root.copysign(w_e), w_e)]
+    let rest = square - there;
+    let root = rest.max(0.0).sqrt();
+    [w, square.sqrt(), above(rest - 0.3 * square, root.copysign(w_e), w_e)]
 }
 
 /// Light of no age: where there are two rays, the one with E > 0.
@@ -196,48 +209,55 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
     }
     let swept = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let (w, e, w_e, delay);
     let mut room = at.room;
     if room > 0.0 {
-        room = room.max(1e-4);
+        room = room.max(LEAST_ROOM);
         let bent = bent_sweep(swept);
-        let guess = slope_guess(cam, -at.dr * c * cam.a, bent);
-        let [x, y] = axes(cam, c, room, swept);
+        let square = half_angle(cam, bent);
+        let [half, turned] = stumpffs([0.25 * bent * bent, square]);
+        let guesses = slopes(cam, -at.dr * c * cam.a, basis(cam, bent, square, turned));
+        let lens = lens_equation(cam, c, bent, half);
+        let logs = ln4([c + cam.soft, near_axis(swept), 0.5 * lens[1]], at.dr * cam.a);
+        let [x, y] = axes(cam, room.sqrt(), swept, [logs[0], logs[1], logs[2]]);
+        let across = delay_across(cam, at.r, c, room, at.dr, lens, [logs[3], logs[2]]);
         let table = residuals(x, y);
-        [w, e, w_e] =
-            joined(turned_slope(guess[0], cam.a, table[0]), turned_slope(guess[1], emission_scale(cam, c), table[2]), cam, c, room);
-        let parts = delay_parts(cam, at.r, room, at.dr, bent, w, e, w_e);
-        delay = parts[0] + parts[2] * (parts[1] + table[1]);
-    } else if cam.room < 0.0 {
-        let Some(ray) = inside(cam, at, swept, elapsed) else { return NOTHING };
-        [w, e, w_e, delay] = ray;
-    } else {
-        return NOTHING;
+        let [w, w_e] = turned_slopes(guesses, [cam.a, emission_scale(cam, c)], [table[0], table[2]]);
+        let [w, e, w_e] = joined(w, w_e, cam, c, room);
+        let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+        let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens[0], e) * (across + table[1]);
+        return ray_with(cam, c, [w, e, w_e, delay], cones);
     }
-    ray_of(cam, c, room, [w, e, w_e, delay])
+    if cam.room < 0.0 {
+        let Some(ray) = inside(cam, at, swept, elapsed) else { return NOTHING };
+        return ray_of(cam, c, room, ray);
+    }
+    NOTHING
 }
 
 /// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
 #[inline]
 pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
-    let radial = radial_momentum(w, e, cam.a, cam.beta, cam.room);
-    // Of the energy, conserved, the river takes its speed times the momentum along it: e = frequency − β radial.
-    let frequency = e + cam.beta * radial;
-    let root_c = c.sqrt();
-    let leaving = radial_momentum(w_e, e, c, root_c, room);
-    let emission_frequency = e + root_c * leaving;
-    if !finite(frequency.abs() + emission_frequency.abs() + w.abs() + w_e.abs() + delay.abs()) {
+    let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+    ray_with(cam, c, [w, e, w_e, delay], cones)
+}
+
+/// The same with the photon's [`light_cones`].
+#[inline]
+pub fn ray_with(cam: &Camera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
+    let twice = seen + seen_less;
+    let left = emitted + emitted_less;
+    if !finite(twice.abs() + left.abs() + w.abs() + w_e.abs() + delay.abs()) {
         return NOTHING;
     }
-    let inverse = 1.0 / frequency;
+    let inverse = 1.0 / twice;
     LensRay {
-        cos_psi: -radial * inverse,
-        sin_psi: cam.a * inverse,
+        cos_psi: (seen_less - seen) * inverse,
+        sin_psi: 2.0 * cam.a * inverse,
         delay,
-        frequency,
-        emission_radial: leaving,
+        frequency: 0.5 * twice,
+        emission_radial: 0.5 * (emitted - emitted_less),
         emission_tangential: c,
-        emission_frequency,
+        emission_frequency: 0.5 * left,
         slope: w,
         emission_slope: w_e,
         energy: e,

@@ -25,20 +25,24 @@ pub mod table;
 /// The formulas in f64, for the bake.
 #[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod double {
-    use super::elementary::double::{above, ln, ln4, log1p, stumpff};
+    use super::elementary::double::{above, ln, stumpff};
 
     /// The precision of this copy.
     pub type Real = f64;
+    /// Four of them.
+    pub type Four = wide::f64x4;
     include!("formulas.rs");
 }
 
 /// The formulas in f32, the twins of the shader's.
 #[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
 pub mod single {
-    use super::elementary::single::{above, ln, ln4, log1p, stumpff};
+    use super::elementary::single::{above, ln, stumpff};
 
     /// The precision of this copy.
     pub type Real = f32;
+    /// Four of them.
+    pub type Four = wide::f32x4;
     include!("formulas.rs");
 }
 

@@ -5,7 +5,7 @@
 //! closed form.
 
 use super::inside::INSIDE_NODES;
-use super::lookup::{LensRay, NOTHING, Place, finite, ray_of};
+use super::lookup::{LEAST_ROOM, LensRay, NOTHING, Place, finite, ray_of};
 use super::orbit::{CRITICAL_SQUARE, FELL, LEFT, MET, PHOTON_SPHERE, carry, critical_excess, pole_orbit, shoot};
 use super::single::{Camera, HALF_TURN, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
 
@@ -272,5 +272,5 @@ pub fn refined_ray(cam: &Camera, at: Place, sweep: f32, ray: LensRay) -> LensRay
     if fired.fate != MET || !believed || (cam.room < 0.0 && moved >= 0.0) {
         return ray;
     }
-    ray_of(cam, c, at.room.max(1e-4), [w, fan_energy(cam, moved), ray.emission_slope, ray.delay])
+    ray_of(cam, c, at.room.max(LEAST_ROOM), [w, fan_energy(cam, moved), ray.emission_slope, ray.delay])
 }

@@ -16,25 +16,80 @@ pub struct Slice {
     /// Nodes along r and Φ; there are two more coefficients than nodes each way.
     pub size: [u32; 2],
     /// The storage buffer of the shader: four texels with the constants of `camera` and the size, then the coefficients, r fastest:
-    /// the turns of w and w_e in radians in 0 and 2, the residual of the delay in r_s/c in 1, 3 unused.
+    /// the tangents of half the turns of w and w_e in 0 and 2, the residual of the delay in r_s/c in 1, 3 unused.
     pub(super) texels: Vec<[f32; 4]>,
+}
+
+/// Where a camera radius lies in a table: four layers and their weights.
+#[derive(Clone, Copy, Debug)]
+pub struct Cut<'a> {
+    /// The constants of the camera radius.
+    pub camera: Camera,
+    /// Nodes along r and Φ.
+    pub size: [u32; 2],
+    layers: [&'a [[f32; 3]]; 4],
+    weights: [f32; 4],
+}
+
+impl<'a> Cut<'a> {
+    /// The cut of `table` (scheme residual) at the camera radius `l`, in r_s, clamped to the table's range.
+    pub fn new(table: &'a Table, l: f64) -> Cut<'a> {
+        debug_assert_eq!(table.scheme, Scheme::Residual);
+        let [nx, ny, nz] = table.size.map(|n| n as usize);
+        let l = if l.is_finite() { l.clamp(grid::CAMERA_RANGE[0], grid::CAMERA_RANGE[1]) } else { grid::CAMERA_RANGE[1] };
+        let (layer, t) = spline::cell(grid::camera_axis(l), nz);
+        let size = (nx + 2) * (ny + 2) * 3;
+        let layers = [0, 1, 2, 3].map(|k| table.values[(layer + k) * size..(layer + k + 1) * size].as_chunks::<3>().0);
+        Cut { camera: camera(l), size: [nx as u32, ny as u32], layers, weights: spline::weights(t).map(|w| w as f32) }
+    }
+
+    fn sum(&self, [a, b, c, d]: [&[f32; 3]; 4]) -> [f32; 4] {
+        let [wa, wb, wc, wd] = self.weights;
+        let sum = |h: usize| wa * a[h] + wb * b[h] + wc * c[h] + wd * d[h];
+        [sum(0), sum(1), sum(2), 0.0]
+    }
+
+    /// The coefficient at `index`, r fastest: what [`Slice`] holds there.
+    pub fn coefficient(&self, index: usize) -> [f32; 4] {
+        self.sum(self.layers.map(|layer| &layer[index]))
+    }
+
+    /// The texel at `index` of [`Slice::nodes`], beyond the header, alone.
+    pub fn node(&self, index: usize) -> [f32; 4] {
+        node(|k| self.coefficient(k), self.size[0] as usize, index - HEADER)
+    }
+
+    /// The texel at `index` of [`Slice::halves`], beyond the header, alone.
+    pub fn half(&self, index: usize) -> [f32; 4] {
+        let first = 2 * (index - HEADER);
+        pair([first, first + 1].map(|k| if k < self.layers[0].len() { self.coefficient(k) } else { [0.0; 4] }))
+    }
+}
+
+/// The residuals at the node `k`, r fastest, from the coefficients around it: at a node three along each axis count.
+fn node(coefficient: impl Fn(usize) -> [f32; 4], nx: usize, k: usize) -> [f32; 4] {
+    let weights = spline::weights(0.0).map(|w| w as f32);
+    let (i, j) = (k % nx, k / nx);
+    (0..9).map(|tap| (tap % 3, tap / 3)).fold([0.0; 4], |sum, (a, b)| {
+        let texel = coefficient((j + b) * (nx + 2) + i + a);
+        std::array::from_fn(|h| sum[h] + weights[a] * weights[b] * texel[h])
+    })
+}
+
+/// Two coefficients in half precision, each in two words.
+fn pair(coefficients: [[f32; 4]; 2]) -> [f32; 4] {
+    let bits = |x: f32| u32::from(half::f16::from_f32(x).to_bits());
+    let [[a, b], [c, d]] = coefficients.map(|t| [f32::from_bits(bits(t[0]) | bits(t[1]) << 16), f32::from_bits(bits(t[2]))]);
+    [a, b, c, d]
 }
 
 impl Slice {
     /// The slice of `table` (scheme residual) at the camera radius `l`, in r_s, clamped to the table's range.
     pub fn new(table: &Table, l: f64) -> Slice {
-        debug_assert_eq!(table.scheme, Scheme::Residual);
-        let [nx, ny, nz] = table.size.map(|n| n as usize);
-        let l = if l.is_finite() { l.clamp(grid::CAMERA_RANGE[0], grid::CAMERA_RANGE[1]) } else { grid::CAMERA_RANGE[1] };
-        let (layer, t) = spline::cell(grid::camera_axis(l), nz);
-        let weights = spline::weights(t).map(|w| w as f32);
-        let size = (nx + 2) * (ny + 2) * 3;
-        let [s0, s1, s2, s3] = [0, 1, 2, 3].map(|k| table.values[(layer + k) * size..(layer + k + 1) * size].as_chunks::<3>().0);
-        let coefficients = s0.iter().zip(s1).zip(s2).zip(s3).map(|(((a, b), c), d)| {
-            let sum = |h: usize| weights[0] * a[h] + weights[1] * b[h] + weights[2] * c[h] + weights[3] * d[h];
-            [sum(0), sum(1), sum(2), 0.0]
-        });
-        Slice::assembled(camera(l), [nx as u32, ny as u32], coefficients)
+        let cut = Cut::new(table, l);
+        let [a, b, c, d] = cut.layers;
+        let coefficients = a.iter().zip(b).zip(c).zip(d).map(|(((a, b), c), d)| cut.sum([a, b, c, d]));
+        Slice::assembled(cut.camera, cut.size, coefficients)
     }
 
     /// The exact slice at `l`, baked on the spot with the same layout: what the interpolation in L is judged by.
@@ -53,27 +108,13 @@ impl Slice {
     /// The texels of the method "table-linear": the header, then the residuals at the nodes instead of the coefficients, r fastest.
     pub fn nodes(&self) -> Vec<[f32; 4]> {
         let [nx, ny] = self.size.map(|n| n as usize);
-        let weights = spline::weights(0.0).map(|w| w as f32);
-        let node = |k: usize| {
-            let (i, j) = (k % nx, k / nx);
-            // At a node three coefficients along each axis count.
-            let taps = (0..9).map(|tap| (tap % 3, tap / 3));
-            taps.fold([0.0; 4], |sum, (a, b)| {
-                let texel = self.texels[HEADER + (j + b) * (nx + 2) + i + a];
-                std::array::from_fn(|h| sum[h] + weights[a] * weights[b] * texel[h])
-            })
-        };
+        let node = |k: usize| node(|index| self.texels[HEADER + index], nx, k);
         self.texels[..HEADER].iter().copied().chain((0..nx * ny).map(node)).collect()
     }
 
     /// The texels of the method "table-half": the header, then the coefficients in half precision, two to a texel, each in two words.
     pub fn halves(&self) -> Vec<[f32; 4]> {
-        let bits = |x: f32| u32::from(half::f16::from_f32(x).to_bits());
-        let packed = |t: &[f32; 4]| [f32::from_bits(bits(t[0]) | bits(t[1]) << 16), f32::from_bits(bits(t[2]))];
-        let pairs = self.texels[HEADER..].chunks(2).map(|pair| {
-            let (first, second) = (packed(&pair[0]), pair.get(1).map_or([0.0; 2], packed));
-            [first[0], first[1], second[0], second[1]]
-        });
+        let pairs = self.texels[HEADER..].chunks(2).map(|two| pair([two[0], two.get(1).copied().unwrap_or_default()]));
         self.texels[..HEADER].iter().copied().chain(pairs).collect()
     }
 

@@ -2,7 +2,9 @@
 
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
 use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
-use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, place, swept};
+use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, place, residuals_half, residuals_linear, swept};
+use crate::lensing::single::Camera;
+use crate::lensing::slice::Cut;
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
 
@@ -100,28 +102,24 @@ pub struct Reformatted {
     pub half: bool,
 }
 
-/// A slice as the shader's texels, with what the lookup needs besides.
-struct Texels {
-    slice: Slice,
-    texels: Vec<[f32; 4]>,
-    half: bool,
-}
-
 impl Reformatted {
-    fn texels(&self, l: f64) -> Texels {
-        let slice = Slice::new(&self.table, l);
-        let texels = if self.half { slice.halves() } else { slice.nodes() };
-        Texels { slice, texels, half: self.half }
-    }
-}
-
-impl Texels {
-    fn look_up(&self, point: &Vertex, order: Order, branch: Branch) -> LensRay {
-        let Texels { slice, texels, half } = self;
-        let residuals = if *half { lensing::lookup::residuals_half } else { lensing::lookup::residuals_linear };
-        let at = place(&slice.camera, point.along, point.across, point.height);
+    fn look_up(
+        &self,
+        cam: &Camera,
+        size: [u32; 2],
+        texel: impl Fn(usize) -> [f32; 4],
+        point: &Vertex,
+        order: Order,
+        branch: Branch,
+    ) -> LensRay {
+        let at = place(cam, point.along, point.across, point.height);
         let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
-        lookup_with(&slice.camera, at, swept(at, u32::from(order.number())), elapsed, |x, y| residuals(texels, slice.size, x, y))
+        let sweep = swept(at, u32::from(order.number()));
+        if self.half {
+            lookup_with(cam, at, sweep, elapsed, |x, y| residuals_half(&texel, size, x, y))
+        } else {
+            lookup_with(cam, at, sweep, elapsed, |x, y| residuals_linear(&texel, size, x, y))
+        }
     }
 }
 
@@ -130,13 +128,17 @@ impl Projector for Reformatted {
         if !in_range(query) {
             return None;
         }
-        let ray = self.texels(query.camera).look_up(&query.into(), order, branch);
+        // One point of a camera: its own texels alone.
+        let cut = Cut::new(&self.table, query.camera);
+        let texel = |index: usize| if self.half { cut.half(index) } else { cut.node(index) };
+        let ray = self.look_up(&cut.camera, cut.size, texel, &query.into(), order, branch);
         ray.valid.then(|| seen(&ray, query))
     }
 
     fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
-        let texels = self.texels(l);
-        each(move |point, order| texels.look_up(point, order, Branch::Plus))
+        let slice = Slice::new(&self.table, l);
+        let texels = if self.half { slice.halves() } else { slice.nodes() };
+        each(move |point, order| self.look_up(&slice.camera, slice.size, |index| texels[index], point, order, Branch::Plus))
     }
 
     fn memory(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use crate::measure::chart::{Provenance, Sheet};
 use crate::measure::methods::FAMILIES;
-use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter};
+use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter, tick_text};
 
 /// Half a pixel at 3840 pixels over 60°, degrees.
 pub const HALF_PIXEL: f64 = 0.008;
@@ -58,7 +58,7 @@ fn entries(sheet: &Sheet) -> Vec<Entry> {
 fn on_adapter(sheet: &Sheet) -> Panel {
     let entries = entries(sheet);
     let mut panel = scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", false, (HALF_PIXEL, ""), "");
-    panel.title = format!("on the adapter: {}", sheet.note("adapter").unwrap_or("unknown"));
+    panel.title = format!("On the graphics adapter: {}", sheet.note("adapter").unwrap_or("unknown"));
     panel.x = Axis::log("nanoseconds a lookup, many at once");
     Panel::Scatter(panel)
 }
@@ -106,23 +106,59 @@ fn footer(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-/// The picture for a stranger: the largest error against time, against memory, and on the graphics adapter where one took part.
+/// What to use and why, from the numbers themselves; nothing where the methods that it speaks of did not take part.
+fn verdict(entries: &[Entry]) -> String {
+    let named = |name: &str| entries.iter().find(|entry| entry.name == name);
+    let (Some(table), Some(batch), Some(paper)) = (named("table"), named("table-batch"), named("paper1-128")) else { return String::new() };
+    let pixels = |entry: &Entry| tick_text(significant(entry.max / (2.0 * HALF_PIXEL)));
+    format!(
+        "Use \"table\": at its worst it is off by {} of a pixel, in {:.0} ns (\"table-batch\", eight at once: {:.0} ns), with {:.0} MB.\n\
+         The best table of paper 1 is off by {} pixels at its worst, in {:.0} ns, with {:.0} MB.\n",
+        pixels(table),
+        table.nanoseconds,
+        batch.nanoseconds,
+        table.bytes / 1e6,
+        pixels(paper),
+        paper.nanoseconds,
+        paper.bytes / 1e6
+    )
+}
+
+/// `value` to two digits.
+fn significant(value: f64) -> f64 {
+    let unit = 10f64.powf(value.abs().max(1e-300).log10().floor() - 1.0);
+    (value / unit).round() * unit
+}
+
+/// Whether a method's name is left out: of paper 1's tables only the largest of each kind are named, so that names do not cover each other.
+fn nameless(name: &str) -> bool {
+    name.starts_with("paper1-") && !["paper1-128", "paper1-uniform-128"].contains(&name)
+}
+
+/// The picture for a stranger: the largest error against time, against memory, and on the graphics adapter where one took part, one under the
+/// other, as wide as a page shows it.
 pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
     let entries = entries(sheet);
-    let guide = (HALF_PIXEL, "half a pixel at 3840 over 60°");
-    let worst = |entry: &Entry| entry.max;
+    let guide = (HALF_PIXEL, "half a pixel at 3840 over 60°: less cannot be seen");
+    let panel = |memory: bool, title: &str| {
+        let mut panel = scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", memory, guide, title);
+        for point in panel.points.iter_mut().filter(|point| nameless(point.label.split(' ').next().unwrap_or_default())) {
+            point.label.clear();
+        }
+        panel
+    };
     let mut panels = vec![
-        Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", false, guide, "on the processor: against time")),
-        Panel::Scatter(scatter(&entries, worst, "largest error, degrees (rain frame)", true, guide, "against memory")),
+        Panel::Scatter(panel(false, "On the processor: error against time (lower and further left is better)")),
+        Panel::Scatter(panel(true, "Error against memory")),
     ];
     panels.extend(graphics.map(on_adapter));
     Figure {
         title: "Where a vertex is seen near a black hole: error against cost".into(),
-        subtitle: "The worst error of each method on points chosen to be hard. Lower and further left is better; the black line joins what nothing beats.\n\
-                   Red crosses failed: they leave so many per cent of the points unanswered (camera inside, or of higher order). Use \"table\", or \"table-batch\" on the processor."
-            .into(),
-        size: [820 * panels.len() as u32, 860],
-        columns: panels.len(),
+        subtitle: verdict(&entries)
+            + "The worst error of each method on points chosen to be hard; the black line joins what nothing beats. Red crosses failed: they\n\
+               leave so many per cent of the points unanswered (camera inside, higher order). Crosses without a name: smaller tables of paper 1.",
+        size: [1000, 190 + 560 * panels.len() as u32],
+        columns: 1,
         panels,
         footer: footer(sheet),
     }

@@ -63,9 +63,12 @@ pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<P
     paths.extend(graphics.iter().map(|_| output.csv("projection-gpu")));
     paths.extend(draw::race(&sheet, graphics.as_ref()).save(&output.folder, "projection")?);
     paths.extend(draw::everything(&sheet).save(&output.folder, "projection-all")?);
-    let sheet = output.sheet("projection-maps", || maps::measure(request))?;
-    paths.push(output.csv("projection-maps"));
-    paths.extend(maps::draw(&sheet).save(&output.folder, "projection-maps")?);
+    // The maps' sheet is large, and a folder to be redrawn need not have it.
+    if !output.redraw || output.csv("projection-maps").is_file() {
+        let sheet = output.sheet("projection-maps", || maps::measure(request))?;
+        paths.push(output.csv("projection-maps"));
+        paths.extend(maps::draw(&sheet).save(&output.folder, "projection-maps")?);
+    }
     if request.methods.is_empty() {
         output.sheet("projection-paper1", || Ok::<_, ChartError>(paper::measure(request)))?;
         paths.push(output.csv("projection-paper1"));
