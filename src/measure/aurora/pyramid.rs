@@ -134,29 +134,50 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
     }
 }
 
-/// Adds the `k`-th of eight splats from pair `start` on. `AVX` may be said only where the processor has AVX2.
+/// The light of each line of `collisions` at a level.
 #[inline(always)]
-fn add_splat<const AVX: bool>(pixels: &mut [Pair], start: [usize; 2], splats: &Splats, k: usize, light: f32x4, shares: &[f32]) {
-    let (columns, lines) = (&shares[splats.columns[k] as usize..], &shares[splats.lines[k] as usize..]);
-    // A known width lets the compiler write the loop out.
-    macro_rules! add {
-        ($half:literal) => {{
-            let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half]);
-            #[cfg(target_arch = "x86_64")]
-            if AVX {
-                #[allow(unsafe_code)]
-                // SAFETY: the caller says that the processor has AVX2.
-                return unsafe { add_wide::<{ $half + 1 }>(pixels, start, columns, lines, light) };
-            }
-            add_plain::<{ $half + 1 }>(pixels, start, columns, lines, light)
-        }};
-    }
-    match splats.half[k] {
-        0..=2 => add!(2),
-        3 => add!(3),
-        4 => add!(4),
-        5 => add!(5),
-        _ => add!(6),
+fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
+    f32x4::new(falls.light[level as usize]) * f32x4::splat(collisions)
+}
+
+/// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
+struct Target<'a> {
+    pixels: &'a mut [Pair],
+    rows: &'a [usize; LAYERS + 1],
+    /// Pairs from one row to the next.
+    stride: usize,
+    used: &'a mut [bool; LAYERS],
+    shares: &'a [f32],
+}
+
+impl Target<'_> {
+    /// Adds the `k`-th of eight splats. `AVX` may be said only where the processor has AVX2.
+    #[inline(always)]
+    fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
+        let layer = splats.layer[k] as usize;
+        self.used[layer] = true;
+        let start = [self.rows[layer] * self.stride + splats.pair[k] as usize, self.stride];
+        let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
+        // A known width lets the compiler write the loop out.
+        macro_rules! add {
+            ($half:literal) => {{
+                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half]);
+                #[cfg(target_arch = "x86_64")]
+                if AVX {
+                    #[allow(unsafe_code)]
+                    // SAFETY: the caller says that the processor has AVX2.
+                    return unsafe { add_wide::<{ $half + 1 }>(self.pixels, start, columns, lines, light) };
+                }
+                add_plain::<{ $half + 1 }>(self.pixels, start, columns, lines, light)
+            }};
+        }
+        match splats.half[k] {
+            0..=2 => add!(2),
+            3 => add!(3),
+            4 => add!(4),
+            5 => add!(5),
+            _ => add!(6),
+        }
     }
 }
 
@@ -199,28 +220,22 @@ impl Pyramid {
     fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         let stride = self.stride / 2;
         let Pyramid { rows, used, numbers, .. } = self;
-        let pixels = pairs_of(numbers);
-        let mut add = |splats: &Splats, k: usize, light: f32x4| {
-            let layer = splats.layer[k] as usize;
-            used[layer] = true;
-            let start = rows[layer] * stride + splats.pair[k] as usize;
-            add_splat::<AVX>(pixels, [start, stride], splats, k, light, &shares.0);
-        };
+        let mut target = Target { pixels: pairs_of(numbers), rows, stride, used, shares: &shares.0 };
         for first in (0..points.len()).step_by(2 * LANES) {
             let pairs = points.pairs(first);
             let [ones, others] = Blobs::of(&pairs, radius);
-            let light = |n: usize, k: usize, weight: f32| f32x4::new(falls.light[pairs[n].level[k] as usize]) * f32x4::splat(weight);
             let splats = Splats::of(&ones, self.size, self.stride);
             for k in 0..LANES {
                 if splats.inside[k] != 0 {
-                    add(&splats, k, light(0, k, splats.weight[k]) + light(1, k, splats.other[k]));
+                    let light = light(falls, pairs[0].level[k], splats.weight[k]) + light(falls, pairs[1].level[k], splats.other[k]);
+                    target.add::<AVX>(&splats, k, light);
                 }
             }
             if others.weight != f32x8::ZERO {
                 let splats = Splats::of(&others, self.size, self.stride);
                 for k in 0..LANES {
                     if splats.inside[k] != 0 {
-                        add(&splats, k, light(1, k, splats.weight[k]));
+                        target.add::<AVX>(&splats, k, light(falls, pairs[1].level[k], splats.weight[k]));
                     }
                 }
             }
