@@ -82,17 +82,19 @@ fn pairs_of(numbers: &mut [f32]) -> &mut [Pair] {
     bytemuck::pod_align_to_mut(numbers).1
 }
 
-/// The layers of a picture, one below the other, each with a margin.
+/// The pixels among numbers, row by row.
+fn pixels_of(numbers: &mut [f32]) -> &mut [f32x4] {
+    bytemuck::cast_slice_mut(pairs_of(numbers))
+}
+
+/// The layers of a picture, each with a margin.
 #[derive(Debug)]
 pub struct Pyramid {
     size: [usize; 2],
     /// Pixels from one row to the next, in all layers; even.
     stride: usize,
-    /// The first row of each layer, and where the last ends.
-    rows: [usize; LAYERS + 1],
-    used: [bool; LAYERS],
-    /// Pairs, once aligned: memory that comes as zeros and is not touched before light falls on it.
-    numbers: Vec<f32>,
+    /// Pairs, once aligned; a layer is empty before light falls on it.
+    layers: [Vec<f32>; LAYERS],
 }
 
 /// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
@@ -142,11 +144,11 @@ fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
 
 /// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
 struct Target<'a> {
-    pixels: &'a mut [Pair],
-    rows: &'a [usize; LAYERS + 1],
+    layers: &'a mut [Vec<f32>; LAYERS],
     /// Pairs from one row to the next.
     stride: usize,
-    used: &'a mut [bool; LAYERS],
+    /// Rows of the picture.
+    height: usize,
     shares: &'a [f32],
 }
 
@@ -154,9 +156,13 @@ impl Target<'_> {
     /// Adds the `k`-th of eight splats. `AVX` may be said only where the processor has AVX2.
     #[inline(always)]
     fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
-        let layer = splats.layer[k] as usize;
-        self.used[layer] = true;
-        let start = [self.rows[layer] * self.stride + splats.pair[k] as usize, self.stride];
+        let number = splats.layer[k] as usize;
+        let layer = &mut self.layers[number];
+        if layer.is_empty() {
+            *layer = black(self.stride, rows(self.height, number));
+        }
+        let pixels = pairs_of(layer);
+        let start = [splats.pair[k] as usize, self.stride];
         let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
         // A known width lets the compiler write the loop out.
         macro_rules! add {
@@ -166,9 +172,9 @@ impl Target<'_> {
                 if AVX {
                     #[allow(unsafe_code)]
                     // SAFETY: the caller says that the processor has AVX2.
-                    return unsafe { add_wide::<{ $half + 1 }>(self.pixels, start, columns, lines, light) };
+                    return unsafe { add_wide::<{ $half + 1 }>(pixels, start, columns, lines, light) };
                 }
-                add_plain::<{ $half + 1 }>(self.pixels, start, columns, lines, light)
+                add_plain::<{ $half + 1 }>(pixels, start, columns, lines, light)
             }};
         }
         match splats.half[k] {
@@ -181,6 +187,17 @@ impl Target<'_> {
     }
 }
 
+/// Rows of a layer of a picture of `height` pixels.
+fn rows(height: usize, layer: usize) -> usize {
+    height.div_ceil(1 << layer) + 2 * MARGIN
+}
+
+/// Numbers for `rows` rows of `stride` pairs, and room to align them.
+#[cold]
+fn black(stride: usize, rows: usize) -> Vec<f32> {
+    vec![0.0; size_of::<Pair>() / size_of::<f32>() * (stride * rows + 1)]
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
@@ -191,12 +208,7 @@ impl Pyramid {
     /// For pictures of a size; black.
     pub fn new(size: [usize; 2]) -> Self {
         let stride = (size[0] + 2 * MARGIN).next_multiple_of(2);
-        let mut rows = [0; LAYERS + 1];
-        for k in 0..LAYERS {
-            rows[k + 1] = rows[k] + size[1].div_ceil(1 << k) + 2 * MARGIN;
-        }
-        let pair = size_of::<Pair>() / size_of::<f32>();
-        Pyramid { size, stride, rows, used: [false; LAYERS], numbers: vec![0.0; pair * (stride / 2 * rows[LAYERS] + 1)] }
+        Pyramid { size, stride, layers: Default::default() }
     }
 
     /// Adds points with blobs of standard deviation `radius` km.
@@ -218,44 +230,35 @@ impl Pyramid {
     /// `AVX` may be said only where the processor has AVX2.
     #[inline(always)]
     fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        let stride = self.stride / 2;
-        let Pyramid { rows, used, numbers, .. } = self;
-        let mut target = Target { pixels: pairs_of(numbers), rows, stride, used, shares: &shares.0 };
+        let mut target = Target { layers: &mut self.layers, stride: self.stride / 2, height: self.size[1], shares: &shares.0 };
         for first in (0..points.len()).step_by(2 * LANES) {
             let pairs = points.pairs(first);
-            let [ones, others] = Blobs::of(&pairs, radius);
-            let splats = Splats::of(&ones, self.size, self.stride);
-            for k in 0..LANES {
-                if splats.inside[k] != 0 {
-                    let light = light(falls, pairs[0].level[k], splats.weight[k]) + light(falls, pairs[1].level[k], splats.other[k]);
-                    target.add::<AVX>(&splats, k, light);
+            let blobs = Blobs::of(&pairs, radius);
+            // One loop for both, as what is called in one place alone is compiled into it.
+            for (n, blobs) in blobs.iter().enumerate() {
+                // Where all pairs are near, there are no second blobs.
+                if blobs.weight == f32x8::ZERO {
+                    continue;
                 }
-            }
-            if others.weight != f32x8::ZERO {
-                let splats = Splats::of(&others, self.size, self.stride);
+                let splats = Splats::of(blobs, self.size, self.stride);
                 for k in 0..LANES {
                     if splats.inside[k] != 0 {
-                        target.add::<AVX>(&splats, k, light(falls, pairs[1].level[k], splats.weight[k]));
+                        let other = light(falls, pairs[1].level[k], splats.other[k]);
+                        target.add::<AVX>(&splats, k, light(falls, pairs[n].level[k], splats.weight[k]) + other);
                     }
                 }
             }
         }
     }
 
-    /// The pixels of a layer, row by row.
-    fn layer(&mut self, k: usize) -> &mut [f32x4] {
-        let [start, end] = [self.rows[k], self.rows[k + 1]].map(|row| row * self.stride / 2);
-        bytemuck::cast_slice_mut(&mut pairs_of(&mut self.numbers)[start..end])
-    }
-
     /// Adds another of the same size.
-    pub fn merge(&mut self, mut other: Pyramid) {
-        for k in 0..LAYERS {
-            if !other.used[k] {
-                continue;
+    pub fn merge(&mut self, other: Pyramid) {
+        for (layer, mut more) in self.layers.iter_mut().zip(other.layers) {
+            if layer.is_empty() {
+                *layer = more;
+            } else {
+                pixels_of(layer).iter_mut().zip(pixels_of(&mut more)).for_each(|(pixel, more)| *pixel += *more);
             }
-            self.used[k] = true;
-            self.layer(k).iter_mut().zip(other.layer(k)).for_each(|(pixel, more)| *pixel += *more);
         }
     }
 
@@ -263,15 +266,20 @@ impl Pyramid {
     pub fn picture(mut self) -> Picture {
         let mut column = Vec::new();
         let stride = self.stride;
-        for k in (1..LAYERS).rev() {
-            if !self.used[k] {
+        for k in (0..LAYERS).rev() {
+            // The finest layer is there even if nothing was added.
+            let (finer, coarser) = self.layers.split_at_mut(k);
+            if coarser[0].is_empty() {
+                if k == 0 {
+                    coarser[0] = black(stride / 2, rows(self.size[1], 0));
+                }
                 continue;
             }
-            self.used[k - 1] = true;
-            // Finer layers lie before coarser ones.
-            let pixels: &mut [f32x4] = bytemuck::cast_slice_mut(pairs_of(&mut self.numbers));
-            let (finer, coarse) = pixels.split_at_mut(self.rows[k] * stride);
-            let fine = &mut finer[self.rows[k - 1] * stride..];
+            let Some(fine) = finer.last_mut() else { continue };
+            if fine.is_empty() {
+                *fine = black(stride / 2, rows(self.size[1], k - 1));
+            }
+            let (fine, coarse) = (pixels_of(fine), pixels_of(&mut coarser[0]));
             let between = |a: f32x4, b: f32x4| a * f32x4::splat(0.75) + b * f32x4::splat(0.25);
             // Of the margin, one pixel is enough: no finer layer asks for more.
             let [width, height] = self.size.map(|side| side.div_ceil(1 << (k - 1)));
@@ -290,7 +298,7 @@ impl Pyramid {
         }
         let size = self.size;
         let mut pixels = Vec::with_capacity(size[0] * size[1]);
-        for row in self.layer(0).chunks_exact(stride).skip(MARGIN).take(size[1]) {
+        for row in pixels_of(&mut self.layers[0]).chunks_exact(stride).skip(MARGIN).take(size[1]) {
             pixels.extend_from_slice(bytemuck::cast_slice(&row[MARGIN..MARGIN + size[0]]));
         }
         Picture { size, pixels }
