@@ -85,6 +85,15 @@ fn distinct(sheet: &Sheet, column: &str) -> Vec<String> {
     found
 }
 
+/// What the names of rows end with that are drawn by all threads.
+const THREADS: &str = "-threads";
+
+/// The colour of a row: that of the same way on one thread, as there are more rows than colours that can be told apart.
+fn family(methods: &[String], method: &str) -> usize {
+    let own = method.trim_end_matches(THREADS);
+    methods.iter().filter(|method| !method.ends_with(THREADS)).position(|method| method == own).unwrap_or(0)
+}
+
 /// Two rows of panels, a column for each view: time against electrons at the middle radius, error against time for all.
 pub fn draw(sheet: &Sheet) -> Figure {
     let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
@@ -101,9 +110,9 @@ pub fn draw(sheet: &Sheet) -> Figure {
                 .filter(|row| sheet.text(row, "method") == method && sheet.text(row, "radius_km") == middle)
                 .map(|row| [sheet.number(row, "electrons"), sheet.number(row, "total_ms")])
                 .collect(),
-            dashed: method.starts_with("particles"),
+            dashed: method.ends_with(THREADS),
             dots: true,
-            color: None,
+            color: Some(family(&methods, method)),
         });
         Panel::Lines(Lines {
             title: format!("{view}: splats of {middle} km"),
@@ -121,7 +130,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
                 x: sheet.number(row, "total_ms"),
                 y: sheet.number(row, "error"),
                 label: sheet.text(row, "method").to_owned(),
-                family: methods.iter().position(|method| method == sheet.text(row, "method")).unwrap_or(0),
+                family: family(&methods, sheet.text(row, "method")),
                 failed: false,
             })
             .collect();
@@ -137,7 +146,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
     Figure {
         title: "Aurora: walks on the screen against particles in space".into(),
         subtitle:
-            "Means over the auroras; the same electrons and random numbers in every method. “bent” is seen through the lensing of a hole."
+            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads. “bent” is seen through the lensing of a hole."
                 .into(),
         panels: views.iter().map(times).chain(views.iter().map(errors)).collect(),
         columns: views.len().max(1),

@@ -1,67 +1,117 @@
 //! At which levels an electron collides, and how often: eight levels at once, and only where there may be any.
 
+#[cfg(target_arch = "x86_64")]
+use bytemuck::cast;
 use wide::f32x8;
 
-use super::sheet::{Falls, LEVELS};
+use super::points::{LANES, eight};
+use super::sheet::Falls;
 
-/// Lanes of a vector.
-const LANES: usize = 8;
+/// Room for every level and a vector beyond, a power of two.
+pub const ROOM: usize = 256;
 
-/// The levels of one electron that have collisions, from the top down, each in its own column.
+/// For each set of lanes, as bits, its lanes in order; the others are no lanes of it.
+#[cfg(target_arch = "x86_64")]
+static ORDERS: [[u32; LANES]; 256] = {
+    let mut orders = [[0; LANES]; 256];
+    let mut set = 0;
+    while set < 256 {
+        let (mut lane, mut length) = (0, 0);
+        while lane < LANES {
+            if set >> lane & 1 == 1 {
+                orders[set][length] = lane as u32;
+                length += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    orders
+};
+
+/// The levels of one electron that have collisions, from the top down, each in its own column. What lies behind `length` has no meaning, but
+/// every number there is a level.
 #[derive(Clone, Debug)]
 pub struct Collisions {
     /// How many levels there are.
     pub length: usize,
     /// Their numbers.
-    pub level: [u32; LEVELS],
-    /// Their heights, km.
-    pub height: [f32; LEVELS],
-    /// How far astray, km.
-    pub sway: [f32; LEVELS],
+    pub level: [u32; ROOM],
     /// Collisions.
-    pub count: [f32; LEVELS],
+    pub count: [f32; ROOM],
 }
 
 impl Default for Collisions {
     fn default() -> Self {
-        Collisions { length: 0, level: [0; LEVELS], height: [0.0; LEVELS], sway: [0.0; LEVELS], count: [0.0; LEVELS] }
+        Collisions { length: 0, level: [0; ROOM], count: [0.0; ROOM] }
     }
 }
 
 impl Collisions {
-    /// Deals out `collisions` over the levels by the random number `u`: ⌊collisions · spent + u⌋ above each level.
+    /// Deals out `collisions` over the levels by the random number `u`: ⌊collisions · spent + u⌋ above each level. `AVX` may be said only where
+    /// the processor has AVX2; it changes no bit.
     #[inline(always)]
-    pub fn deal(&mut self, falls: &Falls, row: usize, collisions: f32, u: f32) {
+    pub(super) fn deal<const AVX: bool>(&mut self, falls: &Falls, row: usize, collisions: f32, u: f32) {
         let (spent, stop) = (&falls.spent[row], falls.stops[row]);
         // Nothing happens above the first collision.
         let mut start = 0;
-        while start < stop && spent[start + LANES - 1] * collisions + u < 1.0 {
+        while start < stop && spent[start + LANES] * collisions + u < 1.0 {
             start += LANES;
         }
-        // Whole numbers as floats, exact up to 2²⁴; more than 14,286 (500 keV) are never meant.
-        let mut before = u.trunc();
         let mut length = 0;
-        let mut shifted = [0.0f32; LANES + 1];
         for first in (start..stop).step_by(LANES) {
-            let part: [f32; LANES] = std::array::from_fn(|k| spent[first + k]);
-            let now = f32x8::from_i32x8((f32x8::new(part) * f32x8::splat(collisions) + f32x8::splat(u)).fast_trunc_int());
-            shifted[0] = before;
-            shifted[1..].copy_from_slice(now.as_array());
-            before = shifted[LANES];
-            let counts = now - f32x8::new(std::array::from_fn(|k| shifted[k]));
-            let counted = counts.as_array();
-            let mut found = counts.simd_gt(f32x8::ZERO).to_bitmask();
-            while found != 0 {
-                let lane = found.trailing_zeros() as usize & (LANES - 1);
-                found &= found - 1;
-                let level = first + lane;
-                self.level[length] = level as u32;
-                self.height[length] = falls.heights[level];
-                self.sway[length] = falls.sway[level];
-                self.count[length] = counted[lane];
-                length += 1;
+            // Whole numbers as floats, exact up to 2²⁴; more than 14,286 (500 keV) are never meant. Those above a level are found once more
+            // for the level below: cheaper than to hand them from lane to lane.
+            let dealt = |from: usize| {
+                let part = f32x8::new(std::array::from_fn(|k| spent[from + k]));
+                f32x8::from_i32x8((part * f32x8::splat(collisions) + f32x8::splat(u)).fast_trunc_int())
+            };
+            let counts = dealt(first + 1) - dealt(first);
+            #[cfg(target_arch = "x86_64")]
+            if AVX {
+                #[allow(unsafe_code)]
+                // SAFETY: the caller says that the processor has AVX2.
+                unsafe {
+                    self.keep_avx(first, counts, &mut length)
+                };
+                continue;
+            }
+            // Every lane is written, and those without a collision are written over: which have one cannot be foretold.
+            for (lane, count) in counts.to_array().into_iter().enumerate() {
+                self.level[length & (ROOM - 1)] = (first + lane) as u32;
+                self.count[length & (ROOM - 1)] = count;
+                length += usize::from(count > 0.0);
             }
         }
         self.length = length;
+    }
+
+    /// Writes those of eight levels from `first` on that have collisions, and adds to `length` how many they are.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt")]
+    #[inline]
+    fn keep_avx(&mut self, first: usize, counts: f32x8, length: &mut usize) {
+        use std::arch::x86_64::*;
+        let counts: __m256 = cast(counts);
+        let found = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(counts, _mm256_setzero_ps()));
+        let order: __m256i = cast(ORDERS[found as usize & 255]);
+        let levels = _mm256_add_epi32(_mm256_set1_epi32(first as i32), order);
+        let room = self.level.len() - LANES;
+        let at = (*length).min(room);
+        self.level[at..at + LANES].copy_from_slice(&cast::<__m256i, [u32; LANES]>(levels));
+        self.count[at..at + LANES].copy_from_slice(&cast::<__m256, [f32; LANES]>(_mm256_permutevar8x32_ps(counts, order)));
+        *length += found.count_ones() as usize;
+    }
+
+    /// The numbers of eight of the levels.
+    #[inline(always)]
+    pub fn level_of(&self, first: usize) -> [u32; LANES] {
+        eight(&self.level, first)
+    }
+
+    /// The collisions at eight of the levels.
+    #[inline(always)]
+    pub fn count_of(&self, first: usize) -> [f32; LANES] {
+        eight(&self.count, first)
     }
 }

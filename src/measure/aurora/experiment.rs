@@ -9,11 +9,12 @@ use rayon::prelude::*;
 
 use super::eye::Eye;
 use super::lattice::Lattice;
+use super::points::Points;
 use super::pyramid::{Pyramid, Shares};
 use super::sheet::{Falls, Sheet, Streak, field_direction};
 use super::splat::{Gaussian, Picture, Splat};
 use super::truth::Emission;
-use super::walk::{Method, Point, Walker};
+use super::walk::{Method, Walker};
 use crate::lensing::{Slice, Table};
 
 /// From where the auroras are seen.
@@ -141,8 +142,8 @@ pub struct Timed {
 
 /// Error allowed to chords through bent light, pixels.
 const TOLERANCE: f32 = 0.25;
-/// Electrons walked before their points are drawn: some 8,000 points, which fit into a processor's second cache.
-const TASK: usize = 256;
+/// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
+const TASK: usize = 64;
 
 /// A picture in the making.
 enum Canvas {
@@ -158,7 +159,7 @@ impl Canvas {
         }
     }
 
-    fn add(&mut self, points: &[Point], job: &Job, splats: Splats, tables: &Tables) {
+    fn add(&mut self, points: &Points, job: &Job, splats: Splats, tables: &Tables) {
         match self {
             Canvas::Direct(picture) => {
                 picture.add(points, job.falls, Splat { table: splats == Splats::Table, ..job.splat }, &tables.gaussian);
@@ -168,8 +169,8 @@ impl Canvas {
     }
 
     fn merge(mut self, other: Canvas) -> Canvas {
-        match (&mut self, &other) {
-            (Canvas::Direct(picture), Canvas::Direct(more)) => picture.merge(more),
+        match (&mut self, other) {
+            (Canvas::Direct(picture), Canvas::Direct(more)) => picture.merge(&more),
             (Canvas::Layers(pyramid), Canvas::Layers(more)) => pyramid.merge(more),
             _ => unreachable!("one variant has one kind of canvas"),
         }
@@ -196,7 +197,7 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
         let start = Instant::now();
         let mut canvas = Canvas::new(variant.splats, job.eye.size);
         let mut times = [0.0, start.elapsed().as_secs_f64()];
-        let mut points: Vec<Point> = Vec::new();
+        let mut points = Points::default();
         for some in streaks.chunks(TASK) {
             let start = Instant::now();
             points.clear();
@@ -315,7 +316,7 @@ fn case(
     for (sheet, truth) in sheets.iter().zip(truths) {
         let streaks = sheet.streaks(count);
         let job = Job { eye, falls, streaks: &streaks, seed: sheet.seed, splat };
-        let mut found = Vec::new();
+        let mut found = Points::default();
         Walker::new(eye, falls, None, sheet.seed).walk(Method::Particles, &streaks, &mut found);
         points += found.len() as f64 / sheets.len() as f64;
         let mut times = vec![Vec::new(); ways];

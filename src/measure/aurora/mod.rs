@@ -3,7 +3,7 @@
 //!
 //! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined. [`sheet`] says
 //! where electrons come down, [`eye`] how a point is projected (flat space, or bent by the lensing table), [`lattice`] how a few projections serve all electrons,
-//! [`collisions`] at which levels they shine, [`walk`] how luminous points
+//! [`collisions`] at which levels they shine, [`walk`] how luminous [`points`]
 //! come about, [`splat`] how they become a picture, [`pyramid`] the same for less, [`truth`] what it should have been, [`experiment`] what all that took, [`chart`] the picture of it.
 
 pub mod chart;
@@ -11,6 +11,7 @@ pub mod collisions;
 pub mod experiment;
 pub mod eye;
 pub mod lattice;
+pub mod points;
 pub mod pyramid;
 pub mod sheet;
 pub mod splat;

@@ -35,8 +35,8 @@ pub fn level_height(k: usize) -> f64 {
 pub struct Falls {
     /// Heights of the levels, km, falling.
     pub heights: [f32; LEVELS],
-    /// For each row the share of the energy spent by the lower end of each level's layer.
-    pub spent: Vec<[f32; LEVELS]>,
+    /// For each row the share of the energy spent above each level's layer, and last the share spent above the ground.
+    pub spent: Vec<[f32; LEVELS + 1]>,
     /// For each row the level from which on nothing is spent any more, rounded up to a multiple of 8.
     pub stops: Vec<usize>,
     /// How far collisions have led an electron astray at each level, km: as the square root of the path.
@@ -58,9 +58,9 @@ impl Falls {
             }
         };
         let overheads: [f64; LEVELS] = std::array::from_fn(|k| overhead(edge(k)));
-        let spent: Vec<[f32; LEVELS]> =
-            (0..FALLS).map(|row| std::array::from_fn(|k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32)).collect();
-        let stop = |row: &[f32; LEVELS]| (1 + row.iter().position(|spent| *spent == row[LEVELS - 1]).unwrap_or(0)).next_multiple_of(8);
+        let above = |row: usize, k: usize| k.checked_sub(1).map_or(0.0, |k| (1.0 - fall::share_left(overheads[k], row_reach(row))) as f32);
+        let spent: Vec<[f32; LEVELS + 1]> = (0..FALLS).map(|row| std::array::from_fn(|k| above(row, k))).collect();
+        let stop = |row: &[f32; LEVELS + 1]| row.iter().position(|spent| *spent == row[LEVELS]).unwrap_or(0).next_multiple_of(8);
         let stops = spent.iter().map(stop).collect();
         let sway = std::array::from_fn(|k| (SWAY * ((TOP - level_height(k)) / (TOP - BOTTOM)).sqrt()) as f32);
         Falls {

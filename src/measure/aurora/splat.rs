@@ -1,7 +1,7 @@
 //! From luminous points to a picture: Gaussians added up, with a table or without.
 
+use super::points::{Point, Points};
 use super::sheet::Falls;
-use super::walk::Point;
 
 /// Photons of each of the four lines per pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,8 +48,8 @@ impl Picture {
     }
 
     /// Adds points.
-    pub fn add(&mut self, points: &[Point], falls: &Falls, splat: Splat, gaussian: &Gaussian) {
-        for point in points {
+    pub fn add(&mut self, points: &Points, falls: &Falls, splat: Splat, gaussian: &Gaussian) {
+        for point in points.iter() {
             let sigma = (splat.radius * point.scale).clamp(LEAST_SIGMA, MOST_SIGMA);
             // Light of a point goes as the square of its scale: 1/distance².
             let weight = point.count * point.scale * point.scale / (2.0 * std::f32::consts::PI * sigma * sigma);
@@ -57,7 +57,7 @@ impl Picture {
             if !(point.x.is_finite() && point.y.is_finite() && weight.is_finite()) {
                 continue;
             }
-            if splat.table { self.add_by_table(point, sigma, light, gaussian) } else { self.add_by_exponential(point, sigma, light) }
+            if splat.table { self.add_by_table(&point, sigma, light, gaussian) } else { self.add_by_exponential(&point, sigma, light) }
         }
     }
 

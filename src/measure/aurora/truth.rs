@@ -132,7 +132,7 @@ fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 
     let mut result = vec![[0.0; 4]; count];
     // Losses per level spread over the level's layer.
     for level in 0..LEVELS {
-        let lost_in = |spent: &[f32; LEVELS]| f64::from(spent[level]) - level.checked_sub(1).map_or(0.0, |above| f64::from(spent[above]));
+        let lost_in = |spent: &[f32; LEVELS + 1]| f64::from(spent[level + 1]) - f64::from(spent[level]);
         let lost: f64 = falls.spent.iter().zip(&weights).map(|(spent, weight)| lost_in(spent) * weight).sum();
         let light = lines::photons(level_height(level)).map(|line| line * lost);
         let position = (level_height(level) - bottom) / LAYER;

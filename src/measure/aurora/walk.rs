@@ -8,6 +8,7 @@ use glam::{Vec2, Vec3};
 use super::collisions::Collisions;
 use super::eye::Eye;
 use super::lattice::Lattice;
+use super::points::{Eight, LANES, Point, Points};
 use super::sheet::{Falls, LEVELS, Streak, TOP, field_direction, row_reach};
 use crate::scene::aurora::fall;
 use crate::scene::aurora::random::hash;
@@ -28,20 +29,8 @@ impl Method {
     pub const ALL: [(Method, &'static str); 3] = [(Method::Particles, "particles"), (Method::Linear, "linear"), (Method::Exact, "exact")];
 }
 
-/// A luminous point on the screen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
-    /// Pixels from the upper left corner.
-    pub x: f32,
-    /// Downwards.
-    pub y: f32,
-    /// Pixels per km there.
-    pub scale: f32,
-    /// Collisions.
-    pub count: f32,
-    /// Level of height.
-    pub level: u32,
-}
+/// Electrons whose collisions are dealt before the first of them is walked: numbers just stored one by one cannot be read together at once.
+const TOGETHER: usize = 4;
 
 /// What all walks of a frame share.
 #[derive(Clone, Copy, Debug)]
@@ -68,10 +57,21 @@ fn astray(key: u32, level: u32) -> [f32; 2] {
     [bits >> 16, bits & 65_535].map(|half| half as i32 as f32 * (1.0 / 32_768.0) - 1.0)
 }
 
+/// Heights of eight levels, and how far astray an electron is there, km.
+#[inline(always)]
+fn places(falls: &Falls, levels: &[u32; LANES]) -> [[f32; LANES]; 2] {
+    let mut places = [[0.0; LANES]; 2];
+    for (k, level) in levels.iter().enumerate() {
+        places[0][k] = falls.heights[*level as usize];
+        places[1][k] = falls.sway[*level as usize];
+    }
+    places
+}
+
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi1")]
-fn walk_avx(walker: &Walker, method: Method, streaks: &[Streak], out: &mut Vec<Point>) {
-    walker.walk_all(method, streaks, out);
+#[target_feature(enable = "avx2,popcnt")]
+fn walk_avx(walker: &Walker, method: Method, streaks: &[Streak], out: &mut Points) {
+    walker.walk_all::<true>(method, streaks, out);
 }
 
 /// Two unit vectors across the field.
@@ -88,31 +88,48 @@ impl<'a> Walker<'a> {
     }
 
     /// Adds the luminous points of the electrons, by the method; points before the camera only.
-    pub fn walk(&self, method: Method, streaks: &[Streak], out: &mut Vec<Point>) {
+    pub fn walk(&self, method: Method, streaks: &[Streak], out: &mut Points) {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("bmi1") {
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
             #[allow(unsafe_code)]
-            // SAFETY: the instructions were detected. They make the walks half as long; the results are the same bits.
+            // SAFETY: the instructions were detected.
             return unsafe { walk_avx(self, method, streaks, out) };
         }
-        self.walk_all(method, streaks, out);
+        self.walk_plainly(method, streaks, out);
     }
 
+    /// The same without instructions that only some processors have: the same bits.
+    pub fn walk_plainly(&self, method: Method, streaks: &[Streak], out: &mut Points) {
+        self.walk_all::<false>(method, streaks, out);
+    }
+
+    /// `AVX` may be said only where the processor has AVX2.
+    // Plain loops: what is handed to an iterator as a closure is not always compiled into `walk_avx`, and then it lacks its instructions.
     #[inline(always)]
-    fn walk_all(&self, method: Method, streaks: &[Streak], out: &mut Vec<Point>) {
-        let mut steps = Collisions::default();
-        let mut screen = Screen { x: [0.0; LEVELS], y: [0.0; LEVELS], scale: [0.0; LEVELS], depth: [0.0; LEVELS] };
-        match method {
-            Method::Particles => streaks.iter().for_each(|streak| self.particles(streak, out)),
-            Method::Linear => streaks.iter().for_each(|streak| self.linear(streak, &mut steps, out)),
-            Method::Exact => streaks.iter().for_each(|streak| self.exact(streak, &mut steps, &mut screen, out)),
+    fn walk_all<const AVX: bool>(&self, method: Method, streaks: &[Streak], out: &mut Points) {
+        let mut steps: [Collisions; TOGETHER] = Default::default();
+        for streaks in streaks.chunks(TOGETHER) {
+            out.reserve(TOGETHER * LEVELS);
+            if method != Method::Particles {
+                for (streak, steps) in streaks.iter().zip(&mut steps) {
+                    let (_, u) = key(streak, self.seed);
+                    steps.deal::<AVX>(self.falls, streak.row as usize, streak.collisions, u);
+                }
+            }
+            for (streak, steps) in streaks.iter().zip(&steps) {
+                match method {
+                    Method::Particles => self.particles(streak, out),
+                    Method::Linear => self.linear(streak, steps, out),
+                    Method::Exact => self.exact(streak, steps, out),
+                }
+            }
         }
     }
 
     /// The 3-D particle method: the position steps along the field and astray, the energy left follows from the air there, and each luminous
     /// point is projected.
     #[inline(always)]
-    fn particles(&self, streak: &Streak, out: &mut Vec<Point>) {
+    fn particles(&self, streak: &Streak, out: &mut Points) {
         let Walker { eye, falls, .. } = *self;
         let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
         let [e1, e2] = across();
@@ -141,7 +158,7 @@ impl<'a> Walker<'a> {
 
     /// Equations 3 to 5 of the paper: equal parts of the fall are equal parts of the screen distance; radius and depth likewise.
     #[inline(always)]
-    fn linear(&self, streak: &Streak, steps: &mut Collisions, out: &mut Vec<Point>) {
+    fn linear(&self, streak: &Streak, steps: &Collisions, out: &mut Points) {
         let eye = self.eye;
         let (a, b) = (eye.apparent(streak.top), eye.apparent(streak.end));
         let (Some(p), Some(q)) = (eye.screen(a), eye.screen(b)) else { return };
@@ -150,28 +167,30 @@ impl<'a> Walker<'a> {
         let per_km = 1.0 / (TOP as f32 - streak.end_height);
         // The way astray is measured by the streak's length on the screen, as in equation 4, so it is not foreshortened.
         let sway = step[0].hypot(step[1]) * per_km;
-        let (key, u) = key(streak, self.seed);
-        steps.deal(self.falls, streak.row as usize, streak.collisions, u);
-        out.extend((0..steps.length).map(|k| {
-            let level = steps.level[k];
-            let [ja, jb] = astray(key, level);
-            let s = (TOP as f32 - steps.height[k]) * per_km;
-            let away = steps.sway[k] * sway;
-            let (x, y) = (p[0] + step[0] * s + ja * away, p[1] + step[1] * s + jb * away);
-            Point { x, y, scale: scale_a + (scale_b - scale_a) * s, count: steps.count[k], level }
-        }));
+        let (key, _) = key(streak, self.seed);
+        for first in (0..steps.length).step_by(LANES) {
+            let mut points = Eight { count: steps.count_of(first), level: steps.level_of(first), ..Eight::default() };
+            let [heights, sways] = places(self.falls, &points.level);
+            for k in 0..LANES {
+                let [ja, jb] = astray(key, points.level[k]);
+                let (s, away) = ((TOP as f32 - heights[k]) * per_km, sways[k] * sway);
+                points.x[k] = p[0] + step[0] * s + ja * away;
+                points.y[k] = p[1] + step[1] * s + jb * away;
+                points.scale[k] = scale_a + (scale_b - scale_a) * s;
+            }
+            out.push_eight(&points, LANES.min(steps.length - first));
+        }
     }
 
     /// Between two projected ends the homogeneous coordinates are linear in height: one reciprocal a step. In flat space that is the projection
     /// itself; where light is bent, the lattice has chords enough.
     #[inline(always)]
-    fn exact(&self, streak: &Streak, steps: &mut Collisions, screen: &mut Screen, out: &mut Vec<Point>) {
-        let (key, u) = key(streak, self.seed);
-        steps.deal(self.falls, streak.row as usize, streak.collisions, u);
+    fn exact(&self, streak: &Streak, steps: &Collisions, out: &mut Points) {
+        let (key, _) = key(streak, self.seed);
         let high = TOP as f32;
         let Some(lattice) = self.lattice.filter(|_| self.eye.bent.is_some()) else {
             let chord = (self.eye.apparent(streak.top), self.eye.apparent(streak.end));
-            self.chord(key, steps, 0..steps.length, chord, [high, streak.end_height], screen, out);
+            self.chord(key, steps, 0..steps.length, chord, [high, streak.end_height], out);
             return;
         };
         let top = Vec2::new(streak.top.x, streak.top.y);
@@ -185,9 +204,10 @@ impl<'a> Walker<'a> {
             let stop = lattice.end(top, k + 1);
             let ends = [high - length * k as f32, high - length * (k + 1) as f32];
             // Steps fall: those of this chord follow one another, and the last chord takes the rest.
-            let rest = &steps.height[first..steps.length];
-            let count = if k + 1 == lattice.chords() { rest.len() } else { rest.partition_point(|height| *height >= ends[1]) };
-            self.chord(key, steps, first..first + count, (start, stop), ends, screen, out);
+            let rest = &steps.level[first..steps.length];
+            let above = |level: &u32| self.falls.heights[*level as usize] >= ends[1];
+            let count = if k + 1 == lattice.chords() { rest.len() } else { rest.partition_point(above) };
+            self.chord(key, steps, first..first + count, (start, stop), ends, out);
             first += count;
             start = stop;
         }
@@ -195,7 +215,6 @@ impl<'a> Walker<'a> {
 
     /// The steps `range` between two projected ends, at the heights `ends`. Points before the nearest depth are left out, and what is not a number.
     #[inline(always)]
-    #[allow(clippy::too_many_arguments, reason = "a chord, what is walked along it, and where the points go")]
     fn chord(
         &self,
         key: u32,
@@ -203,45 +222,41 @@ impl<'a> Walker<'a> {
         range: std::ops::Range<usize>,
         (start, stop): (Vec3, Vec3),
         ends: [f32; 2],
-        screen: &mut Screen,
-        out: &mut Vec<Point>,
+        out: &mut Points,
     ) {
         let eye = self.eye;
         let [e1, e2] = self.across;
-        let (half, focal, scale) = (eye.size.map(|side| 0.5 * side as f32), eye.focal, eye.focal * eye.scale());
+        let (half, focal, scale, near) = (eye.size.map(|side| 0.5 * side as f32), eye.focal, eye.focal * eye.scale(), eye.near());
         let down = (stop - start) / (ends[0] - ends[1]);
-        let count = range.len();
-        let (level, height, sway) = (&steps.level[range.clone()], &steps.height[range.clone()], &steps.sway[range.clone()]);
-        // Columns of numbers without a branch, so that the compiler can take several together.
-        for k in 0..count {
-            let [a, b] = astray(key, level[k]);
-            let (a, b, t) = (a * sway[k], b * sway[k], ends[0] - height[k]);
-            let depth = -(start.z + down.z * t + e1.z * a + e2.z * b);
-            let inverse = 1.0 / depth;
-            screen.depth[k] = depth;
-            screen.x[k] = half[0] + (start.x + down.x * t + e1.x * a + e2.x * b) * (focal * inverse);
-            screen.y[k] = half[1] - (start.y + down.y * t + e1.y * a + e2.y * b) * (focal * inverse);
-            screen.scale[k] = scale * inverse;
-        }
-        let near = eye.near();
-        let counts = &steps.count[range];
-        let Screen { x, y, scale, depth } = screen;
-        let (x, y, scale, depth) = (&x[..count], &y[..count], &scale[..count], &depth[..count]);
-        let point = |k: usize| Point { x: x[k], y: y[k], scale: scale[k], count: counts[k], level: level[k] };
-        // Mostly all are before the camera, and a known number of points is added faster than one by one. The test is false for what is not a
-        // number, too.
-        if depth.iter().fold(true, |all, depth| all & (*depth > near)) {
-            out.extend((0..count).map(point));
-        } else {
-            out.extend((0..count).filter(|&k| depth[k] > near).map(point));
+        for first in range.clone().step_by(LANES) {
+            let mut points = Eight { count: steps.count_of(first), level: steps.level_of(first), ..Eight::default() };
+            let [heights, sways] = places(self.falls, &points.level);
+            let mut depths = [0.0; LANES];
+            // Columns of numbers without a branch, so that the compiler takes eight together.
+            for k in 0..LANES {
+                let [a, b] = astray(key, points.level[k]);
+                let (a, b, t) = (a * sways[k], b * sways[k], ends[0] - heights[k]);
+                let depth = -(start.z + down.z * t + e1.z * a + e2.z * b);
+                let inverse = 1.0 / depth;
+                depths[k] = depth;
+                points.x[k] = half[0] + (start.x + down.x * t + e1.x * a + e2.x * b) * (focal * inverse);
+                points.y[k] = half[1] - (start.y + down.y * t + e1.y * a + e2.y * b) * (focal * inverse);
+                points.scale[k] = scale * inverse;
+            }
+            let count = LANES.min(range.end - first);
+            // Mostly all are before the camera, those beyond the last too. The test is false for what is not a number.
+            let mut all = true;
+            for depth in depths {
+                all &= depth > near;
+            }
+            if all {
+                out.push_eight(&points, count);
+            } else {
+                for k in (0..count).filter(|&k| depths[k] > near) {
+                    let (x, y, scale, count) = (points.x[k], points.y[k], points.scale[k], points.count[k]);
+                    out.push(Point { x, y, scale, count, level: points.level[k] });
+                }
+            }
         }
     }
-}
-
-/// Where the steps of a chord fall on the screen.
-struct Screen {
-    x: [f32; LEVELS],
-    y: [f32; LEVELS],
-    scale: [f32; LEVELS],
-    depth: [f32; LEVELS],
 }
