@@ -390,8 +390,8 @@ fn without_lensing_the_disk_is_a_flat_annulus() {
         let share = -camera.position.z / look.z;
         let r = if share > 0.0 { (camera.position + look * share).length() } else { f64::INFINITY };
         let lit = pixel[0] + pixel[1] + pixel[2] > 1e-4;
-        // Pixels at the edges are left out, and the faint gas there.
-        if (3.5..0.6 * outer).contains(&r) {
+        // A pixel is 1.1 r_s long there: those at the edges are left out, and the faint gas.
+        if (5.0..0.6 * outer).contains(&r) {
             gas += 1;
             assert!(lit, "dark at {x}, {y}, r = {r:.2}");
         } else if !(1.2..1.1 * outer).contains(&r) {

@@ -30,7 +30,7 @@ const OWN: Color32 = Color32::from_rgb(150, 240, 150);
 /// Danger.
 const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
 /// Behind text, so that it stays readable before stars and before the bright disk.
-const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 225);
+const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 242);
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
