@@ -29,7 +29,8 @@ pub fn draw(
     match screen.get() {
         Screen::Playing => (),
         Screen::Title => card(context, "title", Align2::LEFT_CENTER, |ui| title(ui, &session, &mut ask)),
-        Screen::Paused => card(context, "pause", Align2::CENTER_CENTER, |ui| {
+        // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
+        Screen::Paused => card(context, "pause", Align2::LEFT_CENTER, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
             buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);

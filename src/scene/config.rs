@@ -44,6 +44,10 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
             DeValue::Table(table) if known.contains(&section.get_ref().as_ref()) => {
                 apply_table(&mut config, section.get_ref(), table).map_err(|fault| complain(file, text, fault))?;
             }
+            _ if known.contains(&section.get_ref().as_ref()) => {
+                let message = format!("must be a section, written [{}]", section.get_ref());
+                return Err(complain(file, text, Fault { span: section.span(), message }));
+            }
             _ => {
                 let message = format!("unknown section; known sections: {}", known.join(", "));
                 return Err(complain(file, text, Fault { span: section.span(), message }));

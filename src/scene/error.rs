@@ -33,7 +33,7 @@ impl fmt::Display for Complaint {
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// Neither a scene of that name nor a file.
-    #[error("no scene {name:?}: {} does not exist; known scenes: {known}", tried.display())]
+    #[error("no scene {name:?}: {} is no file; known scenes: {known}", tried.display())]
     NotFound {
         /// What was asked for.
         name: String,

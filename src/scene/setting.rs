@@ -115,6 +115,9 @@ impl Setting {
 /// `0.1 to 20 r_s/c`.
 pub(super) fn range_text(min: f64, max: f64, unit: &str) -> String {
     let space = if unit.is_empty() { "" } else { " " };
+    if max >= f64::MAX {
+        return format!("{} or more{space}{unit}", plain(min));
+    }
     format!("{} to {}{space}{unit}", plain(min), plain(max))
 }
 

@@ -173,7 +173,8 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
             && (target.get_ref() == entry.name.get_ref() || !ships.iter().any(|ship| &ship.name == target.get_ref()))
         {
             let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).filter(|name| name != entry.name.get_ref()).collect();
-            return fault(target, format!("target = {:?} must be another ship of the scene: {names:?}", target.get_ref()));
+            let others = if names.is_empty() { "there is none".into() } else { format!("{names:?}") };
+            return fault(target, format!("target = {:?} must be another ship of the scene: {others}", target.get_ref()));
         }
         if entry.ai != Ai::None && ships.len() < 2 {
             return fault(&entry.name, "ai = \"flee\" and \"pursue\" need another ship in the scene".into());
