@@ -84,8 +84,14 @@ impl<L: Lanes> Planes<L> {
         let pad = axes.widening * (1.0 + STEEPEST);
         Planes {
             axes: *axes,
-            offsets: hull.offsets.map(|[low, high]| [L::splat(low - pad), L::splat(high + pad)]),
-            slopes: hull.slopes.map(|s| s.map(L::splat)),
+            offsets: [
+                [L::splat(hull.offsets[0][0] - pad), L::splat(hull.offsets[0][1] + pad)],
+                [L::splat(hull.offsets[1][0] - pad), L::splat(hull.offsets[1][1] + pad)],
+            ],
+            slopes: [
+                [L::splat(hull.slopes[0][0]), L::splat(hull.slopes[0][1])],
+                [L::splat(hull.slopes[1][0]), L::splat(hull.slopes[1][1])],
+            ],
             sign: L::splat(axes.sign),
             enter: L::splat(axes.front + shift),
             leave: L::splat(axes.front - shift),
@@ -117,15 +123,25 @@ impl<L: Lanes> Planes<L> {
     #[inline(always)]
     pub fn triangles(&self, block: &Block) -> u32 {
         let [x, y, z] = self.axes.axes;
-        let depth: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][z]).sub(self.front).mul(self.sign));
+        let depth: [L; 3] = [
+            L::load(&block.corners[0][z]).sub(self.front).mul(self.sign),
+            L::load(&block.corners[1][z]).sub(self.front).mul(self.sign),
+            L::load(&block.corners[2][z]).sub(self.front).mul(self.sign),
+        ];
         let mut met = L::splat(0.0).at_most(L::splat(0.0));
         for (k, axis) in [x, y].into_iter().enumerate() {
-            let across: [L; 3] = std::array::from_fn(|i| L::load(&block.corners[i][axis]));
-            let beside = |side: usize| -> [L; 3] { std::array::from_fn(|i| across[i].sub(self.slopes[k][side].mul(depth[i]))) };
-            let [low, high] = [beside(0), beside(1)];
+            let across: [L; 3] = [L::load(&block.corners[0][axis]), L::load(&block.corners[1][axis]), L::load(&block.corners[2][axis])];
+            let low = beside(&across, self.slopes[k][0], &depth);
+            let high = beside(&across, self.slopes[k][1], &depth);
             met = met.and(self.offsets[k][0].at_most(low[0].max(low[1]).max(low[2])));
             met = met.and(high[0].min(high[1]).min(high[2]).at_most(self.offsets[k][1]));
         }
         met.bits()
     }
+}
+
+/// How far corners at these depths lie beside a plane of this slope through the origin.
+#[inline(always)]
+fn beside<L: Lanes>(across: &[L; 3], slope: L, depth: &[L; 3]) -> [L; 3] {
+    [across[0].sub(slope.mul(depth[0])), across[1].sub(slope.mul(depth[1])), across[2].sub(slope.mul(depth[2]))]
 }

@@ -141,8 +141,10 @@ impl Block {
     }
 
     /// The corners in one lane.
+    #[inline(always)]
     pub fn lane(&self, lane: usize) -> [[f32; 3]; 3] {
-        std::array::from_fn(|corner| std::array::from_fn(|axis| self.corners[corner][axis][lane]))
+        let [a, b, c] = &self.corners;
+        [[a[0][lane], a[1][lane], a[2][lane]], [b[0][lane], b[1][lane], b[2][lane]], [c[0][lane], c[1][lane], c[2][lane]]]
     }
 }
 
@@ -151,6 +153,10 @@ fn fast() -> bool {
     #[cfg(target_arch = "x86_64")]
     {
         std::arch::is_x86_feature_detected!("avx2")
+            && std::arch::is_x86_feature_detected!("bmi1")
+            && std::arch::is_x86_feature_detected!("bmi2")
+            && std::arch::is_x86_feature_detected!("popcnt")
+            && std::arch::is_x86_feature_detected!("lzcnt")
     }
     #[cfg(not(target_arch = "x86_64"))]
     {

@@ -10,7 +10,7 @@ use super::lanes::{Lanes, Portable};
 use super::ray::{Hit, Ray, widening};
 use super::triangle::{Shear, fastest};
 use super::wide::{Block, LEAF, STACK, Wide, leaf};
-use super::wide_ray::meet;
+use super::wide_ray::{meet, sheared, splat};
 
 /// Rays that are tested at once.
 const GROUP: usize = 8;
@@ -69,7 +69,7 @@ impl Wide {
         #[cfg(target_arch = "x86_64")]
         if self.fast {
             #[allow(unsafe_code)]
-            // SAFETY: `fast` is set only where AVX2 was detected.
+            // SAFETY: `fast` is set only where these instructions were detected.
             return unsafe { packet_avx(self, rays, hits, packets) };
         }
         packet::<Portable>(self, rays, hits, packets);
@@ -155,7 +155,11 @@ fn eight<'a>(rays: &'a [Ray], spare: &'a mut [Ray; GROUP]) -> &'a [Ray; GROUP] {
 
 #[inline(always)]
 fn lanes<L: Lanes>(rays: &[Ray; GROUP], number: impl Fn(&Ray) -> f32) -> L {
-    L::load(&std::array::from_fn(|i| number(&rays[i])))
+    let mut numbers = [0.0; GROUP];
+    for (to, ray) in numbers.iter_mut().zip(rays) {
+        *to = number(ray);
+    }
+    L::load(&numbers)
 }
 
 /// The common direction of the rays and the hull of each group; None if they have none.
@@ -175,7 +179,8 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
             high[axis] = origin.max(high[axis]);
         }
     }
-    let (low, high) = (low.map(L::least), high.map(L::greatest));
+    let low = [low[0].least(), low[1].least(), low[2].least()];
+    let high = [high[0].greatest(), high[1].greatest(), high[2].greatest()];
     let front = if sign > 0.0 { low[z] } else { high[z] };
     let widening = widening(&wide.root, low).max(widening(&wide.root, high));
     let axes = Axes { axes, sign, front, widening };
@@ -250,6 +255,13 @@ fn push<L: Lanes>(wide: &Wide, stack: &mut [(u32, f32); STACK], height: &mut usi
     }
 }
 
+/// Of `Shear`, for rays along one axis.
+#[inline(always)]
+fn slopes_along<L: Lanes>(direction: &[L; 3], axis: usize) -> [L; 3] {
+    let [x, y, z] = [direction[(axis + 1) % 3], direction[(axis + 2) % 3], direction[axis]];
+    [x.div(z), y.div(z), L::splat(1.0).div(z)]
+}
+
 /// Eight rays laid out lane by lane, and what they have met.
 struct Group<'a, L> {
     rays: &'a [Ray; GROUP],
@@ -269,24 +281,27 @@ struct Group<'a, L> {
 impl<'a, L: Lanes> Group<'a, L> {
     #[inline(always)]
     fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, L> {
-        let origin: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.origin[k]));
-        let direction: [L; 3] = std::array::from_fn(|k| lanes(rays, |r| r.direction[k]));
+        let origin: [L; 3] = [lanes(rays, |r| r.origin[0]), lanes(rays, |r| r.origin[1]), lanes(rays, |r| r.origin[2])];
+        let direction: [L; 3] = [lanes(rays, |r| r.direction[0]), lanes(rays, |r| r.direction[1]), lanes(rays, |r| r.direction[2])];
         // As `fastest`.
-        let [x, y, z] = direction.map(L::abs);
+        let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
         let (all, none) = (L::splat(0.0).at_most(L::splat(0.0)), L::splat(0.0));
         let first = y.at_most(x).and(z.at_most(x));
         let second = first.select(none, z.at_most(y));
         let fastest = [first, second, first.or(second).select(none, all)];
-        let slopes_along = |axis: usize| {
-            let [x, y, z] = [(axis + 1) % 3, (axis + 2) % 3, axis].map(|k| direction[k]);
-            [x.div(z), y.div(z), L::splat(1.0).div(z)]
-        };
-        let slopes = match fastest.iter().position(|mask| mask.bits() == 0xff) {
-            Some(axis) => slopes_along(axis),
-            None => {
-                let [a, b, c] = [0, 1, 2].map(slopes_along);
-                std::array::from_fn(|k| first.select(a[k], second.select(b[k], c[k])))
-            }
+        let slopes = if first.bits() == 0xff {
+            slopes_along(&direction, 0)
+        } else if second.bits() == 0xff {
+            slopes_along(&direction, 1)
+        } else if fastest[2].bits() == 0xff {
+            slopes_along(&direction, 2)
+        } else {
+            let (a, b, c) = (slopes_along(&direction, 0), slopes_along(&direction, 1), slopes_along(&direction, 2));
+            [
+                first.select(a[0], second.select(b[0], c[0])),
+                first.select(a[1], second.select(b[1], c[1])),
+                first.select(a[2], second.select(b[2], c[2])),
+            ]
         };
         let depth = axes.axes[2];
         let sign = L::splat(axes.sign);
@@ -328,11 +343,13 @@ impl<'a, L: Lanes> Group<'a, L> {
     #[inline(always)]
     fn triangle(&mut self, block: &Block, lane: usize, axis: usize) -> bool {
         let axes = [(axis + 1) % 3, (axis + 2) % 3, axis];
-        let corner = |i: usize| {
-            let [x, y, z] = std::array::from_fn(|k| L::splat(block.corners[i][axes[k]][lane]).sub(self.origin[axes[k]]));
-            [x.sub(self.slopes[0].mul(z)), y.sub(self.slopes[1].mul(z)), self.slopes[2].mul(z)]
-        };
-        let met = meet(corner(0), corner(1), corner(2));
+        let origin = [self.origin[axes[0]], self.origin[axes[1]], self.origin[axes[2]]];
+        let [a, b, c] = block.lane(lane);
+        let met = meet(
+            sheared(splat([a[axes[0]], a[axes[1]], a[axes[2]]]), origin, self.slopes),
+            sheared(splat([b[axes[0]], b[axes[1]], b[axes[2]]]), origin, self.slopes),
+            sheared(splat([c[axes[0]], c[axes[1]], c[axes[2]]]), origin, self.slopes),
+        );
         let inside = met.inside.and(self.fastest[axis]);
         if inside.bits() == 0 {
             return false;

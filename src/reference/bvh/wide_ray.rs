@@ -50,7 +50,7 @@ impl Wide {
         #[cfg(target_arch = "x86_64")]
         if self.fast {
             #[allow(unsafe_code)]
-            // SAFETY: `fast` is set only where AVX2 was detected.
+            // SAFETY: `fast` is set only where these instructions were detected.
             return unsafe { each_avx::<ANY>(self, rays, hits, stack) };
         }
         each::<Portable, ANY>(self, rays, hits, stack);
@@ -78,9 +78,7 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
     }
     let slabs = Slabs::new(ray, widening(&wide.root, ray.origin));
     let shear = Shear::new(ray);
-    let inverse = slabs.inverse.map(L::splat);
-    let enter = slabs.enter.map(L::splat);
-    let leave = slabs.leave.map(L::splat);
+    let [inverse, enter, leave]: [[L; 3]; 3] = [splat(slabs.inverse), splat(slabs.enter), splat(slabs.leave)];
     let first = slabs.inverse.map(|i| usize::from(i.is_sign_negative()));
     let mut until = ray.until;
     stack[0] = (0, 0.0);
@@ -95,7 +93,7 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
             let node = &wide.nodes[at as usize];
             let (mut near, mut far) = (L::splat(0.0), L::splat(until));
             for axis in 0..3 {
-                let [low, high] = [first[axis], 1 - first[axis]].map(|side| L::load(&node.bounds[axis][side]));
+                let [low, high]: [L; 2] = [L::load(&node.bounds[axis][first[axis]]), L::load(&node.bounds[axis][1 - first[axis]])];
                 // As in `Slabs::enter`: what is not a number loses against the second operand.
                 near = low.sub(enter[axis]).mul(inverse[axis]).max(near);
                 far = high.sub(leave[axis]).mul(inverse[axis]).min(far);
@@ -144,18 +142,39 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
     best
 }
 
+// Here and wherever lanes are worked on there is no closure that touches them: a closure is compiled without the wide instructions of the function it stands
+// in, and then every operation on lanes is a call. That made rays three times slower.
+
+/// The same three numbers in every lane.
+#[inline(always)]
+pub(super) fn splat<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
+    [L::splat(x), L::splat(y), L::splat(z)]
+}
+
+/// Three coordinates of eight points, in the order of `axes`.
+#[inline(always)]
+pub(super) fn load<L: Lanes>(coordinates: &[[f32; 8]; 3], axes: [usize; 3]) -> [L; 3] {
+    [L::load(&coordinates[axes[0]]), L::load(&coordinates[axes[1]]), L::load(&coordinates[axes[2]])]
+}
+
+/// A corner as `Shear` sees it from a ray's origin.
+#[inline(always)]
+pub(super) fn sheared<L: Lanes>(corner: [L; 3], origin: [L; 3], slopes: [L; 3]) -> [L; 3] {
+    let (x, y, z) = (corner[0].sub(origin[0]), corner[1].sub(origin[1]), corner[2].sub(origin[2]));
+    [x.sub(slopes[0].mul(z)), y.sub(slopes[1].mul(z)), slopes[2].mul(z)]
+}
+
 /// Tests the triangles of one block: `Shear::meet`, operation by operation.
 #[inline(always)]
 fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
     let axes = [(shear.axis + 1) % 3, (shear.axis + 2) % 3, shear.axis];
-    let slopes = shear.slopes.map(L::splat);
-    let origin = axes.map(|axis| L::splat(shear.origin[axis]));
-    let corner = |i: usize| {
-        let [x, y, z] = std::array::from_fn(|k| L::load(&block.corners[i][axes[k]]).sub(origin[k]));
-        [x.sub(slopes[0].mul(z)), y.sub(slopes[1].mul(z)), slopes[2].mul(z)]
-    };
-    let [a, b, c] = [corner(0), corner(1), corner(2)];
-    let met = meet(a, b, c);
+    let slopes: [L; 3] = splat(shear.slopes);
+    let origin = splat([shear.origin[axes[0]], shear.origin[axes[1]], shear.origin[axes[2]]]);
+    let met = meet(
+        sheared(load(&block.corners[0], axes), origin, slopes),
+        sheared(load(&block.corners[1], axes), origin, slopes),
+        sheared(load(&block.corners[2], axes), origin, slopes),
+    );
     let mut inside = met.inside.bits();
     if inside == 0 {
         return;
