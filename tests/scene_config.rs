@@ -84,6 +84,8 @@ fn complaints_name_file_line_key_and_range() {
         ("[disk]\nseed = 99999999999\n", ["game.toml:2:", "disk.seed", "99999999999", "4294967295"]),
         ("[video]\nvsync = 1\n", ["game.toml:2:", "video.vsync", "1", "true or false"]),
         ("[video]\nvsync = true\nvsync = true\n", ["game.toml:3:", "duplicate", "", ""]),
+        ("[clock]\n\n[controls]\nthrust_forward = \"KeyS\"\n", ["game.toml:4:", "controls.thrust_forward", "KeyS", "thrust_back"]),
+        ("[render]\norders = 2\nexposure_max = -20.0\n", ["game.toml:3:", "render.exposure_max", "-12", "less than"]),
         ("pace = 3\n", ["game.toml:1:", "pace", "unknown section", "clock"]),
     ] {
         let said = parse(Path::new("game.toml"), text).expect_err("must be refused").to_string();

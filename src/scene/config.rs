@@ -54,29 +54,31 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
             }
         }
     }
-    together(&config).map_err(|(key, message)| {
-        let span = document.get_ref().iter().find_map(|(section, table)| {
-            let (wanted, key) = key.split_once('.')?;
-            let DeValue::Table(table) = table.get_ref() else { return None };
-            (section.get_ref() == wanted).then(|| table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value.span()))?
+    together(&config).map_err(|(keys, message)| {
+        // The other of the two may be a default, which has no line.
+        let span = keys.iter().find_map(|key| {
+            let (section, key) = key.split_once('.')?;
+            let DeValue::Table(table) = document.get_ref().get(section)?.get_ref() else { return None };
+            table.get(key).map(|value| value.span())
         });
         complain(file, text, Fault { span: span.unwrap_or(0..0), message })
     })?;
     Ok(config)
 }
 
-/// What single ranges cannot say: a lower end above its upper one, a key for two things. The key to name, and what is wrong.
-fn together(config: &GameConfig) -> Result<(), (String, String)> {
+/// What single ranges cannot say: a lower end above its upper one, a key for two things. The keys that clash, and what is wrong.
+fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
     let below = |low: &str, a: f64, high: &str, b: f64| {
-        if a < b { Ok(()) } else { Err((low.to_owned(), format!("{a} must be less than {high} = {b}"))) }
+        if a < b { Ok(()) } else { Err(([low.to_owned(), high.to_owned()], format!("{low} = {a} must be less than {high} = {b}"))) }
     };
-    below("render.exposure_min", config.render.exposure_min, "exposure_max", config.render.exposure_max)?;
-    below("disk.inner", config.disk.inner, "outer", config.disk.outer)?;
+    below("render.exposure_min", config.render.exposure_min, "render.exposure_max", config.render.exposure_max)?;
+    below("disk.inner", config.disk.inner, "disk.outer", config.disk.outer)?;
     let mut bound: Vec<(String, String)> = Vec::new();
     for setting in settings().iter().filter(|setting| setting.section == "controls") {
         let Value::Word(name) = setting.get(config) else { continue };
         if let Some((_, other)) = bound.iter().find(|(known, _)| *known == name && name != "None") {
-            return Err((format!("controls.{}", setting.key), format!("{name} is already the key of {other}")));
+            let keys = [setting.key, other].map(|key| format!("controls.{key}"));
+            return Err((keys, format!("{name} is the key of both {other} and {}", setting.key)));
         }
         bound.push((name, setting.key.to_owned()));
     }
