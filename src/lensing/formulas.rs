@@ -41,8 +41,8 @@ pub struct Camera {
     pub bend: Real,
     /// √|n|.
     pub rate: Real,
-    /// u″ at the camera: 3/2 a² − a.
-    pub force: Real,
+    /// How much the room at the camera counts beside that at the point: a half, less and less the further inside the camera is.
+    pub even: Real,
     /// The softening of the axis of points.
     pub soft: Real,
     /// Where the axis of points begins.
@@ -73,7 +73,7 @@ pub fn camera(l: f64) -> Camera {
         fade: m as Real,
         bend: n as Real,
         rate: n.abs().sqrt() as Real,
-        force: (1.5 * a * a - a) as Real,
+        even: (0.5 * (-(l.min(1.0).ln() / 0.45).powi(2)).exp()) as Real,
         soft: soft as Real,
         start: first as Real,
         scale: (1.0 / (last - first)) as Real,
@@ -156,7 +156,8 @@ pub fn slopes(cam: &Camera, rise: Real, [s, k]: [Real; 2]) -> [Real; 2] {
     // What is right only in weak fields, held down where K grows.
     let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
     let am = cam.a * m;
-    let f = cam.force;
+    // u″ at the camera.
+    let f = cam.a * (1.5 * cam.a - 1.0);
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
@@ -213,22 +214,25 @@ pub fn emission_scale(cam: &Camera, c: Real) -> Real {
 }
 
 /// The part of the delay that is regular across the Einstein ring: the chord and Shapiro's logarithm. `logs` are ln(r/L) and ln(h/2).
+///
+/// Exact along Φ = 0 and, for a camera outside, to second order in the distance: the mean of 1 + 3/r over the way times the root of the squares of
+/// the radial distance and of the chord, the latter by the mean of the room at both ends. Next to the horizon it is exact at any distance that is
+/// small beside 1: there four times ((ε₁ − ε₂)² + (ε₁ + ε₂) φ²/2 + φ⁴/16)^½ with ε = r − 1 is light between two falling observers in flat space.
 #[inline]
 pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _, q]: [Real; 3], logs: [Real; 2]) -> Real {
-    // Exact along Φ = 0.
-    let direct = dr + 3.0 * logs[0];
     let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs[0] / dr } else { cam.a };
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * cam.l * q;
-    (direct * direct + across).sqrt() - 2.0 * logs[1]
+    let both = room + cam.even * (cam.room - room) + k * c * c * (cam.share - 1.5 * cam.share * cam.even);
+    let across = (1.0 + 1.5 * (cam.a + c)) * both * r * cam.l * q;
+    (mean * (mean * dr * dr + across)).sqrt() - 2.0 * logs[1]
 }
 
 /// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
 #[inline]
 pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
-    // Far away it is 1 all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
+    // Near the camera it is 1, and far away all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
     let near = c + 0.01;
     let c4 = near * near * near * near;
-    e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt()
+    e / (e * e + 0.25 * k * k * c4 * c4 * cam.lift).sqrt()
 }
 
 /// The rest of the delay: what is singular at the horizon and what falls with the rain, from the photon's [`light_cones`].

@@ -121,7 +121,7 @@ impl Slice {
     fn assembled(cam: Camera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
         let header = [
             [cam.l, cam.room, cam.a, cam.beta],
-            [cam.fade, cam.bend, cam.rate, cam.force],
+            [cam.fade, cam.bend, cam.rate, cam.even],
             [cam.soft, cam.start, cam.scale, cam.share],
             [size[0] as f32, size[1] as f32, cam.reach, cam.lift],
         ];

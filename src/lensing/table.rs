@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The first bytes of a table file.
 const MAGIC: &[u8; 8] = b"LENSTAB\n";
 /// The version of the layout and of the formulas that the values belong to: raised whenever either changes.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 /// The units of the ranges and of what is looked up.
 const UNITS: &str = "r_s; r_s/c; rad";
 /// Bytes before the values.
