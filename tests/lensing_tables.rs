@@ -45,9 +45,9 @@ fn every_mapping_comes_back() {
         for j in 0..=20 {
             let x = j as f64 / 20.0;
             let c = grid::point(&cam, x);
-            assert!((grid::coordinates(&cam, c, 0.0)[0] - x).abs() < 1e-9, "c = {c}, L = {l}");
+            assert!((grid::coordinates(&cam, c, 0.0).0 - x).abs() < 1e-9, "c = {c}, L = {l}");
             let sweep = grid::sweep(&cam, c, x);
-            assert!((grid::coordinates(&cam, c, sweep)[1] - x).abs() < 1e-12, "Φ = {sweep}, L = {l}");
+            assert!((grid::coordinates(&cam, c, sweep).1 - x).abs() < 1e-12, "Φ = {sweep}, L = {l}");
         }
     }
     for scheme in [Scheme::Paper, Scheme::PaperUniform] {
