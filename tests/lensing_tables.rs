@@ -305,6 +305,30 @@ fn delays_next_to_the_horizon_keep_their_digits() {
     }
 }
 
+/// A neighbour's delay is right to a small part of itself, next to the horizon too: it decides where a thing that falls beside the camera is seen.
+/// The most is 0.0016 (L = 1.002); it was 0.02 where the closed form was right to first order only.
+#[test]
+fn delays_of_neighbours_are_right_to_a_part_of_themselves() {
+    for l in [0.8, 0.95, 0.99, 1.0, 1.0189, 1.03, 1.08, 1.3, 1.5, 6.0, 300.0] {
+        let slice = Slice::new(table(), l);
+        for step in 0..12 {
+            let phi = 0.012 * 1.4f64.powi(step);
+            for place in -12..=12 {
+                let r = l + 0.1 * f64::from(place) * (l - 1.0).abs().max(0.02);
+                if r < 1.0005 {
+                    continue;
+                }
+                let truth = judge::connect(1.0 / r, phi, 1.0 / l);
+                let half = (0.5 * phi).sin();
+                let along = (r - l) - 2.0 * r * half * half;
+                let ray = lens_lookup_at(&slice, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32, 1);
+                let off = (f64::from(ray.delay) / truth.delay - 1.0).abs();
+                assert!(ray.valid && off < 2.5e-3, "r {r}, φ {phi}, L {l}: {} and {}", ray.delay, truth.delay);
+            }
+        }
+    }
+}
+
 /// A texel made alone is the one of the whole slice, in both other formats.
 #[test]
 fn single_texels_are_those_of_the_slice() {
