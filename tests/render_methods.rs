@@ -193,7 +193,8 @@ fn every_name_is_a_method() {
     let mut others: Vec<&str> =
         lensrunner::measure::methods::CATALOGUE.iter().map(|entry| entry.name).filter(|name| !name.ends_with("-batch")).collect();
     let mut names = names;
-    (others.sort_unstable(), names.sort_unstable());
+    others.sort_unstable();
+    names.sort_unstable();
     assert_eq!(names, others);
     assert_eq!(Method::named("exakt"), None);
 }
