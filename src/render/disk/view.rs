@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
+use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
@@ -20,6 +21,9 @@ const STRAIGHT: f64 = 0.4;
 const STRAIGHT_LIGHT: f64 = 0.015;
 /// And optical depth.
 const STRAIGHT_DEPTH: f64 = 0.02;
+/// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles, as
+/// shaders/disk/place.wgsl has it.
+const MEAN: [f64; 2] = [0.25, 1.0];
 /// Azimuths at which that is tried, on one side, for both sides are alike.
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
@@ -71,7 +75,7 @@ impl DiskView {
             }
             let first = circles.len() as u32;
             let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
-            let (rows, pairs) = rows(disk, camera, &seen, width);
+            let (rows, pairs) = rows(disk, camera, &seen, width, order);
             let last = first + rows.len() as u32 - 1;
             let mean = if order == 1 { disk.gas.extent()[0] } else { mean_radius(&seen) };
             circles.extend(rows.into_iter().map(|r| circle(disk, r, mean, level, l, [order, first, last, 0])));
@@ -107,18 +111,23 @@ impl DiskView {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
+fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
     let circles = &disk.arcs.circles;
     if disk.config.gap > 0.0 {
         return (circles.clone(), disk.arcs.rings.clone());
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let brightest = seen.iter().map(|circle| circle.light).fold(1e-300, f64::max);
+    // How much of its own each circle shows: the narrower the whole image, the more one gas stands for all of it.
+    let own: [f64; AZIMUTHS] = std::array::from_fn(|k| {
+        let half = 0.5 * seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs() / pixel;
+        if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], half) }
+    });
     let straight = |a: usize, b: usize| {
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
             let m = (a * (n - k) + b * k) / n;
-            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest)
+            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest, &own)
         })
     };
     let mut chosen = vec![0];
@@ -195,7 +204,7 @@ impl SeenCircle {
     }
 
     /// Whether this circle looks as it should where one draws straight on from `a` to `b`.
-    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64) -> bool {
+    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64, own: &[f64; AZIMUTHS]) -> bool {
         (0..AZIMUTHS).all(|k| {
             let [here, start, end] = [self.places[k], a.places[k], b.places[k]];
             // Where the straight line is seen in this circle's direction.
@@ -203,14 +212,17 @@ impl SeenCircle {
             let t = before / (before - after);
             let off = |value: f64, from: f64, to: f64| (from + t * (to - from) - value).abs();
             // Pixels for each r_s across the ring, and along it.
-            let across = start.angle_to(end).abs() / (b.radius - a.radius) / pixel;
+            let wide = start.angle_to(end).abs() / pixel;
+            let across = wide / (b.radius - a.radius);
+            // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
+            let shown = own[k] * wide.min(1.0);
             let along = self.radius / here.length() / pixel;
             t > 0.0
                 && t < 1.0
                 && off(self.pattern, a.pattern, b.pattern) * across < STRAIGHT
-                && off(self.lag, a.lag, b.lag) * along < STRAIGHT
-                && off(self.light, a.light, b.light) < STRAIGHT_LIGHT * brightest
-                && off(self.depth, a.depth, b.depth) < STRAIGHT_DEPTH
+                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < STRAIGHT
+                && off(self.light, a.light, b.light) * shown < STRAIGHT_LIGHT * brightest
+                && off(self.depth, a.depth, b.depth) * shown < STRAIGHT_DEPTH
         })
     }
 }
