@@ -34,6 +34,8 @@ const TOGETHER: f32 = 0.1;
 struct Item {
     node: u32,
     children: u32,
+    /// The depth where the nearest of them begins.
+    near: f32,
 }
 
 /// A run of groups, and the run of items that the packet it was split off has left for it.
@@ -105,7 +107,7 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
     };
     let Packets { items, parts, hulls, stack } = packets;
     items.clear();
-    items.push(Item { node: 0, children: !0 });
+    items.push(Item { node: 0, children: !0, near: 0.0 });
     parts.clear();
     parts.push(Part { first: 0, count: rays.len().div_ceil(GROUP), items: [0, 1] });
     while let Some(part) = parts.pop() {
@@ -134,6 +136,10 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
                 continue;
             }
             list = [end, items.len()];
+            if part.count <= GROUP {
+                // What is nearest first hides most of the rest from each group.
+                items[end..].sort_unstable_by(|a, b| a.near.total_cmp(&b.near));
+            }
         }
         let size = if part.count > 8 { part.count.next_power_of_two() / 4 } else { 1 };
         for first in groups.step_by(size).rev() {
@@ -224,16 +230,27 @@ fn sift<L: Lanes>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<I
         if met == 0 {
             continue;
         }
+        let nears = near.store();
         if inner == 0 || met.count_ones() >= CLOSED {
-            items.push(Item { node: at, children: met });
+            items.push(Item { node: at, children: met, near: nearest(&nears, met) });
             continue;
         }
         if met != inner {
-            items.push(Item { node: at, children: met & !inner });
+            items.push(Item { node: at, children: met & !inner, near: nearest(&nears, met & !inner) });
         }
-        let nears = near.store();
         push::<L>(wide, stack, &mut height, inner, &node.children, &nears);
     }
+}
+
+/// The least of some lanes.
+#[inline(always)]
+fn nearest(numbers: &[f32; 8], mut lanes: u32) -> f32 {
+    let mut least = f32::INFINITY;
+    while lanes != 0 {
+        least = least.min(numbers[lanes.trailing_zeros() as usize]);
+        lanes &= lanes - 1;
+    }
+    least
 }
 
 /// Puts children on the stack, the nearest on top.
@@ -403,8 +420,11 @@ fn group<L: Lanes>(
     let mut until = group.deepest() + axes.widening;
     let mut looks = 0;
     for item in items {
+        if item.near > until {
+            continue;
+        }
         let mut only = item.children;
-        stack[0] = (item.node, 0.0);
+        stack[0] = (item.node, item.near);
         let mut height = 1;
         while height > 0 {
             height -= 1;
