@@ -141,7 +141,7 @@ pub struct Timed {
 }
 
 /// Error allowed to chords through bent light, pixels.
-const TOLERANCE: f32 = 0.25;
+pub const TOLERANCE: f32 = 0.25;
 /// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
 const TASK: usize = 64;
 
