@@ -68,7 +68,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
         let Body::Held { position, attitude } = object.body else { panic!("the parade does not move") };
         let held = Object {
             model,
-            coarse: model,
+            coarse: &[],
             motion: Motion::Held { position, attitude },
             reach: object.scale,
             scale: DVec3::splat(object.scale),

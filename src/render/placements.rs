@@ -38,8 +38,8 @@ pub enum Motion<'a> {
 pub struct Object<'a> {
     /// Which model.
     pub model: ModelRange,
-    /// What stands for it where its image is only a few pixels wide.
-    pub coarse: ModelRange,
+    /// What stands for it where its image is narrower than so many pixels, the coarsest first.
+    pub coarse: &'a [(f64, ModelRange)],
     /// How it moves.
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
@@ -98,8 +98,8 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         }
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
-        let small = width < settings.coarse_below && object.reach < 0.1 * position.length();
-        let model = if small { object.coarse } else { object.model };
+        let stands_in = object.coarse.iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
+        let model = stands_in.map_or(object.model, |(_, model)| *model);
         Some(Placed { model, placement })
     };
     let folded = match object.motion {

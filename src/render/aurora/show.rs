@@ -29,10 +29,15 @@ const ROW: f64 = 1.0;
 const NODES: usize = 1024;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
 const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
-/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that.
+/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length.
 const PER_PIXEL: f64 = 10.0;
+/// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
+const SPLATS_PER_PIXEL: f64 = 2.0;
+const LEAST_SPLATS: u32 = 4;
+/// Heights that a streak goes through at most, km.
+const LONGEST: f64 = 400.0;
 /// Room for splats: more are not drawn in one order.
 pub const MOST_SPLATS: usize = 1 << 20;
 
@@ -105,7 +110,7 @@ impl Show {
         let nothing = ModelRange::default();
         let object = Object {
             model: nothing,
-            coarse: nothing,
+            coarse: &[],
             motion: Movement::Flying(&history),
             reach: self.planet.radius * REACH,
             scale: DVec3::splat(scale),
@@ -119,20 +124,25 @@ impl Show {
         if placements.is_empty() || pixels < LEAST_PIXELS {
             return None;
         }
-        let colours = placements.iter().map(|placement| self.colours(view.camera, time, &history, placement.ids[0])).collect();
+        // It comes and goes by degrees.
+        let part = (pixels / LEAST_PIXELS - 1.0).min(1.0);
+        let colours = placements.iter().map(|placement| self.colours(view.camera, time, &history, placement.ids[0], part)).collect();
         let ahead = self.advance(time * self.config.pace);
         let segments = self.segments(view, now.position, now.attitude, scale);
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
         let nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
         let row = self.rows.front().map_or(0, Vec::len);
         let chords = if pixels > 200.0 { 4 } else { 2 };
-        let room = (streaks as usize * self.config.splats as usize).min(MOST_SPLATS);
+        // As if seen from the side; of a planet far away the whole streak is a pixel or two.
+        let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * magnification(view, now.position, self.planet.radius);
+        let splats = self.config.splats.min(((SPLATS_PER_PIXEL * length).ceil() as u32).max(LEAST_SPLATS));
+        let room = (streaks as usize * splats as usize).min(MOST_SPLATS);
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if self.planet.aurora == AuroraShape::Oval {
             flags |= BOTH_POLES;
         }
         let settings = AuroraSettings {
-            counts: [streaks, chords, self.config.splats, row as u32],
+            counts: [streaks, chords, splats, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(4096.0) as f32, self.config.contrast as f32],
             electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, 0.0],
@@ -197,7 +207,8 @@ impl Show {
                 let weight: f64 = weights[window[0] + k..window[0] + k + span].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
                 // erg cm⁻² s⁻¹ → collisions of 35 eV in kR km²: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
-                let energy = self.config.flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
+                let energy =
+                    self.config.flux * self.planet.aurora_flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
                 segments.push(Segment {
                     range: [first, (window[0] + k) as u32, count, span as u32],
                     light: [energy as f32, curve.width as f32, 0.0, 0.0],
@@ -209,11 +220,11 @@ impl Show {
         segments
     }
 
-    /// The lines' colours, shifted as the planet's centre is.
-    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32) -> [[f32; 4]; 4] {
+    /// The lines' colours, shifted as the planet's centre is, and that part of their brightness.
+    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
         let g = frequency_ratio(camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
         // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it.
-        let unit = self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
+        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
         kilorayleigh_xyz(g).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
 }
