@@ -76,6 +76,7 @@ impl Stage {
             let range = ranges[object.model].clone();
             (object, range)
         });
+        let disk = scene.disk(config).map(|disk| [disk.inner, disk.outer]);
         Stage {
             objects: objects.collect(),
             reaches,
@@ -86,7 +87,7 @@ impl Stage {
             has_ships: !scene.ships.is_empty(),
             planet: scene.planet,
             has_disk: scene.disk(config).is_some(),
-            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
+            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, disk, &config.aurora)))),
         }
     }
 

@@ -7,6 +7,7 @@
 mod pass;
 pub mod race;
 mod show;
+pub mod veil;
 
 pub use pass::Aurora;
 pub use show::{AuroraFrame, Show, planet_history};
