@@ -68,7 +68,8 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
         let Body::Held { position, attitude } = object.body else { panic!("the parade does not move") };
         let held = Object {
             model,
-            coarse: &[],
+            coarse: model,
+            stand_ins: &[],
             motion: Motion::Held { position, attitude },
             reach: object.scale,
             scale: DVec3::splat(object.scale),

@@ -38,8 +38,10 @@ pub enum Motion<'a> {
 pub struct Object<'a> {
     /// Which model.
     pub model: ModelRange,
-    /// What stands for it where its image is narrower than so many pixels, the coarsest first.
-    pub coarse: &'a [(f64, ModelRange)],
+    /// What stands for it where its image is only a few pixels wide.
+    pub coarse: ModelRange,
+    /// What stands for it in wider images, up to so many pixels, the coarsest first.
+    pub stand_ins: &'a [(f64, ModelRange)],
     /// How it moves.
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
@@ -98,8 +100,9 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         }
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
-        let stands_in = object.coarse.iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
-        let model = stands_in.map_or(object.model, |(_, model)| *model);
+        let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
+        let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
+        let model = stands_in.map_or(object.model, |(_, model)| model);
         Some(Placed { model, placement })
     };
     let folded = match object.motion {

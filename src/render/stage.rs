@@ -38,11 +38,12 @@ pub struct Stage {
     show: Arc<Mutex<Option<Show>>>,
 }
 
-/// A model, and what stands for it in images narrower than so many pixels, the coarsest first.
+/// A model, what stands for it in images a few pixels wide, and in those narrower than so many pixels, the coarsest first.
 #[derive(Clone, Debug)]
 struct Fineness {
     model: ModelRange,
-    coarse: Vec<(f64, ModelRange)>,
+    coarse: ModelRange,
+    stand_ins: Vec<(f64, ModelRange)>,
 }
 
 impl Stage {
@@ -61,14 +62,14 @@ impl Stage {
         let mut ranges: Vec<Fineness> = Vec::new();
         for model in &assembly.models {
             let fine = renderer.add_model(model);
-            let coarse = coarse(model).map(|model| (config.render.coarse_below, renderer.add_model(&model)));
-            ranges.push(Fineness { model: fine, coarse: coarse.into_iter().collect() });
+            let coarse = coarse(model).map_or(fine, |model| renderer.add_model(&model));
+            ranges.push(Fineness { model: fine, coarse, stand_ins: Vec::new() });
         }
         // A globe needs the fewer triangles the smaller it is.
         let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
         for (number, globe) in globes.zip(&scene.planet).map(|(object, planet)| (object.model, planet)) {
             let stand_ins = globe.stand_ins(&assembly.models[number]);
-            ranges[number].coarse.extend(stand_ins.iter().map(|(below, model)| (*below, renderer.add_model(model))));
+            ranges[number].stand_ins.extend(stand_ins.iter().map(|(below, model)| (*below, renderer.add_model(model))));
         }
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
@@ -134,7 +135,8 @@ impl Stage {
             };
             let object = Object {
                 model: model.model,
-                coarse: &model.coarse,
+                coarse: model.coarse,
+                stand_ins: &model.stand_ins,
                 motion,
                 reach: self.reaches[number],
                 scale: DVec3::splat(object.scale),

@@ -117,7 +117,8 @@ impl Show {
         let nothing = ModelRange::default();
         let object = Object {
             model: nothing,
-            coarse: &[],
+            coarse: nothing,
+            stand_ins: &[],
             motion: Movement::Flying(&history),
             reach: self.planet.radius * REACH,
             scale: DVec3::splat(scale),
