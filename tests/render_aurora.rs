@@ -6,20 +6,21 @@ use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, 
 use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
-use lensrunner::render::aurora::veil;
+use lensrunner::render::aurora::{fall_table, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, readback};
+use lensrunner::render::{Renderer, layout, readback};
 use lensrunner::scene::aurora::dipole::on_field_line;
+use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::aurora::random;
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::light::{self, Branch, Order};
 use std::sync::Arc;
 
 use crate::render_shaders::GPU;
-use crate::twin::run;
+use crate::twin::{run, run_with};
 
 #[test]
 fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
@@ -39,6 +40,24 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
         assert!(got_point.distance(want) < 0.02, "{row:?}: {got_point} on the GPU, {want} in Rust");
         let number = (random::hash(row[3].to_bits()) >> 8) as f32 / 16_777_216.0;
         assert_eq!(got[3], number, "{row:?}");
+    }
+}
+
+#[test]
+fn red_lags_in_the_shader_as_its_lifetime_says() {
+    let falls = layout::storage(&GPU, "falls", &fall_table());
+    // Kinds as in streaks.wgsl: green, prompt, red; each electron draws its own wait.
+    let body = "var streak: Streak; streak.kind = u32(row.x); streak.key = hash(id.x); twin_out[id.x] = vec4<f32>(waits(streak, row.y), 0.0, 0.0, 0.0);";
+    for (kind, line) in [(0, Line::Green), (1, Line::Blue), (2, Line::Red)] {
+        for height in [110.0, 160.0, 220.0, 300.0] {
+            let rows = vec![[kind as f32, height, 0.0, 0.0]; 8000];
+            let waits = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 1);
+            let mean = waits.iter().map(|wait| f64::from(wait[0])).sum::<f64>() / waits.len() as f64;
+            let want = lines::delays(f64::from(height))[line as usize];
+            // The mean of 8,000 exponential draws is good to 1.1 %; between its 64 heights the table is off by a few per cent, and by milliseconds
+            // where the life is that short.
+            assert!((mean - want).abs() <= 0.05 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
+        }
     }
 }
 
@@ -101,7 +120,7 @@ fn the_adapter_draws_the_experiment_as_the_processor_does() {
     let streaks = sheet.streaks(150);
     for view in [View::Below, View::Bent] {
         let eye = view.eye([128, 72], &table);
-        let job = Job { eye: &eye, falls: &falls, streaks: &streaks, seed: sheet.seed, splat: Splat { radius: 4.0, table: true } };
+        let job = Job { eye: &eye, falls: &falls, streaks: &streaks, seed: sheet.seed, splat: Splat { radius: 0.5, table: true } };
         for runner in &mut runners {
             let like = if runner.name() == "exact-gpu" { "exact" } else { "particles" };
             let want = draw(*VARIANTS.iter().find(|variant| variant.name == like).unwrap(), &job, &tables).picture;
@@ -198,12 +217,13 @@ fn brightness_never_jumps() {
     smooth(&still, 0.02);
 }
 
-/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three.
+/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of all.
 fn smooth(steps: &[(u32, f64)], part: f64) {
+    let least = 0.005 * steps.iter().map(|step| step.1).fold(0.0, f64::max);
     for (k, three) in steps.windows(3).enumerate() {
         let [a, b, c] = [three[0].1, three[1].1, three[2].1];
         let jump = (b - 0.5 * (a + c)).abs();
-        assert!(jump <= part * a.max(b).max(c), "step {k}: {three:?} (electrons, light)");
+        assert!(jump <= part * a.max(b).max(c) + least, "step {k}: {three:?} (electrons, light)");
     }
 }
 

@@ -9,7 +9,7 @@ pub mod race;
 mod show;
 pub mod veil;
 
-pub use pass::Aurora;
+pub use pass::{Aurora, fall_table};
 pub use show::{AuroraFrame, Show, planet_history};
 
 use bytemuck::{Pod, Zeroable};

@@ -259,7 +259,7 @@ fn pixels([left, top, right, bottom]: [f64; 4], [width, height]: [u32; 2]) -> [u
 }
 
 /// The tables of the fall in the order that shaders/aurora/streaks.wgsl reads them.
-fn fall_table() -> Vec<f32> {
+pub fn fall_table() -> Vec<f32> {
     let tables = Quantiles::new();
     let photons = tables.photons.iter().flatten();
     photons.chain(tables.delays.iter().flatten()).chain(&tables.heights).copied().collect()
