@@ -10,6 +10,7 @@ use bytemuck::{Pod, Zeroable, cast};
 use wide::f32x4;
 
 use super::points::{Eight, LANES, Points, greater, lesser};
+use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
@@ -17,74 +18,12 @@ use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 const LAYERS: usize = 6;
 /// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
 const MARGIN: usize = 16;
-/// Most pixels along a side of a splat, where its standard deviation is 2.4 pixels: to 2.7 of them.
-const WIDTH: usize = 13;
-/// Standard deviations that splats reach to at least, if that is not more than [`WIDTH`]; beyond lies 0.6 % of a side's light, which is dealt out over the pixels within.
-const REACH: f32 = 2.75;
-/// Tabulated Gaussians: standard deviations from 0.5 to 2.4 pixels in steps of 1/40, and places within a pixel.
-const WIDTHS: usize = 76;
-const WIDTHS_PER_PIXEL: f32 = 40.0;
-const PLACES: usize = 32;
-
 /// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what the
 /// splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the third: seen
 /// along a streak, its far and its near end fall on one pixel.
 const NEAR: f32 = 1.75;
 const ASLANT: f32 = 0.3;
 const ALIKE: f32 = 0.3;
-
-/// Shares of a side in the table: that of the pixel in the middle of the splat is the one numbered `MIDDLE`, those beyond the splat's reach are
-/// nothing. So pairs may begin before the splat does, and both sides take as many pixels as the longer one. A power of two, so that no row lies
-/// across two of a cache's lines.
-const SIDE: usize = 16;
-const MIDDLE: usize = WIDTH / 2 + 1;
-
-/// Each pixel's share of a splat along one side, by width and place; the shares' sum is 1, so that no light is lost.
-#[derive(Clone, Debug)]
-pub struct Shares(Vec<f32>);
-
-impl Default for Shares {
-    fn default() -> Self {
-        let mut shares = Vec::with_capacity((WIDTHS + 1) * (PLACES + 1) * SIDE);
-        for row in 0..=WIDTHS {
-            let sigma = row as f32 / WIDTHS_PER_PIXEL + 0.5;
-            let half = half_of(sigma);
-            for place in 0..=PLACES {
-                // From the middle of the splat to that of the pixel.
-                let middle = place as f32 / PLACES as f32 - 0.5;
-                let side: [f32; SIDE] = std::array::from_fn(|k| {
-                    let pixel = k as f32 - MIDDLE as f32;
-                    if pixel.abs() <= half { (-0.5 * ((pixel - middle) / sigma).powi(2)).exp() } else { 0.0 }
-                });
-                let sum: f32 = side.iter().sum();
-                shares.extend(side.map(|share| share / sum));
-            }
-        }
-        Shares(shares)
-    }
-}
-
-/// Pixels that a splat of a standard deviation covers on each side of the one that its middle is in. An odd number altogether fits the pairs
-/// that pixels lie in, wherever it starts.
-#[inline(always)]
-fn half_of(sigma: f32) -> f32 {
-    lesser(nearest(lesser(sigma * REACH, sigma * 2.35 + 0.36)), (WIDTH / 2) as f32)
-}
-
-/// 1.5 × 2²³: the bits of a float that is this much greater end with the number, rounded.
-const WHOLE: f32 = 12_582_912.0;
-
-/// The nearest whole number, for numbers up to 2²². In two sums, as processors without wider instructions have nothing else for it.
-#[inline(always)]
-fn nearest(number: f32) -> f32 {
-    (number + WHOLE) - WHOLE
-}
-
-/// A whole number as an integer; nothing in particular for what is not a number.
-#[inline(always)]
-fn integer(whole: f32) -> i32 {
-    (whole + WHOLE).to_bits() as i32 - WHOLE.to_bits() as i32
-}
 
 /// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
 /// before would wait for both to be stored.
@@ -141,7 +80,8 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
         *pair = _mm256_mul_ps(light, _mm256_permutevar_ps(two, order));
     }
     // Asked once and not for every row.
-    assert!(start + (lines.len() - 1) * stride + PAIRS <= pixels.len());
+    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(PAIRS);
+    assert!(start.saturating_add(rows) <= pixels.len());
     for (k, share) in lines.iter().enumerate() {
         let share = _mm256_set1_ps(*share);
         for (n, light) in row.iter().enumerate() {
