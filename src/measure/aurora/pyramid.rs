@@ -371,8 +371,10 @@ impl Lone {
 /// Where eight splats go.
 #[derive(Default)]
 struct Splats {
-    /// A bit for each; none for a splat that is outside, has no light or is of something that is not a number; then what else is said of it has
+    /// 1 for each, 0 for a splat that is outside, has no light or is of something that is not a number; then what else is said of it has
     /// no meaning.
+    seen: [u32; LANES],
+    /// The same as bits.
     inside: u32,
     layer: [i32; LANES],
     /// Pixels that it covers on each side of the one in its middle.
@@ -408,7 +410,6 @@ impl Splats {
     #[inline(always)]
     fn of(blobs: &Blobs, size: [usize; 2], stride: usize) -> Splats {
         let mut splats = Splats::default();
-        let mut inside = [0u32; LANES];
         for k in 0..LANES {
             // Layer l has the variances from 4ˡ to 4ˡ⁺¹: half the number's exponent says which. A least standard deviation of 0.75 instead of 1
             // of its pixels would show them (13 % of the peak instead of 6 % at the worst place); more would cost more.
@@ -425,7 +426,7 @@ impl Splats {
                 (column - half >= 1.0) & (column + half + 1.0 < end(size[0])) & (row - half >= 1.0) & (row + half + 1.0 < end(size[1]));
             let light = blobs.weight[k] + blobs.other[k];
             // Greater than nothing and less than infinite.
-            inside[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
+            splats.seen[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
             // Pairs begin at even pixels: from an odd one on, with the share of the pixel before the first.
             let (left, top) = (integer(column - half), integer(row - half));
             splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
@@ -436,8 +437,8 @@ impl Splats {
             splats.weight[k] = blobs.weight[k] * (shrink * shrink);
             splats.other[k] = blobs.other[k] * (shrink * shrink);
         }
-        for (k, inside) in inside.iter().enumerate() {
-            splats.inside |= inside << k;
+        for k in 0..LANES {
+            splats.inside |= splats.seen[k] << k;
         }
         splats
     }

@@ -152,7 +152,7 @@ impl Race {
         let light = storage(gpu, "aurora race light", scene.light);
         let room = 16 * POINTS * scene.electrons.len() as u64;
         let most = device.limits().max_storage_buffer_binding_size;
-        if room > u64::from(most) {
+        if room > most {
             let asked =
                 format!("the points of {} electrons take {room} bytes, a buffer of this adapter {most} at most", scene.electrons.len());
             return Err(PictureError::Device(asked));
