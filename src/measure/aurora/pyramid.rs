@@ -21,9 +21,9 @@ const MARGIN: usize = 16;
 /// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what the
 /// splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the third: seen
 /// along a streak, its far and its near end fall on one pixel.
-const NEAR: f32 = 1.75;
-const ASLANT: f32 = 0.3;
-const ALIKE: f32 = 0.3;
+const NEAR: f32 = 2.1;
+const ASLANT: f32 = 0.4;
+const ALIKE: f32 = 0.6;
 
 /// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
 /// before would wait for both to be stored.
