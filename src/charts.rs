@@ -240,8 +240,12 @@ fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
         size: args.size,
         repeats: usize::from(args.repeats),
     };
-    let mut runners = Vec::new();
-    finish_chart(aurora::chart::run(&args.chart.into(), &experiment, "", &mut runners))
+    let output: chart::Output = args.chart.into();
+    #[cfg(feature = "game")]
+    let (adapter, mut runners) = if output.redraw { Default::default() } else { lensrunner::play::aurora_race::runners() };
+    #[cfg(not(feature = "game"))]
+    let (adapter, mut runners) = (String::new(), Vec::new());
+    finish_chart(aurora::chart::run(&output, &experiment, &adapter, &mut runners))
 }
 
 fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {

@@ -6,7 +6,8 @@ use lensrunner::measure::aurora::experiment::{Request, VARIANTS, View, run};
 use lensrunner::measure::aurora::eye::Eye;
 use lensrunner::measure::aurora::lattice::Lattice;
 use lensrunner::measure::aurora::points::{Point, Points};
-use lensrunner::measure::aurora::pyramid::{Pyramid, Shares};
+use lensrunner::measure::aurora::pyramid::Pyramid;
+use lensrunner::measure::aurora::shares::Shares;
 use lensrunner::measure::aurora::sheet::{FALLS, Falls, SWAY, Sheet, Streak, TOP, field_direction};
 use lensrunner::measure::aurora::splat::{Gaussian, Picture, Splat};
 use lensrunner::measure::aurora::truth::Emission;
@@ -121,14 +122,19 @@ fn by_exact_ray(eye: &Eye, point: DVec3) -> DVec3 {
 fn luminous_length_is_right_through_bent_light() {
     let streaks = Sheet::numbered(4).streaks(40);
     let streak = &streaks[7];
-    // A planet almost behind the hole, drawn out along the Einstein ring, in both images; turned so that field and line of sight make every
-    // angle.
-    let at = DVec3::new(1.5, 0.0, -24.0);
-    let (toward, axis) = ((DVec3::Z * 12.0 - at).normalize(), DVec3::new(0.3, 1.0, 0.0).normalize());
+    // The middle of the streak's light nearly behind the hole, so that its image is drawn out far along the Einstein ring, in both orders: no one chord is
+    // right there. Turned so that field and line of sight make every angle.
+    let target = DVec3::new(0.06, 0.0, -24.0);
+    let lit = streak.top.as_dvec3().lerp(streak.end.as_dvec3(), 0.9);
+    let (toward, axis) = (DVec3::new(-0.06, 0.0, 36.0).normalize(), DVec3::new(0.3, 1.0, 0.0).normalize());
     for order in [1, 2] {
         for degrees in (1..=90).map(f64::from) {
             let facing = DQuat::from_axis_angle(axis, degrees.to_radians()) * toward;
-            let eye = Eye::bent(lensing::Slice::new(&TABLE, 12.0), 12.0, at, 0.8, facing, 0.6f64.to_radians(), [1920, 1080], order);
+            let slice = || lensing::Slice::new(&TABLE, 12.0);
+            let from = |at: DVec3| Eye::bent(slice(), 12.0, at, 0.8, facing, 50f64.to_radians(), [1920, 1080], order);
+            let bent = from(target).bent.unwrap();
+            let off = bent.origin.as_dvec3() + bent.place.as_dmat3() * lit + DVec3::Z * 12.0 - target;
+            let eye = from(target - off);
             let exact = all_points(Method::Exact, &eye, &streaks).remove(7);
             let want: Vec<Point> = exact
                 .iter()
@@ -409,6 +415,9 @@ proptest! {
         for (method, name) in Method::ALL {
             let found = points(method, &eye, &streak);
             prop_assert!(found.len() <= FALLS_TABLE.heights.len(), "{name}: {} points", found.len());
+            // Nearer than a kilometre, behind the camera and where there is no ray nothing is drawn; 1e-5: rounding of the reciprocal.
+            let nearest = eye.focal * eye.scale() / eye.near() * (1.0 + 1e-5);
+            prop_assert!(found.iter().all(|point| point.scale > 0.0 && point.scale <= nearest), "{name}: {found:?}");
             let mut picture = Picture::new(eye.size);
             picture.add(&found.iter().copied().collect(), &FALLS_TABLE, Splat { radius: 2.0, table: true }, &Gaussian::default());
             prop_assert!(picture.pixels.iter().flatten().all(|light| light.is_finite() && *light >= 0.0), "{name}");

@@ -2,17 +2,25 @@
 
 use glam::{DVec2, DVec3};
 use lensrunner::lensing;
+use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, View, draw};
+use lensrunner::measure::aurora::sheet::{Falls, Sheet};
+use lensrunner::measure::aurora::splat::Splat;
+use lensrunner::play::aurora_race;
+use lensrunner::render::aurora::{fall_table, veil};
+use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, readback};
+use lensrunner::render::{Renderer, layout, readback};
 use lensrunner::scene::aurora::dipole::on_field_line;
+use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::aurora::random;
-use lensrunner::scene::{self, GameConfig};
+use lensrunner::scene::{self, GameConfig, Scene};
+use lensrunner::spacetime::light::{self, Branch, Order};
 use std::sync::Arc;
 
 use crate::render_shaders::GPU;
-use crate::twin::run;
+use crate::twin::{run, run_with};
 
 #[test]
 fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
@@ -32,6 +40,24 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
         assert!(got_point.distance(want) < 0.02, "{row:?}: {got_point} on the GPU, {want} in Rust");
         let number = (random::hash(row[3].to_bits()) >> 8) as f32 / 16_777_216.0;
         assert_eq!(got[3], number, "{row:?}");
+    }
+}
+
+#[test]
+fn red_lags_in_the_shader_as_its_lifetime_says() {
+    let falls = layout::storage(&GPU, "falls", &fall_table());
+    // Kinds as in streaks.wgsl: green, prompt, red; each electron draws its own wait.
+    let body = "var streak: Streak; streak.kind = u32(row.x); streak.key = hash(id.x); twin_out[id.x] = vec4<f32>(waits(streak, row.y), 0.0, 0.0, 0.0);";
+    for (kind, line) in [(0, Line::Green), (1, Line::Blue), (2, Line::Red)] {
+        for height in [110.0, 160.0, 220.0, 300.0] {
+            let rows = vec![[kind as f32, height, 0.0, 0.0]; 8000];
+            let waits = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 1);
+            let mean = waits.iter().map(|wait| f64::from(wait[0])).sum::<f64>() / waits.len() as f64;
+            let want = lines::delays(f64::from(height))[line as usize];
+            // The mean of 8,000 exponential draws is good to 1.1 %; between its 64 heights the table is off by a few per cent, and by milliseconds
+            // where the life is that short.
+            assert!((mean - want).abs() <= 0.05 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
+        }
     }
 }
 
@@ -79,4 +105,159 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     assert!(stage.frame(away, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
     let far = static_camera(DVec3::new(400.0, 0.0, 0.0), DVec3::NEG_X, DVec3::Z, 1.0);
     assert!(stage.frame(far, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
+}
+
+#[test]
+fn the_adapter_draws_the_experiment_as_the_processor_does() {
+    let (_, mut runners) = aurora_race::runners();
+    // An adapter that cannot add up 32-bit floats draws none, and says so.
+    if runners.is_empty() {
+        return;
+    }
+    let table = lensing::default_table();
+    let (falls, tables) = (Falls::new(), Tables::default());
+    let sheet = Sheet::numbered(2);
+    let streaks = sheet.streaks(150);
+    for view in [View::Below, View::Bent] {
+        let eye = view.eye([128, 72], &table);
+        let job = Job { eye: &eye, falls: &falls, streaks: &streaks, seed: sheet.seed, splat: Splat { radius: 0.5, table: true } };
+        for runner in &mut runners {
+            let like = if runner.name() == "exact-gpu" { "exact" } else { "particles" };
+            let want = draw(*VARIANTS.iter().find(|variant| variant.name == like).unwrap(), &job, &tables).picture;
+            let got = runner.draw(&job).expect("the adapter draws");
+            // Rounding of f32 moves a collision here and there to the next level, and steps of the two tabulated Gaussians differ.
+            let off = got.picture.error(&want);
+            assert!(off < 0.02, "{view:?}, {}: off by {off} (chords allow {TOLERANCE} px)", runner.name());
+            let light = |pixels: &[[f32; 4]]| pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>();
+            let ratio = light(&got.picture.pixels) / light(&want.pixels);
+            assert!((ratio - 1.0).abs() < 0.02, "{view:?}, {}: {ratio} of the light", runner.name());
+        }
+    }
+}
+
+#[test]
+fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
+    let mut found = 0;
+    for k in 0..60 {
+        let turn = 0.37 * f64::from(k);
+        let camera = static_camera(DVec3::new(9.0, 1.0, 2.5), -DVec3::X, DVec3::Z, 1.0);
+        let position = DVec3::new(14.0 * turn.cos(), 14.0 * turn.sin(), 5.0 * (1.7 * turn).sin());
+        for order in [1, 2].map(|order| Order::new(order).unwrap()) {
+            for radius in veil::crossings(&camera, position, order, true) {
+                // The place of the crossing lies in the ray's plane and in that of the disk, on one side or the other; its light comes the same way.
+                let line = camera.position.cross(position).cross(DVec3::Z).normalize();
+                let seen = |place: DVec3| {
+                    let (l, r) = (camera.radius(), place.length());
+                    let n = camera.position / l;
+                    let phi = (place - n * place.dot(n)).length().atan2(place.dot(n));
+                    Order::ALL.map(|order| {
+                        let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, Branch::Plus)?;
+                        let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / l);
+                        let side = (place - n * place.dot(n)).normalize() * if order.flips() { -1.0 } else { 1.0 };
+                        Some(n * psi.cos() + side * psi.sin())
+                    })
+                };
+                let want = seen(position)[usize::from(order.number()) - 1].unwrap();
+                let nearest = [line, -line]
+                    .into_iter()
+                    .flat_map(|side| seen(side * radius))
+                    .flatten()
+                    .map(|direction| direction.angle_between(want))
+                    .fold(f64::INFINITY, f64::min);
+                // Linear between steps of a fiftieth of a radian: a thousandth of the radius.
+                assert!(nearest < 2e-3, "order {}, {position}: {radius} is seen {nearest} away", order.number());
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 60, "{found}");
+}
+
+/// The aurora alone: no planet, no sky.
+fn aurora_alone(stage: &Stage, camera: Camera, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
+    let mut settings = settings(config);
+    (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
+    let mut frame = stage.frame(camera, size, time, &[], None, &settings);
+    frame.placed.clear();
+    frame
+}
+
+/// The light in a picture.
+fn total(picture: &readback::Picture) -> f64 {
+    picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum()
+}
+
+fn orbit_scene() -> (Scene, GameConfig) {
+    let mut config = GameConfig::default();
+    config.aurora.streaks = 4000;
+    (scene::load("aurora-orbit").unwrap(), config)
+}
+
+#[test]
+fn brightness_never_jumps() {
+    let (scene, config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let planet = scene.planet.unwrap().state(0.0).unwrap().position;
+    let aside = (planet.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
+    let mut light = |distance: f64, time: f64| {
+        let camera = static_camera(planet + aside * distance, -aside, DVec3::Z, 0.35);
+        let frame = aurora_alone(&stage, camera, size, time, &config);
+        let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.counts[0]);
+        (streaks, total(&renderer.picture(&frame, false).unwrap()))
+    };
+    // Away from the planet until it is out of sight by its size: fewer and fewer electrons, fewer splats, fewer chords, none.
+    let away: Vec<(u32, f64)> = (0..54).map(|k| light(9.0 * 1.035f64.powi(k), 0.0)).collect();
+    assert!(away[0].0 > 600 && away[53] == (0, 0.0), "{:?} to {:?}", away[0], away[53]);
+    // Here a step is 3.5 % of the distance, hundreds of frames of the game. Other electrons stand in other rays: the grain of some 200 is 7 %, twice that.
+    smooth(&away, 0.15);
+    // And as time goes by, past steps of the curtains' motion.
+    let still: Vec<(u32, f64)> = (0..30).map(|k| light(12.0, 0.05 * f64::from(k))).collect();
+    smooth(&still, 0.02);
+}
+
+/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of all.
+fn smooth(steps: &[(u32, f64)], part: f64) {
+    let least = 0.005 * steps.iter().map(|step| step.1).fold(0.0, f64::max);
+    for (k, three) in steps.windows(3).enumerate() {
+        let [a, b, c] = [three[0].1, three[1].1, three[2].1];
+        let jump = (b - 0.5 * (a + c)).abs();
+        assert!(jump <= part * a.max(b).max(c) + least, "step {k}: {three:?} (electrons, light)");
+    }
+}
+
+#[test]
+fn the_disk_dims_an_aurora_behind_it() {
+    let text = |phase: f64| {
+        format!(
+            "[camera]\nposition = [0.0, -14.0, 12.0]\n[disk]\n[planet]\norbit_radius = 8.0\ninclination = 0.35\nradius = 0.8\nphase = {phase}\n"
+        )
+    };
+    let size = [96, 54];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    // Light takes 14 r_s/c: the planet was half a radian back then, under the plane of the disk or above it.
+    for (phase, behind) in [(-1.1, true), (2.0, false)] {
+        let path = std::env::temp_dir().join(format!("lensrunner-veil-{}-{behind}.toml", std::process::id()));
+        std::fs::write(&path, text(phase)).unwrap();
+        let scene = scene::load(path.to_str().unwrap()).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        let mut light = |opacity: f64| {
+            let mut config = GameConfig::default();
+            (config.aurora.streaks, config.aurora.brightness, config.disk.opacity) = (4000, 0.5, opacity);
+            let stage = Stage::new(&mut renderer, &scene, &config);
+            let planet = scene.planet.unwrap().state(-14.0).unwrap().position;
+            let eye = DVec3::new(0.0, -14.0, 12.0);
+            let camera = static_camera(eye, planet - eye, DVec3::Z, 0.35);
+            let mut frame = aurora_alone(&stage, camera, size, 0.0, &config);
+            let images = frame.aurora.as_ref().expect("the aurora is in sight").behind.clone();
+            assert_eq!(images[0], behind, "{images:?}");
+            let with = total(&renderer.picture(&frame, false).unwrap());
+            frame.aurora = None;
+            with - total(&renderer.picture(&frame, false).unwrap())
+        };
+        let share = light(0.9) / light(0.0);
+        // The disk lets a tenth through where it is seen face on.
+        assert!(if behind { (0.0..0.5).contains(&share) } else { (share - 1.0).abs() < 0.1 }, "{share} of the light is left");
+    }
 }

@@ -69,6 +69,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
         let held = Object {
             model,
             coarse: model,
+            stand_ins: &[],
             motion: Motion::Held { position, attitude },
             reach: object.scale,
             scale: DVec3::splat(object.scale),

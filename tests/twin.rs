@@ -8,6 +8,18 @@ use crate::render_shaders::GPU;
 /// Runs `body` with the shipped source of `pass` before it: one thread per row of `input`. In `body`, `row` is that row and `twin_out` takes
 /// `outputs` rows from each thread. `tables`: the lens slice and the sky slice; of an empty one the shader must not speak, of another it must.
 pub fn run(pass: Pass, body: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], outputs: usize) -> Vec<[f32; 4]> {
+    run_with(pass, body, tables, &[], input, outputs)
+}
+
+/// The same where the shader reads buffers of the pass's own group, by their bindings: those and no others.
+pub fn run_with(
+    pass: Pass,
+    body: &str,
+    tables: [&[[f32; 4]]; 2],
+    own: &[(u32, &wgpu::Buffer)],
+    input: &[[f32; 4]],
+    outputs: usize,
+) -> Vec<[f32; 4]> {
     let source = format!(
         "{}
 @group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
@@ -42,6 +54,12 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         let layout = pipeline.get_bind_group_layout(0);
         device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
     });
+    let group_1 = (!own.is_empty()).then(|| {
+        let entries: Vec<_> =
+            own.iter().map(|&(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() }).collect();
+        let layout = pipeline.get_bind_group_layout(1);
+        device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
+    });
     let rows = layout::storage(&GPU, "rows", input);
     let out = layout::buffer(device, "out", 16 * (input.len() * outputs) as u64, wgpu::BufferUsages::STORAGE);
     let group_3 = layout::bind(device, "rows", &pipeline.get_bind_group_layout(3), &[rows.as_entire_binding(), out.as_entire_binding()]);
@@ -51,6 +69,9 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         pass.set_pipeline(&pipeline);
         if let Some(group) = &group_0 {
             pass.set_bind_group(0, group, &[]);
+        }
+        if let Some(group) = &group_1 {
+            pass.set_bind_group(1, group, &[]);
         }
         pass.set_bind_group(3, &group_3, &[]);
         pass.dispatch_workgroups(input.len().div_ceil(64) as u32, 1, 1);

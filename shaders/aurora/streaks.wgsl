@@ -81,17 +81,6 @@ fn height_range(kind: u32) -> vec2<f32> {
     return select(vec2<f32>(340.0, 84.0), vec2<f32>(480.0, 130.0), kind == RED);
 }
 
-/// Twin of scene::aurora::random::hash.
-fn hash(value: u32) -> u32 {
-    let state = value * 747796405u + 2891336453u;
-    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-fn unit(bits: u32) -> f32 {
-    return f32(bits >> 8u) * (1.0 / 16777216.0);
-}
-
 struct Streak {
     segment: u32,
     /// Of the segment from its first node, and across it in [−½, ½].

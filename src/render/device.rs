@@ -88,6 +88,12 @@ pub struct Gpu {
 }
 
 impl Gpu {
+    /// The adapter's name and kind.
+    pub fn adapter_name(&self) -> String {
+        let kind = if self.adapter.device_type == wgpu::DeviceType::Cpu { " (software)" } else { "" };
+        format!("{}{kind}", self.adapter.name)
+    }
+
     /// Opens the best adapter there is, a software one if need be.
     pub fn headless() -> Result<Gpu, DeviceError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
@@ -101,7 +107,7 @@ impl Gpu {
         if let Some(needs) = missing_limits(&limits) {
             return Err(DeviceError::TooSmall { adapter: info.name, needs });
         }
-        let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_FILTERABLE;
+        let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::FLOAT32_BLENDABLE;
         let (device, queue) = wait(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lensrunner"),
             required_features: adapter.features() & optional,

@@ -17,7 +17,7 @@ use super::frame::{Camera, Settings};
 use super::method::Method;
 use super::models::ModelRange;
 use super::types::Placement;
-use super::visibility::may_be_seen;
+use super::visibility::{may_be_seen, part_of_screen};
 
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
@@ -40,6 +40,8 @@ pub struct Object<'a> {
     pub model: ModelRange,
     /// What stands for it where its image is only a few pixels wide.
     pub coarse: ModelRange,
+    /// What stands for it in wider images, up to so many pixels, the coarsest first.
+    pub stand_ins: &'a [(f64, ModelRange)],
     /// How it moves.
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
@@ -98,8 +100,9 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         }
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
-        let small = width < settings.coarse_below && object.reach < 0.1 * position.length();
-        let model = if small { object.coarse } else { object.model };
+        let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
+        let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
+        let model = stands_in.map_or(object.model, |(_, model)| model);
         Some(Placed { model, placement })
     };
     let folded = match object.motion {
@@ -137,20 +140,26 @@ pub struct View<'a> {
 
 /// Where the image of a ball is seen, in the rain frame.
 #[derive(Clone, Copy, Debug)]
-struct Extent {
+pub(super) struct Extent {
     /// The direction of its centre, a unit vector in rain axes.
     look: DVec3,
     /// A cone about it, in radians, that holds the image.
     radius: f64,
     /// Its extent in ψ, or its angular size if that is less, in radians.
-    width: f64,
+    pub(super) width: f64,
 }
+
+/// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
+const MARGIN: f64 = 3.0;
 
 impl Extent {
     fn may_be_seen(&self, camera: &Camera, aspect: f64) -> bool {
-        /// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
-        const MARGIN: f64 = 3.0;
         may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
+    }
+
+    /// The part of the screen on which the image may be: left, upper, right and lower edge as shares of width and height.
+    pub(super) fn part_of_screen(&self, camera: &Camera, aspect: f64) -> [f64; 4] {
+        part_of_screen(camera, self.look, MARGIN * self.radius, aspect)
     }
 }
 
@@ -158,7 +167,7 @@ impl View<'_> {
     /// Where the image of a ball of radius `reach` at `position` is seen.
     /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
     /// `age` decides, inside the horizon, which light is meant.
-    fn extent(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Extent {
+    pub(super) fn extent(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Extent {
         let (l, r) = (self.camera.radius(), position.length());
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;

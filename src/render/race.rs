@@ -44,9 +44,7 @@ impl Race {
 
     /// The adapter's name and kind.
     pub fn adapter(&self) -> String {
-        let info = &self.gpu.adapter;
-        let kind = if info.device_type == wgpu::DeviceType::Cpu { " (software)" } else { "" };
-        format!("{}{kind}", info.name)
+        self.gpu.adapter_name()
     }
 
     /// What `method` reads for a camera at the radius `l`, r_s.

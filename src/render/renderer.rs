@@ -279,6 +279,8 @@ impl Renderer {
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
         }
+        // What is behind the disk is dimmed by it.
+        draw_aurora(&self.aurora, true, &mut self.timing, encoder, group, &self.targets);
         if let Some(disk) = disk {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("disk"),
@@ -304,20 +306,7 @@ impl Renderer {
             }
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
-        for image in 0..self.aurora.images() {
-            let Some(light) = self.aurora.light() else { break };
-            for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &self.targets.picture, false)] {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some(label),
-                    color_attachments: &[Some(colour(target, fresh))],
-                    depth_stencil_attachment: fresh.then(|| depth(&self.targets.depth, false)),
-                    timestamp_writes: self.timing.render(label),
-                    ..Default::default()
-                });
-                pass.set_bind_group(0, group, &[]);
-                if fresh { self.aurora.splat(&mut pass, image) } else { self.aurora.resolve(&mut pass, image) }
-            }
-        }
+        draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
         self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, output);
         self.timing.end(encoder);
     }
@@ -384,6 +373,31 @@ impl Renderer {
     /// Durations of the passes of an earlier frame.
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
+    }
+}
+
+/// Adds the images of the aurora that are behind the disk, or the others.
+fn draw_aurora(
+    aurora: &Aurora,
+    behind: bool,
+    timing: &mut Timing,
+    encoder: &mut wgpu::CommandEncoder,
+    group: &wgpu::BindGroup,
+    targets: &Targets,
+) {
+    let Some(light) = aurora.light() else { return };
+    for image in aurora.images_behind(behind) {
+        for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &targets.picture, false)] {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(label),
+                color_attachments: &[Some(colour(target, fresh))],
+                depth_stencil_attachment: fresh.then(|| depth(&targets.depth, false)),
+                timestamp_writes: timing.render(label),
+                ..Default::default()
+            });
+            pass.set_bind_group(0, group, &[]);
+            if fresh { aurora.splat(&mut pass, image) } else { aurora.resolve(&mut pass, image) }
+        }
     }
 }
 

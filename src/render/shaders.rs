@@ -23,6 +23,8 @@ const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
+const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
+const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
@@ -172,8 +174,8 @@ impl Pass {
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
-            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, STREAKS],
-            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, STREAKS],
+            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STREAKS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STREAKS],
             Pass::AuroraResolve => vec![],
             Pass::Compose => vec![COVERAGE],
             Pass::Bloom => vec![],
@@ -210,4 +212,20 @@ impl Pass {
 /// The shader that only looks rays up by `method`, with bindings of its own: for the race of methods and for the tests of twins.
 pub fn race(method: Method) -> String {
     [RACE, SEES_INSIDE, LENSING, LENSING_CAMERA, &method.source()].join("\n")
+}
+
+/// The walks of the aurora's experiment: in flat space, or through the lensing table.
+pub fn aurora_experiment(bent: bool) -> String {
+    let projection = if bent {
+        let lookup = [SEES_OUTSIDE, LENSING, LENSING_CAMERA, &Method::Table.source()].join("\n");
+        [&lookup, include_str!("../../shaders/aurora/experiment_bent.wgsl")].join("\n")
+    } else {
+        include_str!("../../shaders/aurora/experiment_flat.wgsl").to_owned()
+    };
+    [EXPERIMENT, RANDOM, &projection, include_str!("../../shaders/aurora/experiment_walks.wgsl")].join("\n")
+}
+
+/// The splats of the aurora's experiment.
+pub fn aurora_experiment_splats() -> String {
+    [EXPERIMENT, include_str!("../../shaders/aurora/experiment_splat.wgsl")].join("\n")
 }

@@ -23,7 +23,7 @@ use super::placements::{Motion, Object, View, place};
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    objects: Vec<(scene::Object, [ModelRange; 2])>,
+    objects: Vec<(scene::Object, Fineness)>,
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
@@ -36,6 +36,14 @@ pub struct Stage {
     has_disk: bool,
     /// Shared, because a stage is only read when it makes a frame.
     show: Arc<Mutex<Option<Show>>>,
+}
+
+/// A model, what stands for it in images a few pixels wide, and in those narrower than so many pixels, the coarsest first.
+#[derive(Clone, Debug)]
+struct Fineness {
+    model: ModelRange,
+    coarse: ModelRange,
+    stand_ins: Vec<(f64, ModelRange)>,
 }
 
 impl Stage {
@@ -51,18 +59,25 @@ impl Stage {
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
-        let mut ranges: Vec<[ModelRange; 2]> = Vec::new();
+        let mut ranges: Vec<Fineness> = Vec::new();
         for model in &assembly.models {
             let fine = renderer.add_model(model);
-            let stand_in = coarse(model).map_or(fine, |model| renderer.add_model(&model));
-            ranges.push([fine, stand_in]);
+            let coarse = coarse(model).map_or(fine, |model| renderer.add_model(&model));
+            ranges.push(Fineness { model: fine, coarse, stand_ins: Vec::new() });
+        }
+        // A globe needs the fewer triangles the smaller it is.
+        let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
+        for (number, globe) in globes.zip(&scene.planet).map(|(object, planet)| (object.model, planet)) {
+            let stand_ins = globe.stand_ins(&assembly.models[number]);
+            ranges[number].stand_ins.extend(stand_ins.iter().map(|(below, model)| (*below, renderer.add_model(model))));
         }
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();
         let objects = assembly.objects.into_iter().map(|object| {
-            let range = ranges[object.model];
+            let range = ranges[object.model].clone();
             (object, range)
         });
+        let disk = scene.disk(config).map(|disk| [disk.inner, disk.outer]);
         Stage {
             objects: objects.collect(),
             reaches,
@@ -73,7 +88,7 @@ impl Stage {
             has_ships: !scene.ships.is_empty(),
             planet: scene.planet,
             has_disk: scene.disk(config).is_some(),
-            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, &config.aurora)))),
+            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, disk, &config.aurora)))),
         }
     }
 
@@ -119,8 +134,9 @@ impl Stage {
                 _ => lighting::at(position, self.has_ships, self.ambient),
             };
             let object = Object {
-                model: model[0],
-                coarse: model[1],
+                model: model.model,
+                coarse: model.coarse,
+                stand_ins: &model.stand_ins,
                 motion,
                 reach: self.reaches[number],
                 scale: DVec3::splat(object.scale),

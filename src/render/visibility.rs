@@ -6,18 +6,42 @@ use glam::DVec3;
 
 use super::frame::Camera;
 
+/// The part of the screen on which a cone of directions may fall, as shares of width and height: left, upper, right and lower edge. The cone has `radius` (radians)
+/// about `look`, in rain axes; `aspect` is height over width. Errs towards the whole screen.
+pub fn part_of_screen(camera: &Camera, look: DVec3, radius: f64, aspect: f64) -> [f64; 4] {
+    const WHOLE: [f64; 4] = [0.0, 0.0, 1.0, 1.0];
+    let centre = camera.seen_direction(look);
+    let Some(radius) = seen_radius(camera, look, radius).filter(|radius| *radius < 0.5) else { return WHOLE };
+    let away = centre.angle_between(DVec3::NEG_Z);
+    // A wide angle from the middle of the screen draws far out.
+    if away + radius > 1.3 {
+        return WHOLE;
+    }
+    let reach = (away + radius).tan() - away.tan();
+    let [x, y] = [-centre.x / centre.z, centre.y / centre.z];
+    let half = (0.5 * camera.field_of_view).tan();
+    let share = |at: f64, half: f64| (0.5 + 0.5 * at / half).clamp(0.0, 1.0);
+    [share(x - reach, half), share(y - reach, half * aspect), share(x + reach, half), share(y + reach, half * aspect)]
+}
+
+/// Aberration turns a cone into a cone: its greatest radius about the image of the middle, from four places of its rim, and half as much
+/// again for what lies between them. None for a wide one.
+fn seen_radius(camera: &Camera, look: DVec3, radius: f64) -> Option<f64> {
+    if radius.is_nan() || radius > 0.5 {
+        return None;
+    }
+    let centre = camera.seen_direction(look);
+    let (u, v) = look.any_orthonormal_pair();
+    let rim = [u, -u, v, -v].map(|d| camera.seen_direction(look * radius.cos() + d * radius.sin()).angle_between(centre));
+    Some(1.5 * rim.into_iter().fold(0.0, f64::max))
+}
+
 /// Whether any of a cone of directions may fall on the screen. The cone has `radius` (radians) about `look`, in rain axes; `margin` (radians) is
 /// added in the camera's frame. `aspect` is height over width. Errs towards yes.
 pub fn may_be_seen(camera: &Camera, look: DVec3, radius: f64, margin: f64, aspect: f64) -> bool {
-    if radius.is_nan() || radius > 0.5 {
-        return true;
-    }
+    let Some(radius) = seen_radius(camera, look, radius) else { return true };
     let centre = camera.seen_direction(look);
-    // Aberration turns a cone into a cone: its greatest radius about the image of the middle, from four places of its rim, and half as much
-    // again for what lies between them.
-    let (u, v) = look.any_orthonormal_pair();
-    let rim = [u, -u, v, -v].map(|d| camera.seen_direction(look * radius.cos() + d * radius.sin()).angle_between(centre));
-    let radius = 1.5 * rim.into_iter().fold(0.0, f64::max) + margin;
+    let radius = radius + margin;
     if radius > FRAC_PI_2 {
         return true;
     }

@@ -12,6 +12,7 @@
 //! dipole_tilt = 0.2      # radians between magnetic and rotation axis
 //! seed = 1               # which clouds and continents
 //! aurora = "oval"        # "oval" round both magnetic poles, "arcs" at the north magnetic meridian, or "none"
+//! aurora_flux = 1.0      # energy that comes down in it, times aurora.flux of game.toml: near a bright disk there is more of everything
 //!
 //! [sky]
 //! stars = true
@@ -48,6 +49,8 @@ pub struct Planet {
     pub seed: u32,
     /// Its aurora.
     pub aurora: AuroraShape,
+    /// Energy that comes down in it, times `aurora.flux` of game.toml.
+    pub aurora_flux: f64,
 }
 
 /// Where a planet's aurora is.
@@ -88,10 +91,18 @@ impl Planet {
         let material = Material { base_colour: [1.0; 4], texture: Some(texture::planet(self.seed)), ..Material::default() };
         shapes::uv_sphere(TRIANGLES, material)
     }
+
+    /// The same of fewer triangles, for images narrower than so many pixels, the coarsest first; `model` is the full one, whose material they share.
+    pub fn stand_ins(&self, model: &Model) -> Vec<(f64, Model)> {
+        let material = model.materials.first().cloned().unwrap_or_default();
+        STAND_INS.into_iter().map(|(below, triangles)| (below, shapes::uv_sphere(triangles, material.clone()))).collect()
+    }
 }
 
 /// Triangles of the planet: their chords leave the sphere by a ten-thousandth of its radius.
 const TRIANGLES: u32 = 16_000;
+/// Triangles that do for images narrower than so many pixels: m stacks of triangles leave the outline by 1 − cos(π/2m) of its radius, here a fifth of a pixel.
+const STAND_INS: [(f64, u32); 2] = [(55.0, 600), (220.0, 2500)];
 
 /// `[planet]` as the file has it, before any check.
 #[derive(Debug, Clone, Deserialize)]
@@ -109,6 +120,7 @@ pub struct PlanetEntry {
     seed: u32,
     #[serde(default)]
     aurora: AuroraShape,
+    aurora_flux: Option<Spanned<f64>>,
 }
 
 /// Checks the planet against its ranges.
@@ -129,6 +141,7 @@ pub fn check_planet(entry: &PlanetEntry) -> Result<Planet, Fault> {
         dipole_tilt: or(&entry.dipole_tilt, "dipole_tilt", 0.0, PI, "rad", 0.0)?,
         seed: entry.seed,
         aurora: entry.aurora,
+        aurora_flux: or(&entry.aurora_flux, "aurora_flux", 0.0, 1e4, "", 1.0)?,
     })
 }
 

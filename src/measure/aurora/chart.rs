@@ -48,6 +48,7 @@ pub fn run(output: &Output, request: &Request, adapter: &str, runners: &mut [Box
         bar.finish_and_clear();
         Ok(to_sheet(&rows, adapter))
     })?;
+    println!("{}", ratios(&sheet));
     let figure = draw(&sheet);
     Ok(figure.save(&output.folder, "aurora")?.into_iter().chain([output.csv("aurora")]).collect())
 }
@@ -85,13 +86,14 @@ fn distinct(sheet: &Sheet, column: &str) -> Vec<String> {
     found
 }
 
-/// What the names of rows end with that are drawn by all threads.
+/// What the names of rows end with that are drawn by all threads, and by a graphics adapter.
 const THREADS: &str = "-threads";
+const ADAPTER: &str = "-gpu";
 
 /// The colour of a row: that of the same way on one thread, as there are more rows than colours that can be told apart.
 fn family(methods: &[String], method: &str) -> usize {
-    let own = method.trim_end_matches(THREADS);
-    methods.iter().filter(|method| !method.ends_with(THREADS)).position(|method| method == own).unwrap_or(0)
+    let own = method.trim_end_matches(THREADS).trim_end_matches(ADAPTER);
+    methods.iter().filter(|method| !method.ends_with(THREADS) && !method.ends_with(ADAPTER)).position(|method| method == own).unwrap_or(0)
 }
 
 /// Two rows of panels, a column for each view: time against electrons at the middle radius, error against time for all.
@@ -110,7 +112,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
                 .filter(|row| sheet.text(row, "method") == method && sheet.text(row, "radius_km") == middle)
                 .map(|row| [sheet.number(row, "electrons"), sheet.number(row, "total_ms")])
                 .collect(),
-            dashed: method.ends_with(THREADS),
+            dashed: method.ends_with(THREADS) || method.ends_with(ADAPTER),
             dots: true,
             color: Some(family(&methods, method)),
         });
@@ -146,11 +148,45 @@ pub fn draw(sheet: &Sheet) -> Figure {
     Figure {
         title: "Aurora: walks on the screen against particles in space".into(),
         subtitle:
-            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads. “bent” is seen through the lensing of a hole."
+            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads, or the graphics adapter (-gpu). “bent” is seen through the lensing of a hole."
                 .into(),
         panels: views.iter().map(times).chain(views.iter().map(errors)).collect(),
         columns: views.len().max(1),
         size: [1900, 1100],
         footer: Provenance::footer(&sheet.notes),
     }
+}
+
+/// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown table: milliseconds of the
+/// particle method and of the exact walk, and how many times less the walk takes.
+pub fn ratios(sheet: &Sheet) -> String {
+    let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
+    let (middle, most) = (radii.get(radii.len() / 2).cloned().unwrap_or_default(), counts.last().cloned().unwrap_or_default());
+    let mut text = String::from(
+        "| view | walk | whole pass, table | whole pass, pyramid | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    for view in distinct(sheet, "view") {
+        let of = |method: &str, column: &str| {
+            let found = sheet.rows.iter().find(|row| {
+                let is = |column: &str, text: &str| sheet.text(row, column) == text;
+                is("view", &view) && is("method", method) && is("radius_km", &middle) && is("electrons", &most)
+            });
+            found.map_or(f64::NAN, |row| sheet.number(row, column))
+        };
+        let pair = |slow: &str, fast: &str, column: &str| {
+            let (slow, fast) = (of(slow, column), of(fast, column));
+            if slow.is_nan() { "–".to_owned() } else { format!("{slow:.1} → {fast:.2} ({:.1} ×)", slow / fast) }
+        };
+        let columns = [
+            pair("particles", "exact", "walk_ms"),
+            pair("particles", "exact", "total_ms"),
+            pair("particles-pyramid", "exact-pyramid", "total_ms"),
+            pair("particles-no-table", "exact-pyramid", "total_ms"),
+            pair("particles-gpu", "exact-gpu", "walk_ms"),
+            pair("particles-gpu", "exact-gpu", "total_ms"),
+            ["exact", "exact-pyramid", "linear"].map(|method| format!("{:.3}", of(method, "error"))).join(", "),
+        ];
+        text += &format!("| {view} | {} |\n", columns.join(" | "));
+    }
+    text
 }

@@ -2,10 +2,9 @@
 
 #[cfg(target_arch = "x86_64")]
 use bytemuck::cast;
-use wide::f32x8;
 
 use super::points::{LANES, eight};
-use super::sheet::Falls;
+use super::sheet::{Falls, LEVELS};
 
 /// Room for every level and a vector beyond, a power of two.
 pub const ROOM: usize = 256;
@@ -60,25 +59,22 @@ impl Collisions {
         }
         let mut length = 0;
         for first in (start..stop).step_by(LANES) {
-            // Whole numbers as floats, exact up to 2²⁴; more than 14,286 (500 keV) are never meant. Those above a level are found once more
-            // for the level below: cheaper than to hand them from lane to lane.
-            let dealt = |from: usize| {
-                let part = f32x8::new(std::array::from_fn(|k| spent[from + k]));
-                f32x8::from_i32x8((part * f32x8::splat(collisions) + f32x8::splat(u)).fast_trunc_int())
-            };
-            let counts = dealt(first + 1) - dealt(first);
             #[cfg(target_arch = "x86_64")]
             if AVX {
                 #[allow(unsafe_code)]
                 // SAFETY: the caller says that the processor has AVX2.
                 unsafe {
-                    self.keep_avx(first, counts, &mut length)
+                    self.deal_avx(spent, first, collisions, u, &mut length)
                 };
                 continue;
             }
+            // Whole numbers as floats, exact up to 2²⁴; more than 14,286 (500 keV) are never meant. Those above a level are found once more
+            // for the level below: cheaper than to hand them from lane to lane.
+            let dealt = |level: usize| (spent[level] * collisions + u) as i32 as f32;
             // Every lane is written, and those without a collision are written over: which have one cannot be foretold.
-            for (lane, count) in counts.to_array().into_iter().enumerate() {
-                self.level[length & (ROOM - 1)] = (first + lane) as u32;
+            for level in first..first + LANES {
+                let count = dealt(level + 1) - dealt(level);
+                self.level[length & (ROOM - 1)] = level as u32;
                 self.count[length & (ROOM - 1)] = count;
                 length += usize::from(count > 0.0);
             }
@@ -86,13 +82,17 @@ impl Collisions {
         self.length = length;
     }
 
-    /// Writes those of eight levels from `first` on that have collisions, and adds to `length` how many they are.
+    /// The same for eight levels from `first` on, all at once.
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt")]
     #[inline]
-    fn keep_avx(&mut self, first: usize, counts: f32x8, length: &mut usize) {
+    fn deal_avx(&mut self, spent: &[f32; LEVELS + 1], first: usize, collisions: f32, u: f32, length: &mut usize) {
         use std::arch::x86_64::*;
-        let counts: __m256 = cast(counts);
+        let (all, more) = (_mm256_set1_ps(collisions), _mm256_set1_ps(u));
+        let [above, below]: [__m256; 2] = [cast(eight(spent, first)), cast(eight(spent, first + 1))];
+        let above = _mm256_cvtepi32_ps(_mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(above, all), more)));
+        let below = _mm256_cvtepi32_ps(_mm256_cvttps_epi32(_mm256_add_ps(_mm256_mul_ps(below, all), more)));
+        let counts = _mm256_sub_ps(below, above);
         let found = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_GT_OQ>(counts, _mm256_setzero_ps()));
         let order: __m256i = cast(ORDERS[found as usize & 255]);
         let levels = _mm256_add_epi32(_mm256_set1_epi32(first as i32), order);

@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use super::eye::Eye;
 use super::lattice::Lattice;
 use super::points::Points;
-use super::pyramid::{Pyramid, Shares};
+use super::pyramid::Pyramid;
+use super::shares::Shares;
 use super::sheet::{Falls, Sheet, Streak, field_direction};
 use super::splat::{Gaussian, Picture, Splat};
 use super::truth::Emission;
@@ -141,7 +142,7 @@ pub struct Timed {
 }
 
 /// Error allowed to chords through bent light, pixels.
-const TOLERANCE: f32 = 0.25;
+pub const TOLERANCE: f32 = 0.25;
 /// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
 const TASK: usize = 64;
 

@@ -76,6 +76,16 @@ impl Lattice {
         Lattice { low, per_km: Vec2::new(nx as f32, ny as f32) / (high - low), cells, nodes, projected }
     }
 
+    /// Apparent places, along x first and downwards last.
+    pub fn nodes(&self) -> &[Vec3] {
+        &self.nodes
+    }
+
+    /// The low corner of (x, y) at the top in km, cells per km, and cells along all three axes.
+    pub fn grid(&self) -> (Vec2, Vec2, [usize; 3]) {
+        (self.low, self.per_km, self.cells)
+    }
+
     /// Chords along a streak.
     pub fn chords(&self) -> usize {
         self.cells[2]

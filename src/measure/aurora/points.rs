@@ -44,6 +44,18 @@ pub struct Eight {
     pub level: [u32; LANES],
 }
 
+/// The lesser and the greater of two numbers; the second if one is not a number. (f32's own do more for those.)
+#[inline(always)]
+pub(super) fn lesser(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// See [`lesser`].
+#[inline(always)]
+pub(super) fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
 /// Eight numbers of a column from `start` on.
 #[inline(always)]
 pub(super) fn eight<T: Copy + Default>(column: &[T], start: usize) -> [T; LANES] {
@@ -132,14 +144,18 @@ impl Points {
     /// Sixteen from the `k`-th on: the first, third, … and the second, fourth, …. What is behind the last point has no light.
     #[inline(always)]
     pub(super) fn pairs(&self, k: usize) -> [Eight; 2] {
-        let [x, y, scale, mut count] = [&self.x, &self.y, &self.scale, &self.count].map(|column| pairs(column, k));
-        let level = pairs(&self.level, k);
+        // Said one by one: what a closure does is not always compiled with the wider instructions of the function around it.
+        let (x, y, scale) = (pairs(&self.x, k), pairs(&self.y, k), pairs(&self.scale, k));
+        let (mut count, level) = (pairs(&self.count, k), pairs(&self.level, k));
         if k + 2 * LANES > self.length {
             for n in self.length - k..2 * LANES {
                 count[n % 2][n / 2] = 0.0;
             }
         }
-        std::array::from_fn(|n| Eight { x: x[n], y: y[n], scale: scale[n], count: count[n], level: level[n] })
+        [
+            Eight { x: x[0], y: y[0], scale: scale[0], count: count[0], level: level[0] },
+            Eight { x: x[1], y: y[1], scale: scale[1], count: count[1], level: level[1] },
+        ]
     }
 }
 

@@ -7,69 +7,23 @@
 //! hold it below 2 % (root mean square), and a single splat within 6.5 % of its peak.
 
 use bytemuck::{Pod, Zeroable, cast};
-use wide::{f32x4, f32x8, i32x8};
+use wide::f32x4;
 
-use super::points::{Eight, LANES, Points};
+use super::points::{Eight, LANES, Points, greater, lesser};
+use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
-use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture, REACH};
+use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
 /// Layers: in the coarsest, with pixels of 2⁵, the widest splat has a standard deviation of 1.25 pixels.
 const LAYERS: usize = 6;
 /// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
 const MARGIN: usize = 16;
-/// Most pixels along a side of a splat: twice 3 standard deviations of 2 pixels.
-const WIDTH: usize = 12;
-/// Tabulated Gaussians: standard deviations from 0.5 to 2 pixels in steps of 1/40, and places within a pixel.
-const WIDTHS: usize = 60;
-const WIDTHS_PER_PIXEL: f32 = 40.0;
-const PLACES: usize = 32;
-
-/// Two points whose distance squared is less than this share of their variance are added as one, if their variances differ by less than the other
-/// share: seen along a streak, its far and its near end fall on one pixel.
-const NEAR: f32 = 0.6;
-const ALIKE: f32 = 0.3;
-
-/// Shares of a side in the table: those of the pixels from the one before a splat to those behind it, which have none, so that pairs may begin
-/// at either.
-const SIDE: usize = WIDTH + 4;
-
-/// Each pixel's share of a splat along one side, by width and place; the shares' sum is 1, so that no light is lost.
-#[derive(Clone, Debug)]
-pub struct Shares(Vec<f32>);
-
-impl Default for Shares {
-    fn default() -> Self {
-        let mut shares = Vec::with_capacity((WIDTHS + 1) * (PLACES + 1) * SIDE);
-        for row in 0..=WIDTHS {
-            let sigma = f32x8::splat(row as f32 / WIDTHS_PER_PIXEL + 0.5);
-            let half = halves(sigma).as_array()[0];
-            let sigma = sigma.as_array()[0];
-            for place in 0..=PLACES {
-                let side: [f32; SIDE] = std::array::from_fn(|k| {
-                    let d = place as f32 / PLACES as f32 + k as f32 - 1.0 - half;
-                    if (1..=2 * half as usize).contains(&k) { (-0.5 * (d / sigma).powi(2)).exp() } else { 0.0 }
-                });
-                let sum: f32 = side.iter().sum();
-                shares.extend(side.map(|share| share / sum));
-            }
-        }
-        Shares(shares)
-    }
-}
-
-/// Half the pixels that splats of tabulated standard deviations cover. The widths come in steps of 3/40 pixel, so less than a step below 1 is
-/// enough to round up.
-#[inline(always)]
-fn halves(sigma: f32x8) -> f32x8 {
-    truncated(sigma * f32x8::splat(REACH) + f32x8::splat(0.99)).1
-}
-
-/// Cut to whole numbers, as such and as floats; the least number for what is none.
-#[inline(always)]
-fn truncated(numbers: f32x8) -> (i32x8, f32x8) {
-    let whole = numbers.fast_trunc_int();
-    (whole, f32x8::from_i32x8(whole))
-}
+/// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what the
+/// splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the third: seen
+/// along a streak, its far and its near end fall on one pixel.
+const NEAR: f32 = 2.1;
+const ASLANT: f32 = 0.4;
+const ALIKE: f32 = 0.6;
 
 /// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
 /// before would wait for both to be stored.
@@ -77,14 +31,9 @@ fn truncated(numbers: f32x8) -> (i32x8, f32x8) {
 #[repr(C, align(32))]
 struct Pair([f32; 2 * 4]);
 
-/// The whole pairs among numbers.
-fn pairs_of(numbers: &mut [f32]) -> &mut [Pair] {
-    bytemuck::pod_align_to_mut(numbers).1
-}
-
-/// The pixels among numbers, row by row.
-fn pixels_of(numbers: &mut [f32]) -> &mut [f32x4] {
-    bytemuck::cast_slice_mut(pairs_of(numbers))
+/// The pixels of pairs, row by row.
+fn pixels_of(pairs: &mut [Pair]) -> &mut [f32x4] {
+    bytemuck::cast_slice_mut(pairs)
 }
 
 /// The layers of a picture, each with a margin.
@@ -93,8 +42,8 @@ pub struct Pyramid {
     size: [usize; 2],
     /// Pixels from one row to the next, in all layers; even.
     stride: usize,
-    /// Pairs, once aligned; a layer is empty before light falls on it.
-    layers: [Vec<f32>; LAYERS],
+    /// A layer is empty before light falls on it.
+    layers: [Vec<Pair>; LAYERS],
 }
 
 /// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
@@ -120,18 +69,28 @@ fn add_plain<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2
 #[target_feature(enable = "avx2")]
 #[inline]
 fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
-    use std::arch::x86_64::{__m256, _mm_set1_ps, _mm256_add_ps, _mm256_mul_ps, _mm256_set_m128, _mm256_set1_ps, _mm256_setzero_ps};
+    use std::arch::x86_64::*;
     let light = _mm256_set_m128(cast(light), cast(light));
+    // The first of two numbers four times, and the second four times.
+    let (one, other) = (0, 1);
+    let order = _mm256_setr_epi32(one, one, one, one, other, other, other, other);
     let mut row = [_mm256_setzero_ps(); PAIRS];
     for (k, pair) in row.iter_mut().enumerate() {
-        *pair = _mm256_mul_ps(light, _mm256_set_m128(_mm_set1_ps(columns[2 * k + 1]), _mm_set1_ps(columns[2 * k])));
+        let two = _mm256_castpd_ps(_mm256_set1_pd(cast([columns[2 * k], columns[2 * k + 1]])));
+        *pair = _mm256_mul_ps(light, _mm256_permutevar_ps(two, order));
     }
-    let pixels: &mut [__m256] = bytemuck::cast_slice_mut(pixels);
+    // Asked once and not for every row.
+    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(PAIRS);
+    assert!(start.saturating_add(rows) <= pixels.len());
     for (k, share) in lines.iter().enumerate() {
         let share = _mm256_set1_ps(*share);
-        let pixels = &mut pixels[start + k * stride..][..PAIRS];
-        for (pixel, light) in pixels.iter_mut().zip(&row) {
-            *pixel = _mm256_add_ps(*pixel, _mm256_mul_ps(*light, share));
+        for (n, light) in row.iter().enumerate() {
+            #[allow(unsafe_code)]
+            // SAFETY: the last pair of the last row is within, as was asserted, and pairs are aligned as the processor asks for.
+            unsafe {
+                let pixel = pixels.as_mut_ptr().add(start + k * stride + n).cast::<f32>();
+                _mm256_store_ps(pixel, _mm256_add_ps(_mm256_load_ps(pixel), _mm256_mul_ps(*light, share)));
+            }
         }
     }
 }
@@ -144,7 +103,7 @@ fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
 
 /// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
 struct Target<'a> {
-    layers: &'a mut [Vec<f32>; LAYERS],
+    layers: &'a mut [Vec<Pair>; LAYERS],
     /// Pairs from one row to the next.
     stride: usize,
     /// Rows of the picture.
@@ -161,13 +120,13 @@ impl Target<'_> {
         if layer.is_empty() {
             *layer = black(self.stride, rows(self.height, number));
         }
-        let pixels = pairs_of(layer);
+        let pixels = &mut layer[..];
         let start = [splats.pair[k] as usize, self.stride];
         let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
         // A known width lets the compiler write the loop out.
         macro_rules! add {
             ($half:literal) => {{
-                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half]);
+                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half + 1]);
                 #[cfg(target_arch = "x86_64")]
                 if AVX {
                     #[allow(unsafe_code)]
@@ -178,7 +137,8 @@ impl Target<'_> {
             }};
         }
         match splats.half[k] {
-            0..=2 => add!(2),
+            0..=1 => add!(1),
+            2 => add!(2),
             3 => add!(3),
             4 => add!(4),
             5 => add!(5),
@@ -192,10 +152,10 @@ fn rows(height: usize, layer: usize) -> usize {
     height.div_ceil(1 << layer) + 2 * MARGIN
 }
 
-/// Numbers for `rows` rows of `stride` pairs, and room to align them.
+/// Black pixels: `rows` rows of `stride` pairs.
 #[cold]
-fn black(stride: usize, rows: usize) -> Vec<f32> {
-    vec![0.0; size_of::<Pair>() / size_of::<f32>() * (stride * rows + 1)]
+fn black(stride: usize, rows: usize) -> Vec<Pair> {
+    vec![Pair::default(); stride * rows]
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -231,22 +191,25 @@ impl Pyramid {
     #[inline(always)]
     fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         let mut target = Target { layers: &mut self.layers, stride: self.stride / 2, height: self.size[1], shares: &shares.0 };
-        for first in (0..points.len()).step_by(2 * LANES) {
-            let pairs = points.pairs(first);
-            let blobs = Blobs::of(&pairs, radius);
-            // One loop for both, as what is called in one place alone is compiled into it.
-            for (n, blobs) in blobs.iter().enumerate() {
-                // Where all pairs are near, there are no second blobs.
-                if blobs.weight == f32x8::ZERO {
-                    continue;
-                }
-                let splats = Splats::of(blobs, self.size, self.stride);
-                for k in 0..LANES {
-                    if splats.inside[k] != 0 {
-                        let other = light(falls, pairs[1].level[k], splats.other[k]);
-                        target.add::<AVX>(&splats, k, light(falls, pairs[n].level[k], splats.weight[k]) + other);
-                    }
-                }
+        let mut lone = Lone::default();
+        let mut first = 0;
+        // One loop for pairs and for lone points, as what is called in one place alone is compiled into it.
+        loop {
+            let blobs = if lone.length >= LANES || (first >= points.len() && lone.length > 0) {
+                lone.take()
+            } else if first < points.len() {
+                first += 2 * LANES;
+                Blobs::of(&points.pairs(first - 2 * LANES), radius, &mut lone)
+            } else {
+                break;
+            };
+            let splats = Splats::of(&blobs, self.size, self.stride);
+            let mut left = splats.inside;
+            while left != 0 {
+                let k = left.trailing_zeros() as usize % LANES;
+                left &= left - 1;
+                let other = light(falls, blobs.other_level[k], splats.other[k]);
+                target.add::<AVX>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
             }
         }
     }
@@ -290,9 +253,14 @@ impl Pyramid {
                 column.clear();
                 column.extend(row(own).iter().zip(row(beside)).map(|(a, b)| between(*a, *b)));
                 let start = (y + MARGIN - 1) * stride + MARGIN - 1;
-                for (x, pixel) in fine[start..start + width + 2].iter_mut().enumerate() {
-                    let (own, beside) = neighbours(x);
-                    *pixel += between(column[own], column[beside]);
+                // Two fine pixels lie in the coarse one between three.
+                let (two, last) = fine[start..start + width + 2].as_chunks_mut::<2>();
+                for (pixels, coarse) in two.iter_mut().zip(column[MARGIN - 1..].windows(2)) {
+                    pixels[0] += between(coarse[0], coarse[1]);
+                    pixels[1] += between(coarse[1], coarse[0]);
+                }
+                if let ([pixel], Some(coarse)) = (last, column[MARGIN - 1 + two.len()..].first_chunk::<2>()) {
+                    *pixel += between(coarse[0], coarse[1]);
                 }
             }
         }
@@ -306,62 +274,110 @@ impl Pyramid {
 }
 
 /// Eight blobs of light on the screen.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct Blobs {
-    x: f32x8,
-    y: f32x8,
-    variance: f32x8,
-    /// Collisions times the square of the scale; 0 for no blob.
-    weight: f32x8,
-    /// The same of a second point that lies in the blob, whose light has a height of its own.
-    other: f32x8,
+    x: [f32; LANES],
+    y: [f32; LANES],
+    /// Variance along rows and along columns.
+    wide: [f32; LANES],
+    tall: [f32; LANES],
+    /// Collisions times the square of the scale, and their level of height; 0 for no blob.
+    weight: [f32; LANES],
+    level: [u32; LANES],
+    /// The same of a second point that lies in the blob.
+    other: [f32; LANES],
+    other_level: [u32; LANES],
 }
 
 impl Blobs {
-    /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob, the first;
-    /// else the second blob is the second point.
+    /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
+    /// is put to the `lone` ones.
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are.
     #[inline(always)]
-    fn of(pairs: &[Eight; 2], radius: f32) -> [Blobs; 2] {
-        let all = f32x8::splat;
-        let [a, b] = [&pairs[0], &pairs[1]].map(|points| {
-            let [x, y, scale, count] = [points.x, points.y, points.scale, points.count].map(f32x8::new);
-            let sigma = (scale * all(radius)).fast_max(all(LEAST_SIGMA)).fast_min(all(MOST_SIGMA));
-            Blobs { x, y, variance: sigma * sigma, weight: count * scale * scale, other: f32x8::ZERO }
-        });
-        let (dx, dy, sum) = (b.x - a.x, b.y - a.y, a.weight + b.weight);
-        let apart = dx * dx + dy * dy;
-        let unlike = (b.variance - a.variance).abs();
-        // A pair without light has no middle.
-        let near = apart.simd_lt(a.variance * all(NEAR)) & unlike.simd_lt(a.variance * all(ALIKE)) & sum.simd_gt(all(0.0));
-        let share = b.weight / sum;
-        // Two points are wider along their line than across it; what is missing is given to both sides in halves.
-        let spread = all(0.5) * share * (all(1.0) - share) * apart;
-        let middle = Blobs {
-            x: a.x + share * dx,
-            y: a.y + share * dy,
-            variance: a.variance + share * (b.variance - a.variance) + spread,
-            weight: a.weight,
-            other: b.weight,
-        };
-        let choose = |one: f32x8, other: f32x8| near.select(one, other);
-        let first = Blobs {
-            x: choose(middle.x, a.x),
-            y: choose(middle.y, a.y),
-            variance: choose(middle.variance, a.variance),
-            weight: a.weight,
-            other: choose(middle.other, f32x8::ZERO),
-        };
-        [first, Blobs { weight: choose(f32x8::ZERO, b.weight), ..b }]
+    fn of([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
+        let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
+        let (mut variances, mut weights) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let sigma = lesser(greater(a.scale[k] * radius, LEAST_SIGMA), MOST_SIGMA);
+            let variance = sigma * sigma;
+            let sigma = lesser(greater(b.scale[k] * radius, LEAST_SIGMA), MOST_SIGMA);
+            let second_variance = sigma * sigma;
+            let (weight, second_weight) = (a.count[k] * a.scale[k] * a.scale[k], b.count[k] * b.scale[k] * b.scale[k]);
+            let (dx, dy, sum) = (b.x[k] - a.x[k], b.y[k] - a.y[k], weight + second_weight);
+            let (xx, yy) = (dx * dx, dy * dy);
+            // A pair without light has no middle.
+            let near = (xx + yy < variance * NEAR)
+                & ((dx * dy).abs() < variance * ASLANT)
+                & ((second_variance - variance).abs() < variance * ALIKE)
+                & (sum > 0.0);
+            let share = if near { second_weight / sum } else { 0.0 };
+            // Two points are wider along their line than either.
+            let spread = share * (1.0 - share);
+            let mean = variance + share * (second_variance - variance);
+            blobs.x[k] = if near { a.x[k] + share * dx } else { a.x[k] };
+            blobs.y[k] = if near { a.y[k] + share * dy } else { a.y[k] };
+            blobs.wide[k] = if near { mean + spread * xx } else { variance };
+            blobs.tall[k] = if near { mean + spread * yy } else { variance };
+            blobs.weight[k] = weight;
+            blobs.other[k] = if near { second_weight } else { 0.0 };
+            variances[k] = second_variance;
+            weights[k] = if near { 0.0 } else { second_weight };
+        }
+        for k in 0..LANES {
+            lone.put(b.x[k], b.y[k], variances[k], weights[k], b.level[k]);
+        }
+        blobs
+    }
+}
+
+/// Points that are a blob each, until there are eight.
+#[derive(Default)]
+struct Lone {
+    length: usize,
+    x: [f32; 2 * LANES],
+    y: [f32; 2 * LANES],
+    variance: [f32; 2 * LANES],
+    weight: [f32; 2 * LANES],
+    level: [u32; 2 * LANES],
+}
+
+impl Lone {
+    /// Puts a point behind the last, unless it has no light. There must be less than sixteen.
+    #[inline(always)]
+    fn put(&mut self, x: f32, y: f32, variance: f32, weight: f32, level: u32) {
+        // Written in any case, and written over by the next if there was none: which have light cannot be foretold.
+        let k = self.length % (2 * LANES);
+        (self.x[k], self.y[k], self.variance[k], self.weight[k], self.level[k]) = (x, y, variance, weight, level);
+        self.length += usize::from(weight != 0.0);
+    }
+
+    /// Takes the first eight, or those that there are.
+    #[inline(always)]
+    fn take(&mut self) -> Blobs {
+        let mut blobs = Blobs::default();
+        for k in 0..LANES {
+            let weight = if k < self.length { self.weight[k] } else { 0.0 };
+            (blobs.x[k], blobs.y[k], blobs.weight[k], blobs.level[k]) = (self.x[k], self.y[k], weight, self.level[k]);
+            (blobs.wide[k], blobs.tall[k]) = (self.variance[k], self.variance[k]);
+            let next = k + LANES;
+            (self.x[k], self.y[k], self.variance[k]) = (self.x[next], self.y[next], self.variance[next]);
+            (self.weight[k], self.level[k]) = (self.weight[next], self.level[next]);
+        }
+        self.length = self.length.saturating_sub(LANES);
+        blobs
     }
 }
 
 /// Where eight splats go.
+#[derive(Default)]
 struct Splats {
-    /// All bits set, or none for a splat that is outside, has no light or is of something that is not a number; then what else is said of it
-    /// has no meaning.
-    inside: [i32; LANES],
+    /// 1 for each, 0 for a splat that is outside, has no light or is of something that is not a number; then what else is said of it has
+    /// no meaning.
+    seen: [u32; LANES],
+    /// The same as bits.
+    inside: u32,
     layer: [i32; LANES],
-    /// Half the pixels that it covers.
+    /// Pixels that it covers on each side of the one in its middle.
     half: [i32; LANES],
     /// Its first pair in the layer.
     pair: [i32; LANES],
@@ -373,52 +389,58 @@ struct Splats {
     other: [f32; LANES],
 }
 
+/// One side of a splat: pixels on each side of its middle one, the middle one's number, and the middle of its shares in the table.
+#[inline(always)]
+fn side(variance: f32, shrink: f32, centre: f32) -> (f32, f32, f32) {
+    // Pixels of the layer, narrower by what enlarging adds.
+    let part = shrink * shrink;
+    let own = greater(variance * part - 0.25 * (1.0 - part), 0.0).sqrt();
+    let row = nearest(lesser(greater((own - 0.5) * WIDTHS_PER_PIXEL, 0.0), WIDTHS as f32));
+    // The pixel that the middle is in, and where in it.
+    let at = centre * shrink + (MARGIN as f32 - 0.5);
+    let pixel = nearest(at);
+    let place = nearest((lesser(greater(at - pixel, -0.5), 0.5) + 0.5) * PLACES as f32);
+    let shares = row * ((PLACES + 1) * SIDE) as f32 + place * SIDE as f32 + MIDDLE as f32;
+    (half_of(row * (1.0 / WIDTHS_PER_PIXEL) + 0.5), pixel, shares)
+}
+
 impl Splats {
     /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions, which
     /// took longer than to add it.
     #[inline(always)]
     fn of(blobs: &Blobs, size: [usize; 2], stride: usize) -> Splats {
-        let all = f32x8::splat;
-        let variance = blobs.variance;
-        // Layer l has the variances from 4ˡ to 4ˡ⁺¹: half the number's exponent says which. A least standard deviation of 0.75 instead of 1 of
-        // its pixels would show them (13 % of the peak instead of 6 % at the worst place); more would cost more.
-        let exponent = (cast::<f32x8, i32x8>(variance) >> 23u32) - i32x8::splat(127);
-        let layer = (exponent >> 1u32).max(i32x8::splat(0)).min(i32x8::splat(LAYERS as i32 - 1));
-        // 2⁻ˡ: a float of which only the exponent is set.
-        let shrink: f32x8 = cast((i32x8::splat(127) - layer) << 23u32);
-        let part = shrink * shrink;
-        // Pixels of the layer, narrower by what enlarging adds.
-        let own = (variance * part - all(0.25) * (all(1.0) - part)).fast_max(all(0.0)).sqrt();
-        let (row, width) = truncated((own - all(0.5)).fast_max(all(0.0)).fast_min(all(1.5)) * all(WIDTHS_PER_PIXEL) + all(0.5));
-        let half = halves(width * all(1.0 / WIDTHS_PER_PIXEL) + all(0.5));
-        // The pixels whose middles are within reach start after this.
-        let edge = |centre: f32x8| centre * shrink + (all(MARGIN as f32 - 0.5) - half);
-        let start = row * i32x8::splat(((PLACES + 1) * SIDE) as i32) + i32x8::splat(1);
-        // The first pixel, where the table has its share, and whether the splat is within the margin. The first pixel of what is not a number
-        // is the least number.
-        let place = |edge: f32x8, side: usize| {
-            let (first, float) = truncated(edge + all(1.0));
-            let within = (float - edge).fast_max(all(0.0)).fast_min(all(1.0));
-            let shares = start + truncated(within * all(PLACES as f32) + all(0.5)).0 * i32x8::splat(SIDE as i32);
-            let end = float + half + half;
-            let inside = float.simd_ge(all(1.0)) & end.simd_lt(all(side as f32) * shrink + all(2.0 * MARGIN as f32));
-            (first, shares, inside)
-        };
-        let ((left, columns, within), (top, lines, below)) = (place(edge(blobs.x), size[0]), place(edge(blobs.y), size[1]));
-        let light = blobs.weight + blobs.other;
-        // Pairs begin at even pixels: from an odd one on, with the share of nothing that lies before the first.
-        let odd = left & i32x8::splat(1);
-        Splats {
+        let mut splats = Splats::default();
+        for k in 0..LANES {
+            // Layer l has the variances from 4ˡ to 4ˡ⁺¹: half the number's exponent says which. A least standard deviation of 0.75 instead of 1
+            // of its pixels would show them (13 % of the peak instead of 6 % at the worst place); more would cost more.
+            let exponent = (lesser(blobs.wide[k], blobs.tall[k]).to_bits() >> 23) as i32 - 127;
+            let layer = (exponent >> 1).max(0).min(LAYERS as i32 - 1);
+            // 2⁻ˡ: a float of which only the exponent is set.
+            let shrink = f32::from_bits(((127 - layer) as u32) << 23);
+            let (half, column, columns) = side(blobs.wide[k], shrink, blobs.x[k]);
+            let (rows, row, lines) = side(blobs.tall[k], shrink, blobs.y[k]);
+            let half = greater(half, rows);
+            // Within the margin.
+            let end = |length: usize| length as f32 * shrink + 2.0 * MARGIN as f32;
+            let within =
+                (column - half >= 1.0) & (column + half + 1.0 < end(size[0])) & (row - half >= 1.0) & (row + half + 1.0 < end(size[1]));
+            let light = blobs.weight[k] + blobs.other[k];
             // Greater than nothing and less than infinite.
-            inside: cast(within & below & light.simd_gt(all(0.0)) & light.simd_lt(all(f32::INFINITY))),
-            layer: layer.to_array(),
-            half: half.fast_trunc_int().to_array(),
-            pair: (top * i32x8::splat(stride as i32 / 2) + (left >> 1u32)).to_array(),
-            columns: (columns - odd).to_array(),
-            lines: lines.to_array(),
-            weight: (blobs.weight * part).to_array(),
-            other: (blobs.other * part).to_array(),
+            splats.seen[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
+            // Pairs begin at even pixels: from an odd one on, with the share of the pixel before the first.
+            let (left, top) = (integer(column - half), integer(row - half));
+            splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
+            splats.lines[k] = integer(lines - half);
+            splats.pair[k] = top.wrapping_mul(stride as i32 / 2).wrapping_add(left >> 1);
+            splats.layer[k] = layer;
+            splats.half[k] = integer(half);
+            splats.weight[k] = blobs.weight[k] * (shrink * shrink);
+            splats.other[k] = blobs.other[k] * (shrink * shrink);
         }
+        for k in 0..LANES {
+            splats.inside |= splats.seen[k] << k;
+        }
+        splats
     }
 }
 

@@ -75,7 +75,7 @@ fn walk_avx(walker: &Walker, method: Method, streaks: &[Streak], out: &mut Point
 }
 
 /// Two unit vectors across the field.
-fn across() -> [Vec3; 2] {
+pub fn across() -> [Vec3; 2] {
     let up = field_direction().as_vec3();
     [Vec3::X, up.cross(Vec3::X)]
 }

@@ -1,12 +1,15 @@
 //! The aurora: electrons on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), splats are added up
 //! line by line, and the spectrum becomes a colour at the end.
 //!
-//! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes.
+//! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
+//! experiment of paper 3 for the chart.
 
 mod pass;
+pub mod race;
 mod show;
+pub mod veil;
 
-pub use pass::Aurora;
+pub use pass::{Aurora, fall_table};
 pub use show::{AuroraFrame, Show, planet_history};
 
 use bytemuck::{Pod, Zeroable};

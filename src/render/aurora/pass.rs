@@ -44,6 +44,8 @@ pub struct Aurora {
     colours: [wgpu::Buffer; ORDERS],
     accumulation: Option<([u32; 2], wgpu::TextureView)>,
     groups: Option<Groups>,
+    /// Of the prepared frame: pixels that each image may be on (left, top, width, height), and whether it is behind the disk.
+    images: Vec<([u32; 4], bool)>,
     /// Of the prepared frame: streaks, chords of a streak, orders; nothing is drawn where there are none.
     drawn: [u32; 3],
     /// Room for splats of one order.
@@ -96,6 +98,7 @@ impl Aurora {
             colours: std::array::from_fn(|_| uniform("aurora colours", 64)),
             accumulation: None,
             groups: None,
+            images: Vec::new(),
             drawn: [0; 3],
             room: 0,
             uploaded: None,
@@ -146,6 +149,7 @@ impl Aurora {
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(colours));
         }
+        self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];
     }
 
@@ -182,6 +186,12 @@ impl Aurora {
         self.drawn[2]
     }
 
+    /// Those of them that are behind the disk, or the others.
+    pub fn images_behind(&self, behind: bool) -> Vec<u32> {
+        let all = 0..self.images();
+        all.zip(&self.images).filter(|(_, (_, is_behind))| *is_behind == behind).map(|(image, _)| image).collect()
+    }
+
     /// The ends of the chords, through the lookup.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, chords, orders] = self.drawn;
@@ -211,6 +221,7 @@ impl Aurora {
         let Some(bound) = &self.groups else { return };
         pass.set_pipeline(&self.splat);
         pass.set_bind_group(1, &bound.splat[image as usize], &[]);
+        self.within(pass, image);
         pass.draw_indirect(&self.draws, 16 * u64::from(image));
     }
 
@@ -219,7 +230,15 @@ impl Aurora {
         let Some(bound) = &self.groups else { return };
         pass.set_pipeline(&self.resolve);
         pass.set_bind_group(1, &bound.resolve[image as usize], &[]);
+        self.within(pass, image);
         pass.draw(0..3, 0..1);
+    }
+
+    /// Only where the image may be.
+    fn within(&self, pass: &mut wgpu::RenderPass, image: u32) {
+        if let Some(([left, top, width, height], _)) = self.images.get(image as usize) {
+            pass.set_scissor_rect(*left, *top, *width, *height);
+        }
     }
 
     /// Splats drawn in the last frame, by image: for tests and the overlay.
@@ -228,8 +247,19 @@ impl Aurora {
     }
 }
 
+/// Pixels that splats reach over the edge of where their middles are.
+const EDGE: f64 = 16.0;
+
+/// The pixels of a part of the screen: left, top, width, height.
+fn pixels([left, top, right, bottom]: [f64; 4], [width, height]: [u32; 2]) -> [u32; 4] {
+    let pixel = |share: f64, edge: f64, side: u32| (share * f64::from(side) + edge).clamp(0.0, f64::from(side)) as u32;
+    let (x0, x1) = (pixel(left, -EDGE, width), pixel(right, EDGE, width));
+    let (y0, y1) = (pixel(top, -EDGE, height), pixel(bottom, EDGE, height));
+    [x0, y0, x1 - x0, y1 - y0]
+}
+
 /// The tables of the fall in the order that shaders/aurora/streaks.wgsl reads them.
-fn fall_table() -> Vec<f32> {
+pub fn fall_table() -> Vec<f32> {
     let tables = Quantiles::new();
     let photons = tables.photons.iter().flatten();
     photons.chain(tables.delays.iter().flatten()).chain(&tables.heights).copied().collect()

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment};
+use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, veil};
 use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
 use crate::render::placements::{Motion as Movement, Object, View, emission_time, light_path, place};
@@ -29,20 +29,30 @@ const ROW: f64 = 1.0;
 const NODES: usize = 1024;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
 const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
-/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that.
+/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
-/// Streaks per pixel of a curtain's length.
+/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to three tenths.
 const PER_PIXEL: f64 = 10.0;
+const FULL_PIXELS: f64 = 120.0;
+/// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
+const SPLATS_PER_PIXEL: f64 = 2.0;
+const LEAST_SPLATS: u32 = 2;
+/// Heights that a streak goes through at most, km.
+const LONGEST: f64 = 400.0;
 /// Room for splats: more are not drawn in one order.
 pub const MOST_SPLATS: usize = 1 << 20;
 
 /// What a frame shows of the aurora.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct AuroraFrame {
     /// Counts and numbers for the shaders.
     pub settings: AuroraSettings,
     /// The planet in each order it is seen in, body axes those of the dipole in km.
     pub placements: Vec<Placement>,
+    /// The part of the screen that each may be on: left, upper, right and lower edge as shares of width and height.
+    pub parts: Vec<[f64; 4]>,
+    /// Whether each is seen through the accretion disk, by its centre.
+    pub behind: Vec<bool>,
     /// CIE XYZ of a kilorayleigh of each line in each of those orders.
     pub colours: Vec<[[f32; 4]; 4]>,
     /// Parts of the curtains with their electrons.
@@ -55,6 +65,8 @@ pub struct AuroraFrame {
 #[derive(Clone, Debug)]
 pub struct Show {
     planet: Planet,
+    /// Inner and outer radius of the scene's accretion disk, r_s.
+    disk: Option<[f64; 2]>,
     config: AuroraConfig,
     plan: Plan,
     motion: Option<Motion>,
@@ -80,8 +92,8 @@ pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Opt
 }
 
 impl Show {
-    /// The aurora of a planet; None if it has none.
-    pub fn new(planet: &Planet, config: &AuroraConfig) -> Option<Show> {
+    /// The aurora of a planet, beside an accretion disk between two radii if there is one; None if it has none.
+    pub fn new(planet: &Planet, disk: Option<[f64; 2]>, config: &AuroraConfig) -> Option<Show> {
         if !config.enabled || planet.aurora == AuroraShape::None {
             return None;
         }
@@ -94,7 +106,7 @@ impl Show {
             seed: config.seed,
         };
         let config = config.clone();
-        Some(Show { planet: *planet, config, plan, motion: None, rows: VecDeque::new(), newest: 0.0, laid_out: None })
+        Some(Show { planet: *planet, disk, config, plan, motion: None, rows: VecDeque::new(), newest: 0.0, laid_out: None })
     }
 
     /// What the frame at T = `time` shows; None while the aurora is out of sight or too small to see, and then nothing is simulated. `back` is
@@ -106,38 +118,61 @@ impl Show {
         let object = Object {
             model: nothing,
             coarse: nothing,
+            stand_ins: &[],
             motion: Movement::Flying(&history),
             reach: self.planet.radius * REACH,
             scale: DVec3::splat(scale),
             id: 0,
             light: Surroundings::default(),
         };
-        let placements: Vec<Placement> = place(view, time, &object, orders).into_iter().map(|placed| placed.placement).collect();
         let now = history.at(time);
         let distance = (now.position - view.camera.position).length();
         let pixels = 2.0 * self.planet.radius / distance.max(1e-6) / view.pixel;
-        if placements.is_empty() || pixels < LEAST_PIXELS {
+        let mut frame = AuroraFrame::default();
+        for placed in place(view, time, &object, orders) {
+            let placement = placed.placement;
+            let Some(order) = Order::new(placement.ids[0] as u8) else { continue };
+            let position = DVec3::from_array([0, 1, 2].map(|k| f64::from(placement.position[k])));
+            let extent = view.extent(position, object.reach, order, 0.0);
+            let near = distance < 2.0 * object.reach;
+            let width = if near { pixels } else { extent.width / view.pixel };
+            // It comes and goes by degrees.
+            let part = (width / LEAST_PIXELS - 1.0).min(1.0);
+            if part > 0.0 {
+                let whole = [0.0, 0.0, 1.0, 1.0];
+                let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
+                frame.parts.push(view.aspect.map_or(whole, seen_on));
+                let bends = view.settings.method.bends();
+                frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
+                frame.colours.push(self.colours(view.camera, time, &history, placement.ids[0], part));
+                frame.placements.push(placement);
+            }
+        }
+        if frame.placements.is_empty() {
             return None;
         }
-        let colours = placements.iter().map(|placement| self.colours(view.camera, time, &history, placement.ids[0])).collect();
         let ahead = self.advance(time * self.config.pace);
-        let segments = self.segments(view, now.position, now.attitude, scale);
+        let segments = self.segments(view, now.position, now.attitude, pixels);
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
-        let nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
+        frame.nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
         let row = self.rows.front().map_or(0, Vec::len);
         let chords = if pixels > 200.0 { 4 } else { 2 };
-        let room = (streaks as usize * self.config.splats as usize).min(MOST_SPLATS);
+        // As if seen from the side; of a planet far away the whole streak is a pixel or two.
+        let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * magnification(view, now.position, self.planet.radius);
+        let splats = self.config.splats.min(((SPLATS_PER_PIXEL * length).ceil() as u32).max(LEAST_SPLATS));
+        let room = (streaks as usize * splats as usize).min(MOST_SPLATS);
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if self.planet.aurora == AuroraShape::Oval {
             flags |= BOTH_POLES;
         }
-        let settings = AuroraSettings {
-            counts: [streaks, chords, self.config.splats, row as u32],
+        frame.settings = AuroraSettings {
+            counts: [streaks, chords, splats, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(4096.0) as f32, self.config.contrast as f32],
             electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, 0.0],
         };
-        (streaks > 0 && self.rows.len() > 1).then_some(AuroraFrame { settings, placements, colours, segments, nodes })
+        frame.segments = segments;
+        (streaks > 0 && self.rows.len() > 1).then_some(frame)
     }
 
     /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.
@@ -165,7 +200,8 @@ impl Show {
     }
 
     /// Parts of the curtains, each with as many electrons as its length on the screen asks for.
-    fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, scale: f64) -> Vec<Segment> {
+    fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, pixels: f64) -> Vec<Segment> {
+        let scale = self.planet.radius / PLANET_RADIUS;
         let Some((motion, row)) = self.motion.as_ref().zip(self.rows.front()) else { return Vec::new() };
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2.0 } else { 1.0 };
@@ -182,7 +218,8 @@ impl Show {
                 total += poles * *weight;
             }
         }
-        let wanted = (PER_PIXEL * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
+        let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.3, 1.0);
+        let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
         // Four electrons make a part; on the small, several pairs of nodes make one.
         let least = if both { 8 } else { 4 };
         let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
@@ -197,7 +234,8 @@ impl Show {
                 let weight: f64 = weights[window[0] + k..window[0] + k + span].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
                 // erg cm⁻² s⁻¹ → collisions of 35 eV in kR km²: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
-                let energy = self.config.flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
+                let energy =
+                    self.config.flux * self.planet.aurora_flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
                 segments.push(Segment {
                     range: [first, (window[0] + k) as u32, count, span as u32],
                     light: [energy as f32, curve.width as f32, 0.0, 0.0],
@@ -209,11 +247,11 @@ impl Show {
         segments
     }
 
-    /// The lines' colours, shifted as the planet's centre is.
-    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32) -> [[f32; 4]; 4] {
+    /// The lines' colours, shifted as the planet's centre is, and that part of their brightness.
+    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
         let g = frequency_ratio(camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
         // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it.
-        let unit = self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
+        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
         kilorayleigh_xyz(g).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
 }

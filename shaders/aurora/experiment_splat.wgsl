@@ -1,0 +1,39 @@
+// The splats of the aurora's experiment: points added up as tabulated Gaussians, photons of each of the four lines. Both walks go through it.
+
+@group(0) @binding(0) var<uniform> frame: Experiment;
+@group(0) @binding(1) var<storage, read> points: array<vec4<u32>>;
+/// Photons per collision by line at each level.
+@group(0) @binding(2) var<storage, read> light: array<vec4<f32>>;
+/// exp(−x/2) for x = r²/σ² from 0 to 18, 512 entries.
+@group(0) @binding(3) var<storage, read> gaussian: array<f32>;
+
+/// As in src/measure/aurora/splat.rs: standard deviations in pixels, and how many of them a splat reaches to each side.
+const LEAST_SIGMA: f32 = 0.5;
+const MOST_SIGMA: f32 = 40.0;
+const REACH: f32 = 3.0;
+
+struct Spot {
+    @builtin(position) position: vec4<f32>,
+    @location(0) place: vec2<f32>,
+    @location(1) @interpolate(flat) light: vec4<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32) -> Spot {
+    let point = bitcast<vec3<f32>>(points[instance].xyz);
+    let bits = points[instance].w;
+    let corners = array<vec2<f32>, 6>(vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, -1.0), vec2<f32>(1.0, 1.0),
+        vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, 1.0), vec2<f32>(-1.0, 1.0));
+    let sigma = clamp(frame.various.y * point.z, LEAST_SIGMA, MOST_SIGMA);
+    let corner = corners[i] * REACH;
+    let pixels = point.xy + corner * sigma;
+    let ndc = pixels / frame.screen.xy - 1.0;
+    let weight = f32(bits >> 8u) * point.z * point.z / (6.2831853 * sigma * sigma);
+    return Spot(vec4<f32>(ndc.x, -ndc.y, 0.5, 1.0), corner, light[bits & 255u] * weight);
+}
+
+@fragment
+fn fragment(in: Spot) -> @location(0) vec4<f32> {
+    let x = dot(in.place, in.place);
+    return in.light * gaussian[min(u32(x * (511.0 / 18.0) + 0.5), 511u)];
+}

@@ -1,0 +1,210 @@
+//! The experiment of paper 3 on the GPU: the particle method in space and the exact walk on the screen, then the same splats for both. By
+//! itself, for the chart `aurora`: it draws the experiment's scenes and not the game's.
+
+use std::time::Instant;
+
+use bytemuck::{Pod, Zeroable};
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::render::Gpu;
+use crate::render::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
+use crate::render::readback::{self, PictureError};
+use crate::render::shaders;
+use crate::render::targets::target;
+
+/// `Experiment` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/aurora/experiment.wgsl")]
+pub struct Experiment {
+    pub origin: [f32; 4],
+    pub place: [[f32; 4]; 3],
+    pub axes: [[f32; 4]; 3],
+    pub across: [[f32; 4]; 2],
+    pub across_seen: [[f32; 4]; 2],
+    pub screen: [f32; 4],
+    pub various: [f32; 4],
+    pub lattice: [f32; 4],
+    pub cells: [u32; 4],
+}
+
+/// `Electron` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+#[allow(missing_docs, reason = "documented once, in shaders/aurora/experiment.wgsl")]
+pub struct Electron {
+    pub top: [f32; 4],
+    pub end: [f32; 4],
+    pub numbers: [u32; 4],
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// Camera, lattice and numbers.
+    pub uniform: Experiment,
+    /// Width and height of the picture.
+    pub size: [u32; 2],
+    /// What the lookup reads, where light is bent.
+    pub slice: Option<&'a [[f32; 4]]>,
+    /// The electrons.
+    pub electrons: &'a [Electron],
+    /// Apparent places on the lattice.
+    pub nodes: &'a [[f32; 4]],
+    /// The tables of the fall, as shaders/aurora/experiment_walks.wgsl reads them.
+    pub tables: &'a [f32],
+    /// Photons per collision by line at each level.
+    pub light: &'a [[f32; 4]],
+}
+
+/// The two walks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Walk {
+    /// Every collision happens in space and is projected from there.
+    Particles,
+    /// Ends of chords are projected, the rest is on the screen.
+    Exact,
+}
+
+/// A picture and what it took, in seconds from handing work to the adapter until it was done.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// Photons by line, row by row.
+    pub pixels: Vec<[f32; 4]>,
+    /// From electrons to points.
+    pub walk: f64,
+    /// From points to the picture.
+    pub splat: f64,
+}
+
+/// Most points of an electron: one at every level.
+const POINTS: u64 = 160;
+/// Entries of the tabulated Gaussian, for r²/σ² from 0 to 18.
+const GAUSSIAN: usize = 512;
+/// The picture is added up in full floats: halves would lose the faint edges of splats where much has been added already.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// Pipelines of the experiment.
+#[derive(Debug)]
+pub struct Race {
+    gpu: Gpu,
+    walk_layout: wgpu::BindGroupLayout,
+    splat_layout: wgpu::BindGroupLayout,
+    /// Particles and exact, in flat space and through the table.
+    walks: [[wgpu::ComputePipeline; 2]; 2],
+    splat: wgpu::RenderPipeline,
+    gaussian: wgpu::Buffer,
+    /// Which walks have run once: a driver compiles them then.
+    warm: [[bool; 2]; 2],
+}
+
+impl Race {
+    /// Compiles the passes; None if the adapter cannot add up full floats.
+    pub fn new(gpu: &Gpu) -> Option<Race> {
+        if !gpu.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE) {
+            return None;
+        }
+        let device = &gpu.device;
+        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
+        let walk_layout = layout(device, "aurora race walk", ShaderStages::COMPUTE, &slots);
+        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read];
+        let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
+        let walks = [false, true].map(|bent| {
+            let source = shaders::aurora_experiment(bent);
+            ["particles", "exact"].map(|entry| compute_of(device, entry, &source, entry, &[Some(&walk_layout)]))
+        });
+        let source = shaders::aurora_experiment_splats();
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("aurora race splat"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        let one = wgpu::BlendComponent {
+            src_factor: wgpu::BlendFactor::One,
+            dst_factor: wgpu::BlendFactor::One,
+            operation: wgpu::BlendOperation::Add,
+        };
+        let sum = Some(wgpu::BlendState { color: one, alpha: one });
+        let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(FORMAT, sum)], depth: None };
+        let splat = raster(device, "aurora race splat", &module, stage, &[Some(&splat_layout)]);
+        let gaussian: Vec<f32> = (0..GAUSSIAN).map(|k| (-9.0 * k as f32 / (GAUSSIAN - 1) as f32).exp()).collect();
+        let gaussian = storage(gpu, "aurora race gaussian", &gaussian);
+        Some(Race { gpu: gpu.clone(), walk_layout, splat_layout, walks, splat, gaussian, warm: [[false; 2]; 2] })
+    }
+
+    /// The adapter's name and kind.
+    pub fn adapter(&self) -> String {
+        self.gpu.adapter_name()
+    }
+
+    /// Draws the scene. What is there before the walk (electrons, tables, lattice) is not in the times.
+    pub fn draw(&mut self, scene: &Scene, walk: Walk) -> Result<Drawn, PictureError> {
+        let which = (usize::from(scene.slice.is_some()), usize::from(walk == Walk::Exact));
+        if !std::mem::replace(&mut self.warm[which.0][which.1], true) {
+            self.draw(scene, walk)?;
+        }
+        let gpu = &self.gpu;
+        let device = &gpu.device;
+        let uniform = buffer(device, "aurora race", size_of::<Experiment>() as u64, BufferUsages::UNIFORM);
+        gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&scene.uniform));
+        let slice = TableTexture::of(gpu, "aurora race slice", scene.slice.unwrap_or(&[[0.0; 4]]));
+        let electrons = storage(gpu, "aurora race electrons", scene.electrons);
+        let (tables, nodes) = (storage(gpu, "aurora race tables", scene.tables), storage(gpu, "aurora race nodes", scene.nodes));
+        let light = storage(gpu, "aurora race light", scene.light);
+        let room = 16 * POINTS * scene.electrons.len() as u64;
+        let most = device.limits().max_storage_buffer_binding_size;
+        if room > most {
+            let asked =
+                format!("the points of {} electrons take {room} bytes, a buffer of this adapter {most} at most", scene.electrons.len());
+            return Err(PictureError::Device(asked));
+        }
+        let points = buffer(device, "aurora race points", room, BufferUsages::STORAGE);
+        let draws = buffer(device, "aurora race draws", 16, BufferUsages::STORAGE | BufferUsages::INDIRECT);
+        gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+        let resources = [
+            uniform.as_entire_binding(),
+            slice.binding(),
+            electrons.as_entire_binding(),
+            tables.as_entire_binding(),
+            nodes.as_entire_binding(),
+            points.as_entire_binding(),
+            draws.as_entire_binding(),
+        ];
+        let walk_group = bind(device, "aurora race walk", &self.walk_layout, &resources);
+        let resources = [&uniform, &points, &light, &self.gaussian].map(|buffer| buffer.as_entire_binding());
+        let splat_group = bind(device, "aurora race splat", &self.splat_layout, &resources);
+        let (texture, view) = target(device, "aurora race light", scene.size, FORMAT);
+        self.run(|_| ())?;
+        let walk = self.run(|encoder| {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.walks[which.0][which.1]);
+            pass.set_bind_group(0, &walk_group, &[]);
+            pass.dispatch_workgroups(scene.electrons.len().div_ceil(64) as u32, 1, 1);
+        })?;
+        let splat = self.run(|encoder| {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("aurora race splat"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&self.splat);
+            pass.set_bind_group(0, &splat_group, &[]);
+            pass.draw_indirect(&draws, 0);
+        })?;
+        Ok(Drawn { pixels: readback::floats(gpu, &texture)?, walk, splat })
+    }
+
+    /// Seconds from handing over what `record` recorded until it is done.
+    fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<f64, PictureError> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        record(&mut encoder);
+        let start = Instant::now();
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+        Ok(start.elapsed().as_secs_f64())
+    }
+}

@@ -1,0 +1,50 @@
+//! Which images of a planet are seen through the accretion disk: those are added before the disk is laid over the picture, and dimmed by it.
+
+use glam::DVec3;
+
+use crate::render::frame::Camera;
+use crate::spacetime::light::{self, Branch, Order};
+
+/// Steps of the integration, radians: the radius where light crosses the plane is good to a millionth.
+const STEP: f64 = 0.02;
+
+/// Radii, in r_s, at which light from `position` crosses the plane z = 0 on its way to the camera; `bends` is false in flat space.
+pub fn crossings(camera: &Camera, position: DVec3, order: Order, bends: bool) -> Vec<f64> {
+    let (l, r) = (camera.radius(), position.length());
+    if !bends {
+        let part = camera.position.z / (camera.position.z - position.z);
+        return if (0.0..1.0).contains(&part) { vec![camera.position.lerp(position, part).length()] } else { Vec::new() };
+    }
+    let n = camera.position / l;
+    let across = position - n * position.dot(n);
+    let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector()) * if order.flips() { -1.0 } else { 1.0 };
+    let swept = order.swept(across.length().atan2(position.dot(n)).max(1e-12));
+    let Some(ray) = light::connect(1.0 / r, swept, 1.0 / l, Branch::Plus) else { return Vec::new() };
+    // The ray is at the angle Φ in the direction n cos Φ + side sin Φ; followed backwards from the camera: u″ = 3u²/2 − u.
+    let height = |angle: f64| n.z * angle.cos() + side.z * angle.sin();
+    let steps = (swept / STEP).ceil().max(1.0);
+    let step = swept / steps;
+    let force = |u: f64| 1.5 * u * u - u;
+    let (mut u, mut slope) = (1.0 / l, ray.slope);
+    let mut found = Vec::new();
+    for k in 0..steps as u32 {
+        let before = u;
+        let (a, b) = (slope, force(u));
+        let (c, d) = (slope + 0.5 * step * b, force(u + 0.5 * step * a));
+        let (e, f) = (slope + 0.5 * step * d, force(u + 0.5 * step * c));
+        let (g, h) = (slope + step * f, force(u + step * e));
+        u += step / 6.0 * (a + 2.0 * c + 2.0 * e + g);
+        slope += step / 6.0 * (b + 2.0 * d + 2.0 * f + h);
+        let (low, high) = (height(f64::from(k) * step), height(f64::from(k + 1) * step));
+        if low * high < 0.0 {
+            let part = low / (low - high);
+            found.push(1.0 / (before + (u - before) * part));
+        }
+    }
+    found
+}
+
+/// Whether the disk between two radii is before the place as it is seen in this order.
+pub fn is_behind(camera: &Camera, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
+    crossings(camera, position, order, bends).into_iter().any(|radius| (inner..outer).contains(&radius))
+}
