@@ -132,7 +132,7 @@ fn vertices_of_the_disk_land_where_they_are_seen() {
             (worst, worst_heat) = (worst.max(off), worst_heat.max(heat));
             checked += 1;
         }
-        assert!(checked > 500, "only {checked} vertices");
+        assert!(checked > 200, "only {checked} vertices");
         println!("L = {l}, {degrees}°: {checked} vertices, worst {worst:.4} px, heat {worst_heat:.1e}");
     }
 }
@@ -360,7 +360,8 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size);
     println!("without streaks: {error:?}");
-    assert!(error.psnr > 40.0, "PSNR is {} dB", error.psnr);
+    // It has 41.7 dB. Gas with g off by a hundredth has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
+    assert!(error.psnr > 41.2, "PSNR is {} dB", error.psnr);
 }
 
 /// With straight light the disk is the annulus that the eye's straight lines meet, whatever it is otherwise drawn from, and the hole hides nothing.
@@ -402,4 +403,27 @@ fn without_lensing_the_disk_is_a_flat_annulus() {
     assert!(gas > 200 && dark > 500, "{gas} pixels of gas, {dark} without");
     // And back: bent light after straight.
     assert_eq!(picture(settings()), bent);
+}
+
+/// Straight light knows no horizon: a camera that has crossed it sees what one sees that was always inside.
+#[test]
+fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
+    use lensrunner::render::method::Method;
+    let size = [96, 54];
+    let straight = Settings { method: Method::Flat, ..settings() };
+    let picture = |renderer: &mut Renderer, l: f64| {
+        let position = DVec3::new(0.0, -l, 0.3 * l);
+        let camera = Camera { position, momentum: DVec3::ZERO, ..camera(20.0, 70.0, 90f64.to_radians()) };
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: straight };
+        renderer.picture(&input, false).unwrap().linear
+    };
+    let mut crosses = renderer(size);
+    crosses.set_disk(Some(a_disk()));
+    let outside = picture(&mut crosses, 1.2);
+    let across = picture(&mut crosses, 0.8);
+    let mut inside = renderer(size);
+    inside.set_disk(Some(a_disk()));
+    assert_eq!(across, picture(&mut inside, 0.8));
+    let lit = |picture: &[[f32; 4]]| picture.iter().filter(|p| p[0] > 1e-4).count();
+    assert!(lit(&across) > size[0] as usize && lit(&outside) > size[0] as usize, "{} and {} pixels of gas", lit(&outside), lit(&across));
 }

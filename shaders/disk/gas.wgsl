@@ -54,7 +54,7 @@ struct Streaks {
 
 /// A pixel may be this much longer than wide in the pattern before the level follows its length: more of it would alias (streaks of a disk that is
 /// seen edge on became dashes), less would blur what is seen well.
-const LONGEST: f32 = 8.0;
+const LONGEST: f32 = 4.0;
 
 /// Where in the pattern a pixel is, in both generations, and how much of it it covers. `share` is the part of the square of the pixel's longest side that
 /// counts: a thin image shows the mean of all it holds.

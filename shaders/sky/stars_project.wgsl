@@ -21,10 +21,12 @@ const STAR_DISC: f32 = 1e-6;
 
 /// Threads of a cluster.
 const LANES: u32 = 8u;
-/// A star that is this much too faint ends its cluster, where magnification and shift of colour change by less: at more than NEAR_AXIS from the axis.
+/// A star that is this much too faint ends its cluster, where magnification changes by less: at more than NEAR_AXIS from the axis.
 const SURE: f32 = 8.0;
-/// Sine of the angle from the axis; clusters are 0.15 rad wide.
+/// Sine of the angle from the axis.
 const NEAR_AXIS: f32 = 0.3;
+/// Widest angle between two stars of a cluster, in rad: the diagonal of a cell.
+const CLUSTER_WIDTH: f32 = 0.18;
 /// The least light of a star that is drawn, exposed: the peak of a spot is a third of it, so this is under one step of 8 bits.
 const LEAST: f32 = 1e-2;
 
@@ -35,6 +37,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let n = frame.radial.xyz;
     let flags = frame.switches.x;
     let exposure = adaptation.x;
+    // Speed makes more of one star than of another: over an angle θ the Doppler factor 1/(γ(1 − β cos)) changes by e^{βγθ} at most, and the light by
+    // its square.
+    let gamma = frame.camera_from_rain[3].w;
+    let sure = SURE * exp(2.0 * CLUSTER_WIDTH * sqrt(max(gamma * gamma - 1.0, 0.0)));
     // Two pixels of margin for the spot.
     let margin = 1.0 + 4.0 / frame.size.xy;
     // A loop that ends is all that software drivers skip work by: a branch is run through by all.
@@ -60,7 +66,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let flux = star.direction.w * magnification * frame.light.y;
         let g = sky_ratio(cos_psi, doppler);
         let exposed = flux * max(g * g * g * g, 1.0) * exposure;
-        if (exposed * SURE < LEAST) & (sin_phi > NEAR_AXIS) {
+        if (exposed * sure < LEAST) & (sin_phi > NEAR_AXIS) {
             break;
         }
         let camera = (frame.camera_from_rain * vec4<f32>(look, -1.0)).xyz;

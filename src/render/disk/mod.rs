@@ -153,7 +153,8 @@ impl DiskPasses {
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
             let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk);
-            polygons.set_method(gpu, frame_layout, input.settings.method, input.camera.radius() < 1.0);
+            // Straight light is the same on both sides of the horizon.
+            polygons.set_method(gpu, frame_layout, input.settings.method, false);
             self.straight = Some(Box::new(polygons));
         }
         match &mut self.representation {

@@ -8,7 +8,7 @@ use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
 use crate::scene::disk::radial::smoothstep;
-use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
+use crate::scene::disk::{DISK_UNIT, LEAST_COSINE, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
 use super::types::{Circle, DiskFrame};
@@ -25,8 +25,6 @@ const STRAIGHT_ALONG: f64 = 8.0;
 const STRAIGHT_LIGHT: f64 = 0.03;
 /// And what is stopped of light from behind by no more than this.
 const STRAIGHT_STOPPED: f64 = 0.05;
-/// Optical depths along a ray, over those straight through, for which that must hold: seen face on and from about 80°.
-const SLANTS: [f64; 2] = [1.0, 5.0];
 /// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles, as
 /// shaders/disk/place.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
@@ -124,6 +122,9 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
+    // Optical depths along a ray over those straight through: seen face on, and from where the camera is.
+    let height = camera.position.z.abs() / camera.radius();
+    let slants = [1.0, 1.0 / height.max(LEAST_COSINE)];
     // How much of its own each circle shows: the narrower the whole image, the more one gas stands for all of it.
     let own: [f64; AZIMUTHS] = std::array::from_fn(|k| {
         let half = 0.5 * seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs() / pixel;
@@ -133,7 +134,7 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
             let m = (a * (n - k) + b * k) / n;
-            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest, &own)
+            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest, slants, &own)
         })
     };
     let mut chosen = vec![0];
@@ -216,7 +217,7 @@ impl SeenCircle {
     }
 
     /// Whether this circle looks as it should where one draws straight on from `a` to `b`.
-    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64, own: &[f64; AZIMUTHS]) -> bool {
+    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64, slants: [f64; 2], own: &[f64; AZIMUTHS]) -> bool {
         (0..AZIMUTHS).all(|k| {
             let [here, start, end] = [self.places[k], a.places[k], b.places[k]];
             // Where the straight line is seen in this circle's direction.
@@ -237,7 +238,7 @@ impl SeenCircle {
                 && t < 1.0
                 && off(self.pattern, a.pattern, b.pattern) * across < STRAIGHT
                 && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < STRAIGHT_ALONG
-                && SLANTS.into_iter().all(|slant| {
+                && slants.into_iter().all(|slant| {
                     (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < STRAIGHT_LIGHT * brightest
                         && (stopped(depth, slant) - stopped(self.depth, slant)).abs() * shown < STRAIGHT_STOPPED
                 })

@@ -1,0 +1,61 @@
+//! The way of the stars by itself: how a sky of stars is exposed.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
+use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::readback::Picture;
+use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::types::Star;
+
+use crate::render_shaders::GPU;
+
+/// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
+fn picture(stars: &[Star], haze: f32, camera: Camera, size: [u32; 2], settings: Settings) -> Picture {
+    let surroundings = Surroundings {
+        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
+        stars: stars.to_vec(),
+        milky_way: vec![(1, 1, vec![haze])],
+    };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
+    renderer.picture(&input, false).unwrap()
+}
+
+fn star(direction: DVec3, flux: f32) -> Star {
+    let d = direction.normalize();
+    Star { direction: [d.x as f32, d.y as f32, d.z as f32, flux], colour: [5772.0, 0.0, 0.0, 0.0] }
+}
+
+/// A camera 10⁵ r_s away that looks along −z, across the direction of the hole.
+fn far_camera(momentum: DVec3) -> Camera {
+    Camera { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
+}
+
+/// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is developed alike. In cells of a
+/// part of the picture's width stars weigh as they are, but for what each halving spreads them; pixel by pixel, their spots would be brighter in a finer
+/// picture, and the haze darker by a factor of 3.5.
+#[test]
+fn stars_are_metered_alike_in_pictures_of_any_size() {
+    let stars: Vec<Star> = (0..400)
+        .map(|k| {
+            // A spiral over the sphere.
+            let z = 1.0 - (f64::from(k) + 0.5) / 200.0;
+            let (sine, cosine) = (2.399_963 * f64::from(k)).sin_cos();
+            star(DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z), 0.1)
+        })
+        .collect();
+    let settings = Settings { bloom: 0.0, exposure_range: [1e-9, 1e9], sky_brightness: 1.0, star_brightness: 1.0, ..Settings::default() };
+    let haze = |size: [u32; 2]| -> f64 {
+        let picture = picture(&stars, 0.05, far_camera(DVec3::ZERO), size, settings);
+        let mut green: Vec<u8> = picture.developed.chunks_exact(4).map(|pixel| pixel[1]).collect();
+        green.sort_unstable();
+        let value = f64::from(green[green.len() / 2]) / 255.0;
+        println!("{size:?}: haze at {value}");
+        assert!((0.1..0.9).contains(&value), "the haze is developed to {value}, which tells nothing of the exposure");
+        value
+    };
+    let [coarse, fine] = [haze([320, 180]), haze([1280, 720])];
+    assert!((0.7..1.4).contains(&(fine / coarse)), "the haze is {coarse:.3} of white in a coarse picture and {fine:.3} in a fine one");
+}
