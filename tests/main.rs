@@ -35,6 +35,8 @@ mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
 #[cfg(feature = "game")]
+mod render_swing;
+#[cfg(feature = "game")]
 mod render_trouble;
 mod scene_aurora;
 mod scene_config;

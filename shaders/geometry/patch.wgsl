@@ -6,10 +6,6 @@ const DEEPEST: u32 = 10u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
-fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
-    return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
-}
-
 /// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
 fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
     if (placement.triangles.w & PLACEMENT_HELD) == 0u {
@@ -80,12 +76,15 @@ fn strictness(placement: Placement) -> f32 {
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 8.0;
-/// An edge may be an outline where the surface is seen under a cosine below this: a sphere of 400 triangles has edges of 0.2 radians.
-const LIMB_COSINE: f32 = 0.2;
+/// A triangle seen under a cosine below this counts as seen edge-on: bent by the hole it may show both its sides.
+const LIMB_COSINE: f32 = 0.05;
 
-/// Whether an edge between two seen vertices may be an outline, by the normals of the surface.
-fn on_limb(a: SeenVertex, b: SeenVertex) -> bool {
-    let facing = vec2<f32>(dot(a.normal.xyz, a.leaving.xyz), dot(b.normal.xyz, b.leaving.xyz));
+/// Whether the edge a–b between triangles to the corners c and d, all as they are seen, may be an outline: where the image folds, one triangle is
+/// turned to the camera and one away from it. Normals of vertices, which are there for the light, do not tell that of a body with corners.
+fn on_limb(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> bool {
+    let first = cross(b - a, c - a);
+    let second = cross(d - a, b - a);
+    let facing = vec2<f32>(dot(first, a) / max(length(first), 1e-30), dot(second, a) / max(length(second), 1e-30)) / max(length(a), 1e-30);
     return facing.x * facing.y < 0.0 || min(abs(facing.x), abs(facing.y)) < LIMB_COSINE;
 }
 
@@ -117,11 +116,6 @@ fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f3
     let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
     return n * select(sign / max(length(n), 1e-30), 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
-}
-
-/// A body offset on the slice at T₀.
-fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
-    return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
 }
 
 /// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.

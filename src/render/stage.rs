@@ -123,7 +123,7 @@ impl Stage {
                 coarse: model[1],
                 motion,
                 reach: self.reaches[number],
-                scale: DVec3::splat(object.scale),
+                scale: object.scale,
                 id: number as u32 + 1,
                 light,
             };

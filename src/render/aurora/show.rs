@@ -108,7 +108,7 @@ impl Show {
             coarse: nothing,
             motion: Movement::Flying(&history),
             reach: self.planet.radius * REACH,
-            scale: DVec3::splat(scale),
+            scale,
             id: 0,
             light: Surroundings::default(),
         };
