@@ -142,6 +142,10 @@ fn dropped_triangles_are_holes() {
     assert!(dropped > 20, "{dropped}");
     let found = faults(&case, &judge, &broken);
     assert!(found.iter().any(|fault| fault.contains("holes")), "{found:?}");
+    // Where one of four rays goes through a slit between things, it is no hole to see through it.
+    let mut slit = judge.clone();
+    slit.shares.iter_mut().flatten().for_each(|share| share.2 = 0.75);
+    assert_eq!(verdict(&case, &slit, &broken).holes, 0);
 }
 
 #[test]

@@ -121,7 +121,7 @@ fn an_edge_knows_the_corners_across_it() {
         let place = |vertex: u32| prepared.vertices[vertex as usize].position.map(f32::to_bits);
         let is_triangle = |corners: [u32; 3]| {
             let sorted = |corners: [u32; 3]| {
-                let mut places = corners.map(|vertex| place(vertex));
+                let mut places = corners.map(place);
                 places.sort_unstable();
                 places
             };

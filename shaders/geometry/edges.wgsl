@@ -36,8 +36,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 
     let from_apparent = seen[placement.ids.z + edge.x].apparent.xyz;
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
-    let opposite = placement.ids.z + select(edge.zw, edge.xy, edge.z == ALONE);
-    let limb = edge.z == ALONE || on_limb(from_apparent, to_apparent, seen[opposite.x].apparent.xyz, seen[opposite.y].apparent.xyz);
+    let leaving_a = seen[placement.ids.z + edge.x].leaving.xyz;
+    let leaving_b = seen[placement.ids.z + edge.y].leaving.xyz;
+    let limb = edge.z == ALONE || on_limb(placement, edge, leaving_a, leaving_b, a.xyz);
     let closer = select(1.0, LIMB_STRICTNESS, limb);
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;

@@ -76,16 +76,23 @@ fn strictness(placement: Placement) -> f32 {
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 8.0;
-/// A triangle seen under a cosine below this counts as seen edge-on: bent by the hole it may show both its sides.
-const LIMB_COSINE: f32 = 0.05;
+/// A triangle from which light leaves under a sine below this may be seen edge-on here or there: so far a ship may turn while light crosses it.
+const LIMB_SINE: f32 = 0.15;
 
-/// Whether the edge a–b between triangles to the corners c and d, all as they are seen, may be an outline: where the image folds, one triangle is
-/// turned to the camera and one away from it. Normals of vertices, which are there for the light, do not tell that of a body with corners.
-fn on_limb(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>) -> bool {
-    let first = cross(b - a, c - a);
-    let second = cross(d - a, b - a);
-    let facing = vec2<f32>(dot(first, a) / max(length(first), 1e-30), dot(second, a) / max(length(second), 1e-30)) / max(length(a), 1e-30);
-    return facing.x * facing.y < 0.0 || min(abs(facing.x), abs(facing.y)) < LIMB_COSINE;
+/// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or so differently
+/// at its two ends. Normals of vertices, which are there for the light, do not tell that of a body with corners; nor do places on the screen, where
+/// an edge drawn out along the ring bends by more than its triangles are wide. `edge` has the two vertices and those opposite to it.
+fn on_limb(placement: Placement, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
+    let first = placement.vertices.x;
+    let corner = model_vertices[first + edge.x].position.xyz;
+    let along = shaped(placement, model_vertices[first + edge.y].position.xyz - corner);
+    let c = shaped(placement, model_vertices[first + edge.z].position.xyz - corner);
+    let d = shaped(placement, model_vertices[first + edge.w].position.xyz - corner);
+    // Of both triangles the normal on the same side of the surface.
+    let n = at_rest(placement, cross(along, c), offset);
+    let m = at_rest(placement, cross(d, along), offset);
+    let sines = vec4<f32>(dot(n, leaving_a), dot(n, leaving_b), dot(m, leaving_a), dot(m, leaving_b));
+    return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
 }
 
 /// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.
@@ -105,17 +112,22 @@ fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) 
 }
 
 /// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
-/// zero where no side is outside, or both are drawn. Lengths along the motion are γ times longer in the rest frame than on the slice.
+/// zero where no side is outside, or both are drawn.
 fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let first = placement.vertices.x;
     let corner = model_vertices[first + triangle.vertices.x].position.xyz;
     let a = shaped(placement, model_vertices[first + triangle.vertices.y].position.xyz - corner);
     let b = shaped(placement, model_vertices[first + triangle.vertices.z].position.xyz - corner);
-    let on_slice = cross(a, b);
+    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
+    return at_rest(placement, cross(a, b), offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+}
+
+/// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times
+/// longer there.
+fn at_rest(placement: Placement, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
     let momentum = momentum_at(placement, frame.radial.xyz * frame.radial.w + offset);
     let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
-    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    return n * select(sign / max(length(n), 1e-30), 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+    return n / max(length(n), 1e-30);
 }
 
 /// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.

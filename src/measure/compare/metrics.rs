@@ -57,7 +57,7 @@ pub struct Verdict {
     pub wrong_order: usize,
     /// Of those, the ones where the judge sees that order nowhere within a pixel.
     pub wrong_beyond_rim: usize,
-    /// Pixels without light, in the midst of others, where the judge sees a thing all around.
+    /// Pixels without light, in the midst of others, where the judge sees a thing all around with every ray.
     pub holes: usize,
     /// Pixels with light of a thing where the judge sees the shadow all around.
     pub lit: usize,
@@ -171,7 +171,9 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             let near = around.iter().any(|&j| (judge.layers[j].object, judge.layers[j].order) == (shown.object, shown.order));
             wrong_beyond_rim += usize::from(!near);
         }
-        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0));
+        // Not what is seen through a slit narrower than a pixel, which some of the judge's rays go through.
+        let filled = |j: usize| judge.shares[j].iter().map(|share| share.2).sum::<f32>() >= FULL;
+        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0 && filled(j)));
         lit += usize::from(frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]));
         let key = |j: usize| (judge.layers[j].object, judge.layers[j].order);
         let touched: BTreeSet<(u32, u32)> = around.iter().map(|&j| key(j)).filter(|&other| other.0 > 0 && other != key(i)).collect();
