@@ -53,7 +53,8 @@ struct Placement {
     shape_x: vec4<f32>,
     shape_y: vec4<f32>,
     shape_z: vec4<f32>,
-    /// Angular velocity about T₀ in 1/T, rain axes, its rate, and below dp/dT of the momentum p that contracts the body on the slice; w: p at T₀.
+    /// Angular velocity about T₀ in 1/T, rain axes, its rate, and below dp/dT of the momentum p that contracts the body on the slice;
+    /// w of these three: p at T₀.
     spin: vec4<f32>,
     spin_rate: vec4<f32>,
     /// A jump of the angular velocity; w: when after T₀.

@@ -1,5 +1,6 @@
 //! How a moving body swings while its light crosses it: its centre to third order, its attitude to second order in the rotation vector and
-//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the placement; [`swing_at`] is the twin of the shader's.
+//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the placement;
+//! [`swing_at`] is the twin of the shader's.
 
 use glam::{DVec3, Vec3};
 
@@ -29,8 +30,8 @@ pub struct Swing {
 
 impl Swing {
     /// Fitted through the places and attitudes of T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c): light crosses a body of that radius in such a while.
-    /// A Taylor series about T₀ would be off by the most where it matters, at the ends; and where the turning of a ship jumps, which a ship of a hundred
-    /// pixels shows by two, it has no derivatives to take.
+    /// A Taylor series about T₀ would be off by the most where it matters, at the ends; and where the turning of a ship jumps, which one of a hundred
+    /// pixels shows by two, there are no derivatives to take.
     pub fn new(history: &History, emission: f64, reach: f64) -> Swing {
         // Of what is smaller than a thousandth of r_s differences would be lost in rounding, and no motion is seen.
         let w = reach.max(1e-3);

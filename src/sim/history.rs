@@ -155,10 +155,11 @@ impl History {
     }
 
     /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain axes, in
-    /// c/r_s) beyond what it changes from node to node anyway. None where fewer than two nodes lie in between.
+    /// c/r_s) beyond what it changes from node to node anyway. None where fewer than three nodes lie in between.
     pub fn jolt(&self, from: f64, to: f64) -> Option<(f64, DVec3)> {
-        let oldest_first = self.past.iter().rev().chain(&self.nodes);
-        let within: Vec<&Node> = oldest_first.filter(|node| node.time > from && node.time < to).collect();
+        let past = &self.past[self.past.partition_point(|node| node.time >= to)..self.past.partition_point(|node| node.time > from)];
+        let since = &self.nodes[self.nodes.partition_point(|node| node.time <= from)..self.nodes.partition_point(|node| node.time < to)];
+        let within: Vec<&Node> = past.iter().rev().chain(since).collect();
         let rates: Vec<DVec3> = within.windows(2).map(|pair| turning(pair[0], pair[1])).collect();
         let jumps: Vec<DVec3> = rates.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let (most, jump) = jumps.iter().enumerate().max_by(|a, b| a.1.length_squared().total_cmp(&b.1.length_squared()))?;
