@@ -309,15 +309,16 @@ fn without_light_delay_things_are_seen_where_they_are_now() {
     }
 }
 
-/// Method "paper1": vertices lie where the tables as their author used them say, evaluated on the processor; of a square behind the hole the
+/// Methods "paper1-…": vertices lie where the tables as their author used them say, evaluated on the processor; of a square behind the hole the
 /// triangles at the axis are dropped, which leaves a gap in the ring that ours closes.
 #[test]
 fn paper_one_projects_by_its_tables_and_drops_triangles() {
     use lensrunner::lensing::paper;
     let mut bench = bench();
     let table = Arc::new(bake(Scheme::Paper, 24, |_| ()));
-    bench.renderer.set_paper_table(table.clone());
-    let settings = Settings { method: Method::Paper1, orders: 3, stars: false, milky_way: false, ..Settings::default() };
+    bench.renderer.tables().set_paper(64, false, table.clone());
+    let paper1 = Method::Paper1 { nodes: 64, uniform: false };
+    let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::default() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
         let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
@@ -348,7 +349,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
         let picture = bench.renderer.picture(&frame, true).unwrap();
         (picture.layers.iter().filter(|texel| texel[0] == 1.0).count(), bench.renderer.counters().unwrap().indices / 3)
     };
-    let (holed, drawn) = count(&mut bench, Method::Paper1);
+    let (holed, drawn) = count(&mut bench, paper1);
     let (whole, _) = count(&mut bench, Method::Table);
     println!("{holed} pixels by paper 1 ({drawn} triangles), {whole} by the table");
     assert!(drawn < 2 * 200 && drawn > 200, "{drawn} triangles of two orders of 200");

@@ -25,7 +25,7 @@ fn close(got: f32, want: f32, relative: f32) -> bool {
 
 #[test]
 fn every_pass_compiles_by_every_method() {
-    for method in Method::ALL {
+    for method in Method::all() {
         for pass in Pass::ALL {
             let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
             let source = wgpu::ShaderSource::Wgsl(pass.source_by(method, true).into());

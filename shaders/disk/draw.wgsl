@@ -6,8 +6,7 @@
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    return Gas(clip_position(seen.apparent.xyz), vec4<f32>(seen.gas.x, exp2(4.0 * seen.gas.y), seen.gas.w, seen.more.y), vec4<f32>(light.rgb, seen.apparent.w), light.slope,
-        seen.more.zw);
+    return gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
 }
 
 /// The part of a pixel that a thin image covers, `d` pixels from its middle: its share of a tent two least widths wide. A box would leave a line that is
@@ -26,13 +25,13 @@ fn tent_below(x: f32) -> f32 {
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, false));
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, 1.0 / (LONGEST * LONGEST)));
 }
 
 /// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, true)) * coverage(in.thin.x, in.thin.y);
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, 1.0)) * coverage(in.seen.x, in.seen.y);
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -58,11 +57,13 @@ fn close_pattern(uv: vec2<f32>, level: f32, share: f32) -> f32 {
 /// From near: slant and the finest octaves in each pixel.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in.gas, in.light.w, in.thin.y < 1e5);
-    let fine = 1.0 - smoothstep(FINE.x, FINE.y, in.light.w);
-    let turbulence = at.shares.x * close_pattern(at.young, at.level, fine) + at.shares.y * close_pattern(at.old, at.level, fine);
-    let depth = in.gas.z * disk_slant(in.gas.w, in.light.w, near_half_height(in.gas.y));
-    return gas_colour(in.light.rgb, in.slope, depth, turbulence) * coverage(in.thin.x, in.thin.y);
+    let path = in.seen.z;
+    let at = streaks_of(in, select(1.0 / (LONGEST * LONGEST), 1.0, in.seen.y < 1e5));
+    let level = 0.5 * log2(max(at.square, 1e-12));
+    let fine = 1.0 - smoothstep(FINE.x, FINE.y, path);
+    let cooling = in.even.w * close_pattern(at.even, level, fine) + in.odd.w * close_pattern(at.odd, level, fine);
+    let depth = in.light.w * disk_slant(in.seen.w, path, near_half_height(in.slope.w));
+    return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);
 }
 
 /// Half height of the disk at a radius of the pattern: thickness times that.

@@ -13,11 +13,11 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
     let light = gas_light(gas.a.x, log(ratio.x));
     let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
-    let place = vec4<f32>(place_in_disk.x - gas.b.x / 6.28318531, exp2(4.0 * gas.b.z), depth, ratio.y);
-    return Gas(clip_position(found.apparent.xyz), place, vec4<f32>(light.rgb, found.apparent.w), light.slope, vec2<f32>(0.0, 1e6));
+    let turns = place_in_disk.x - gas.b.x / 6.28318531;
+    return gas_at(clip_position(found.apparent.xyz), turns, gas.b.z, found.apparent.w, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
 }
 
 @fragment
 fn fragment(in: Gas) -> @location(0) vec4<f32> {
-    return vec4<f32>(gas_colour(in.light.rgb, in.slope, in.gas.z, far_turbulence(in.gas, in.light.w, false)).rgb, 1.0);
+    return vec4<f32>(gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, 1.0 / (LONGEST * LONGEST))).rgb, 1.0);
 }

@@ -35,7 +35,7 @@ struct LensCamera {
     fade: f32,   // share of the weak-field terms
     bend: f32,   // n of K″ = 1 + nK
     rate: f32,   // √|n|
-    force: f32,  // 3/2 a² − a
+    even: f32,   // how much the room at the camera counts beside that at the point
     soft: f32,   // softening, start and 1/length of the axis of points
     start: f32,
     scale: f32,
@@ -162,7 +162,8 @@ fn slopes(cam: LensCamera, rise: f32, sk: vec2<f32>) -> vec2<f32> {
     // What is right only in weak fields, held down where K grows.
     let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
     let am = cam.a * m;
-    let f = cam.force;
+    // u″ at the camera.
+    let f = cam.a * (1.5 * cam.a - 1.0);
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
@@ -205,17 +206,16 @@ fn emission_scale(cam: LensCamera, c: f32) -> f32 {
 
 /// The part of the delay that is regular across the Einstein ring. `logs` are ln(r/L) and ln(h/2).
 fn delay_across(cam: LensCamera, r: f32, c: f32, room: f32, dr: f32, lens: vec3<f32>, logs: vec2<f32>) -> f32 {
-    // Exact along Φ = 0.
-    let direct = dr + 3.0 * logs.x;
     let mean = 1.0 + 3.0 * select(cam.a, logs.x / dr, abs(dr) > 1e-6 * cam.l);
-    let across = mean * (1.0 + 3.0 * c) * (room + lens.x * c * c * cam.share) * r * cam.l * lens.z;
-    return sqrt(direct * direct + across) - 2.0 * logs.y;
+    let both = room + cam.even * (cam.room - room) + lens.x * c * c * (cam.share - 1.5 * cam.share * cam.even);
+    let across = (1.0 + 1.5 * (cam.a + c)) * both * r * cam.l * lens.z;
+    return sqrt(mean * (mean * dr * dr + across)) - 2.0 * logs.y;
 }
 
 fn delay_factor(cam: LensCamera, c: f32, k: f32, e: f32) -> f32 {
     let near = c + 0.01;
     let c4 = near * near * near * near;
-    return e / sqrt(e * e + 0.5 * k * c4 * c4 * cam.lift);
+    return e / sqrt(e * e + 0.25 * k * k * c4 * c4 * cam.lift);
 }
 
 /// The rest of the delay: what is singular at the horizon and what falls with the rain.

@@ -15,15 +15,15 @@ const SMALLEST_BAKED_SWEEP: f64 = 1e-4;
 /// None where no ray joins the two.
 pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let bent = bent_sweep(sweep);
-    let [w0, w_e0] = slope_guess(cam, c - cam.a, bent);
+    let (w0, w_e0) = slope_guess(cam, c - cam.a, bent);
     let ray = join_near(c, sweep, cam.a, Branch::Plus, Some(w0))?;
     let time = delay(&ray, c, sweep, cam.a);
     let Ray { slope: w, emission_slope: w_e, energy: e } = ray;
     let (r, room, dr) = (1.0 / c, 1.0 - c, 1.0 / c - cam.l);
     let lens = lens_equation(cam, c, bent, stumpff(0.25 * bent * bent));
-    let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
     let rest = time - delay_along(cam, r, c, dr, cones);
-    let across = delay_across(cam, r, c, room, dr, lens, [(r * cam.a).ln(), (0.5 * lens[1]).ln()]);
+    let across = delay_across(cam, r, c, room, dr, lens, ((r * cam.a).ln(), (0.5 * lens[1]).ln()));
     let turn = |u: f64, from: f64, to: f64| (0.5 * (u.atan2(-to) - u.atan2(-from))).tan();
     Some([turn(cam.a, w0, w), rest / delay_factor(cam, c, lens[0], e) - across, turn(emission_scale(cam, c), w_e0, w_e)])
 }

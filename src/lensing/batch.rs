@@ -141,7 +141,7 @@ fn slopes(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
     let [s, k] = basis(cam, bent);
     let m = all(cam.fade) / (all(1.0) + all(cam.a) * all(cam.a) * k * k);
     let am = all(cam.a) * m;
-    let f = all(cam.force);
+    let f = all(cam.a * (1.5 * cam.a - 1.0));
     let b = s * (all(1.0) + am * k);
     let c = rise - f * k - all(0.5) * am * f * k * k;
     let q = m * k * k;
@@ -261,14 +261,14 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     let [seen, seen_less] = light_cone(w, e, all(cam.a), all(cam.beta), all(cam.room));
     let [emitted, emitted_less] = light_cone(w_e, e, c, root_c, open);
     let log = log1p(dr * all(cam.a));
-    let direct = dr + all(3.0) * log;
     let mean = all(1.0) + dr.abs().simd_gt(all(1e-6 * cam.l)).select(all(3.0) * log / dr, all(3.0 * cam.a));
-    let across = mean * (all(1.0) + all(3.0) * c) * (open + k * c * c * all(cam.share)) * r * l * q;
+    let both = open + all(cam.even) * (all(cam.room) - open) + k * c * c * all(cam.share - 1.5 * cam.share * cam.even);
+    let across = (all(1.0) + all(1.5) * (all(cam.a) + c)) * both * r * l * q;
     let near_hole = c + all(0.01);
     let c4 = near_hole * near_hole * near_hole * near_hole;
-    let factor = e / (e * e + all(0.5) * k * c4 * c4 * all(cam.lift)).sqrt();
+    let factor = e / (e * e + all(0.25) * k * k * c4 * c4 * all(cam.lift)).sqrt();
     let along = all(2.0) * ((emitted * seen_less * (r * l)).ln() - dr / (r * root_c + all(cam.l * cam.beta)));
-    let delay = along + factor * ((direct * direct + across).sqrt() - all(2.0) * lens + table[1]);
+    let delay = along + factor * ((mean * (mean * dr * dr + across)).sqrt() - all(2.0) * lens + table[1]);
     let (frequency, emission_frequency) = (all(0.5) * (seen + seen_less), all(0.5) * (emitted + emitted_less));
     let leaving = all(0.5) * (emitted - emitted_less);
     let over = all(0.5) / frequency;

@@ -83,7 +83,7 @@ pub mod single {
 
     /// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0, of both, for −1 ≤ x ≤ 4.5 (√x up to 2.12): off by 2e-9.
     #[inline(always)]
-    pub fn stumpffs([a, b]: [f32; 2]) -> [[f32; 2]; 2] {
+    pub fn stumpffs(a: f32, b: f32) -> [(f32, f32); 2] {
         let lanes = |s: f32, c: f32| f32x4::from([s, c, s, c]);
         let x = f32x4::from([a, a, b, b]);
         let square = x * x;
@@ -93,13 +93,13 @@ pub mod single {
         let last = square * lanes(0.0, 1.959_04e-9);
         let value = low + square * (middle + square * (high + last));
         let [s, c, t, d] = value.to_array();
-        [[s, c], [t, d]]
+        [(s, c), (t, d)]
     }
 
     /// Those of one.
     #[inline(always)]
-    pub fn stumpff(x: f32) -> [f32; 2] {
-        stumpffs([x, x])[0]
+    pub fn stumpff(x: f32) -> (f32, f32) {
+        stumpffs(x, x)[0]
     }
 }
 
@@ -121,16 +121,16 @@ pub mod double {
     }
 
     /// Stumpff's functions (sin √x / √x, cos √x), hyperbolic for x < 0.
-    pub fn stumpff(x: f64) -> [f64; 2] {
+    pub fn stumpff(x: f64) -> (f64, f64) {
         if x.abs() < 1e-8 {
-            return [1.0 - x / 6.0, 1.0 - x / 2.0];
+            return (1.0 - x / 6.0, 1.0 - x / 2.0);
         }
         let root = x.abs().sqrt();
-        if x > 0.0 { [root.sin() / root, root.cos()] } else { [root.sinh() / root, root.cosh()] }
+        if x > 0.0 { (root.sin() / root, root.cos()) } else { (root.sinh() / root, root.cosh()) }
     }
 
     /// Those of both.
-    pub fn stumpffs(x: [f64; 2]) -> [[f64; 2]; 2] {
-        x.map(stumpff)
+    pub fn stumpffs(a: f64, b: f64) -> [(f64, f64); 2] {
+        [stumpff(a), stumpff(b)]
     }
 }

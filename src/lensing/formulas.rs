@@ -41,8 +41,8 @@ pub struct Camera {
     pub bend: Real,
     /// √|n|.
     pub rate: Real,
-    /// u″ at the camera: 3/2 a² − a.
-    pub force: Real,
+    /// How much the room at the camera counts beside that at the point: a half, less and less the further inside the camera is.
+    pub even: Real,
     /// The softening of the axis of points.
     pub soft: Real,
     /// Where the axis of points begins.
@@ -73,7 +73,7 @@ pub fn camera(l: f64) -> Camera {
         fade: m as Real,
         bend: n as Real,
         rate: n.abs().sqrt() as Real,
-        force: (1.5 * a * a - a) as Real,
+        even: (0.5 * (-(l.min(1.0).ln() / 0.45).powi(2)).exp()) as Real,
         soft: soft as Real,
         start: first as Real,
         scale: (1.0 / (last - first)) as Real,
@@ -100,7 +100,7 @@ pub fn bent_sweep(sweep: Real) -> Real {
 /// h is half the chord's fall, cos(Φ/2), doubled and kept positive beyond π: (y + √(y² + s²))/2 with y = 2 cos(Φ/2) and the width s of the Einstein
 /// ring; q is the square of the chord between two unit vectors less what the lens takes.
 #[inline]
-pub fn lens_equation(cam: &Camera, c: Real, bent: Real, [sine, cosine]: [Real; 2]) -> [Real; 3] {
+pub fn lens_equation(cam: &Camera, c: Real, bent: Real, (sine, cosine): (Real, Real)) -> [Real; 3] {
     let x = bent * sine;
     let square = x * x;
     let k = 0.5 * square;
@@ -122,20 +122,20 @@ pub fn near_axis(sweep: Real) -> Real {
 /// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The second runs
 /// over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the Einstein ring.
 #[inline]
-pub fn axes(cam: &Camera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> [Real; 2] {
-    [(point - 2.0 * root_room - cam.start) * cam.scale, (sweep + near - 0.3 * lens) * (1.0 / SWEEP_LENGTH)]
+pub fn axes(cam: &Camera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
+    ((point - 2.0 * root_room - cam.start) * cam.scale, (sweep + near - 0.3 * lens) * (1.0 / SWEEP_LENGTH))
 }
 
 /// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin, from [`half_angle`] and Stumpff's functions of it.
 #[inline]
-pub fn basis(cam: &Camera, sweep: Real, x: Real, [sine, cosine]: [Real; 2]) -> [Real; 2] {
+pub fn basis(cam: &Camera, sweep: Real, x: Real, (sine, cosine): (Real, Real)) -> (Real, Real) {
     let square = sweep * sweep;
     if x < -1.0 {
         let up = (cam.rate * sweep).exp();
         let down = 1.0 / up;
-        return [0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate)];
+        return (0.5 * (up - down) / cam.rate, (0.5 * (up + down) - 1.0) / (cam.rate * cam.rate));
     }
-    [sweep * sine * cosine, 0.5 * square * sine * sine]
+    (sweep * sine * cosine, 0.5 * square * sine * sine)
 }
 
 /// The square of half the angle that [`basis`] is taken of, negative where it is hyperbolic.
@@ -145,18 +145,19 @@ pub fn half_angle(cam: &Camera, sweep: Real) -> Real {
 }
 
 /// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
-pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> [Real; 2] {
+pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> (Real, Real) {
     let x = half_angle(cam, bent);
     slopes(cam, rise, basis(cam, bent, x, stumpff(x)))
 }
 
 /// The same from [`basis`].
 #[inline]
-pub fn slopes(cam: &Camera, rise: Real, [s, k]: [Real; 2]) -> [Real; 2] {
+pub fn slopes(cam: &Camera, rise: Real, (s, k): (Real, Real)) -> (Real, Real) {
     // What is right only in weak fields, held down where K grows.
     let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
     let am = cam.a * m;
-    let f = cam.force;
+    // u″ at the camera.
+    let f = cam.a * (1.5 * cam.a - 1.0);
     let b = s * (1.0 + am * k);
     let c = rise - f * k - 0.5 * am * f * k * k;
     let q = m * k * k;
@@ -166,9 +167,9 @@ pub fn slopes(cam: &Camera, rise: Real, [s, k]: [Real; 2]) -> [Real; 2] {
     if cam.bend > 0.0 {
         // The same derivative with the growing terms that cancel taken out by the equation for w.
         let rest = (1.5 + 0.5 * cam.bend * k) * k * k * (am * f + m * w * w);
-        return [w, (turn * rise + f * k + rest) * (1.0 / s) + w * am * s * s];
+        return (w, (turn * rise + f * k + rest) * (1.0 / s) + w * am * s * s);
     }
-    [w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w)]
+    (w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w))
 }
 
 /// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
@@ -181,8 +182,8 @@ pub fn energy(w: Real, u: Real, room: Real) -> Real {
 /// slopes w and the energy e: frequency plus outward momentum at both, then frequency less it. Their product is u², the square of the momentum
 /// against the sweep. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
 #[inline]
-pub fn light_cones(w: [Real; 2], e: Real, u: [Real; 2], beta: [Real; 2], room: [Real; 2]) -> [Real; 4] {
-    let pair = |[a, b]: [Real; 2]| Four::from([a, b, a, b]);
+pub fn light_cones(w: (Real, Real), e: Real, u: (Real, Real), beta: (Real, Real), room: (Real, Real)) -> [Real; 4] {
+    let pair = |(a, b): (Real, Real)| Four::from([a, b, a, b]);
     let (w, u, e) = (pair(w), pair(u), Four::splat(e));
     let rising = w.simd_gt(Four::ZERO) | Four::ZERO.simd_gt(e);
     let square = u * u;
@@ -196,14 +197,14 @@ pub fn light_cones(w: [Real; 2], e: Real, u: [Real; 2], beta: [Real; 2], room: [
 /// The slopes whose angles atan2(u, −slope) are those of the guesses turned by twice the angles whose tangents are `turns`: how the table corrects
 /// the closed forms.
 #[inline]
-pub fn turned_slopes(guesses: [Real; 2], u: [Real; 2], turns: [Real; 2]) -> [Real; 2] {
-    let pair = |[a, b]: [Real; 2]| Four::from([a, b, a, b]);
+pub fn turned_slopes(guesses: (Real, Real), u: (Real, Real), turns: (Real, Real)) -> (Real, Real) {
+    let pair = |(a, b): (Real, Real)| Four::from([a, b, a, b]);
     let (guess, u, turn) = (pair(guesses), pair(u), pair(turns));
     // Cosine and sine of the turn, both times 1 + turn², which cancels.
     let (ct, st) = (Four::ONE - turn * turn, turn + turn);
     let sine = (u * ct - guess * st).fast_max(u * 1e-6);
     let [w, w_e, ..] = (u * (guess * ct + u * st) / sine).to_array();
-    [w, w_e]
+    (w, w_e)
 }
 
 /// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
@@ -213,22 +214,25 @@ pub fn emission_scale(cam: &Camera, c: Real) -> Real {
 }
 
 /// The part of the delay that is regular across the Einstein ring: the chord and Shapiro's logarithm. `logs` are ln(r/L) and ln(h/2).
+///
+/// Exact along Φ = 0 and, for a camera outside, to second order in the distance: the mean of 1 + 3/r over the way times the root of the squares of
+/// the radial distance and of the chord, the latter by the mean of the room at both ends. Next to the horizon it is exact at any distance that is
+/// small beside 1: there four times ((ε₁ − ε₂)² + (ε₁ + ε₂) φ²/2 + φ⁴/16)^½ with ε = r − 1 is light between two falling observers in flat space.
 #[inline]
-pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _, q]: [Real; 3], logs: [Real; 2]) -> Real {
-    // Exact along Φ = 0.
-    let direct = dr + 3.0 * logs[0];
-    let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs[0] / dr } else { cam.a };
-    let across = mean * (1.0 + 3.0 * c) * (room + k * c * c * cam.share) * r * cam.l * q;
-    (direct * direct + across).sqrt() - 2.0 * logs[1]
+pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _, q]: [Real; 3], logs: (Real, Real)) -> Real {
+    let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs.0 / dr } else { cam.a };
+    let both = room + cam.even * (cam.room - room) + k * c * c * (cam.share - 1.5 * cam.share * cam.even);
+    let across = (1.0 + 1.5 * (cam.a + c)) * both * r * cam.l * q;
+    (mean * (mean * dr * dr + across)).sqrt() - 2.0 * logs.1
 }
 
 /// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
 #[inline]
 pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
-    // Far away it is 1 all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
+    // Near the camera it is 1, and far away all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
     let near = c + 0.01;
     let c4 = near * near * near * near;
-    e / (e * e + 0.5 * k * c4 * c4 * cam.lift).sqrt()
+    e / (e * e + 0.25 * k * k * c4 * c4 * cam.lift).sqrt()
 }
 
 /// The rest of the delay: what is singular at the horizon and what falls with the rain, from the photon's [`light_cones`].

@@ -32,7 +32,7 @@ pub fn camera_radius(z: f64) -> f64 {
 }
 
 /// The first two coordinates, for c = 1/r and the angle swept.
-pub fn coordinates(cam: &Camera, c: f64, sweep: f64) -> [f64; 2] {
+pub fn coordinates(cam: &Camera, c: f64, sweep: f64) -> (f64, f64) {
     let bent = bent_sweep(sweep);
     let [_, h, _] = lens_equation(cam, c, bent, stumpff(0.25 * bent * bent));
     axes(cam, (1.0 - c).max(0.0).sqrt(), sweep, [(c + cam.soft).ln(), near_axis(sweep).ln(), (0.5 * h).ln()])
@@ -40,12 +40,12 @@ pub fn coordinates(cam: &Camera, c: f64, sweep: f64) -> [f64; 2] {
 
 /// 1/r at the first coordinate `x`.
 pub fn point(cam: &Camera, x: f64) -> f64 {
-    invert(|c| coordinates(cam, c, 0.0)[0], x, POINT_RANGE)
+    invert(|c| coordinates(cam, c, 0.0).0, x, POINT_RANGE)
 }
 
 /// Φ at the second coordinate `y`; the last nodes lie somewhat beyond 3π.
 pub fn sweep(cam: &Camera, c: f64, y: f64) -> f64 {
-    invert(|p| coordinates(cam, c, p)[1], y, [0.0, 1.5 * LARGEST_SWEEP])
+    invert(|p| coordinates(cam, c, p).1, y, [0.0, 1.5 * LARGEST_SWEEP])
 }
 
 /// The camera at the third coordinate `z`.

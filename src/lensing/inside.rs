@@ -64,7 +64,7 @@ pub fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
     for k in 0..12 {
         let [x, weight] = INSIDE_NODES[k % 6];
         let theta = middle + if k < 6 { half * x } else { -half * x };
-        let [sine, cos] = stumpff(theta * theta);
+        let (sine, cos) = stumpff(theta * theta);
         let sin = theta * sine;
         let rho = s * sin * sin;
         let square = (s * cos * cos - d + q * rho * rho * rho).max(1e-12);

@@ -214,16 +214,16 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
         room = room.max(LEAST_ROOM);
         let bent = bent_sweep(swept);
         let square = half_angle(cam, bent);
-        let [half, turned] = stumpffs([0.25 * bent * bent, square]);
+        let [half, turned] = stumpffs(0.25 * bent * bent, square);
         let guesses = slopes(cam, -at.dr * c * cam.a, basis(cam, bent, square, turned));
         let lens = lens_equation(cam, c, bent, half);
         let logs = ln4([c + cam.soft, near_axis(swept), 0.5 * lens[1]], at.dr * cam.a);
-        let [x, y] = axes(cam, room.sqrt(), swept, [logs[0], logs[1], logs[2]]);
-        let across = delay_across(cam, at.r, c, room, at.dr, lens, [logs[3], logs[2]]);
+        let (x, y) = axes(cam, room.sqrt(), swept, [logs[0], logs[1], logs[2]]);
+        let across = delay_across(cam, at.r, c, room, at.dr, lens, (logs[3], logs[2]));
         let table = residuals(x, y);
-        let [w, w_e] = turned_slopes(guesses, [cam.a, emission_scale(cam, c)], [table[0], table[2]]);
+        let (w, w_e) = turned_slopes(guesses, (cam.a, emission_scale(cam, c)), (table[0], table[2]));
         let [w, e, w_e] = joined(w, w_e, cam, c, room);
-        let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+        let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
         let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens[0], e) * (across + table[1]);
         return ray_with(cam, c, [w, e, w_e, delay], cones);
     }
@@ -237,7 +237,7 @@ pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals:
 /// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
 #[inline]
 pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
-    let cones = light_cones([w, w_e], e, [cam.a, c], [cam.beta, c.sqrt()], [cam.room, room]);
+    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
     ray_with(cam, c, [w, e, w_e, delay], cones)
 }
 

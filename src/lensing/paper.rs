@@ -144,7 +144,7 @@ pub fn slice(table: &Table, l: f64) -> Vec<[f32; 4]> {
     let cam = super::single::camera(l);
     let mut texels = vec![
         [cam.l, cam.room, cam.a, cam.beta],
-        [cam.fade, cam.bend, cam.rate, cam.force],
+        [cam.fade, cam.bend, cam.rate, cam.even],
         [cam.soft, cam.start, cam.scale, 0.0],
         [n as f32, n as f32, 0.0, 0.0],
     ];

@@ -74,7 +74,7 @@ pub fn middle_ray(a: f32, low: f32, high: f32) -> f32 {
 
 /// The ray that sweeps `phi` from u = a to u = c = a + `rise`, by shots of `fire(x)`.
 pub fn shot_ray(cam: &Camera, c: f32, rise: f32, phi: f32, fire: impl Fn(f32) -> Fired) -> Joined {
-    let mut x = slope_guess(cam, rise, bent_sweep(phi))[0] + fan_shift(cam);
+    let mut x = slope_guess(cam, rise, bent_sweep(phi)).0 + fan_shift(cam);
     let mut low = -BEYOND;
     let mut high = if cam.room < 0.0 { 0.0 } else { BEYOND };
     let mut last = BEYOND;

@@ -29,6 +29,8 @@ pub struct Cut<'a> {
     pub size: [u32; 2],
     layers: [&'a [[f32; 3]]; 4],
     weights: [f32; 4],
+    /// Between the nodes around the radius, 0 to 1.
+    place: f32,
 }
 
 impl<'a> Cut<'a> {
@@ -40,7 +42,7 @@ impl<'a> Cut<'a> {
         let (layer, t) = spline::cell(grid::camera_axis(l), nz);
         let size = (nx + 2) * (ny + 2) * 3;
         let layers = [0, 1, 2, 3].map(|k| table.values[(layer + k) * size..(layer + k + 1) * size].as_chunks::<3>().0);
-        Cut { camera: camera(l), size: [nx as u32, ny as u32], layers, weights: spline::weights(t).map(|w| w as f32) }
+        Cut { camera: camera(l), size: [nx as u32, ny as u32], layers, weights: spline::weights(t).map(|w| w as f32), place: t as f32 }
     }
 
     fn sum(&self, [a, b, c, d]: [&[f32; 3]; 4]) -> [f32; 4] {
@@ -118,10 +120,30 @@ impl Slice {
         self.texels[..HEADER].iter().copied().chain(pairs).collect()
     }
 
+    /// The texels of a table that is linear in all three dimensions between its nodes, laid out as [`Slice::nodes`]; `half`: between nodes in half
+    /// precision.
+    pub fn trilinear(table: &Table, l: f64, half: bool) -> Vec<[f32; 4]> {
+        let cut = Cut::new(table, l);
+        // At a node three layers count.
+        let [first, middle, last, _] = spline::weights(0.0).map(|w| w as f32);
+        let layer = |weights: [f32; 4]| {
+            let cut = Cut { weights, ..cut };
+            let coefficients = (0..cut.layers[0].len()).map(|k| cut.coefficient(k));
+            let nodes = Slice::assembled(cut.camera, cut.size, coefficients).nodes();
+            let stored = |x: f32| if half { half::f16::from_f32(x).to_f32() } else { x };
+            let (header, nodes) = nodes.split_at(HEADER);
+            (header.to_vec(), nodes.iter().map(|node| node.map(stored)).collect::<Vec<_>>())
+        };
+        let (mut texels, low) = layer([first, middle, last, 0.0]);
+        let (_, high) = layer([0.0, first, middle, last]);
+        texels.extend(low.iter().zip(&high).map(|(a, b)| std::array::from_fn(|h| a[h] * (1.0 - cut.place) + b[h] * cut.place)));
+        texels
+    }
+
     fn assembled(cam: Camera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
         let header = [
             [cam.l, cam.room, cam.a, cam.beta],
-            [cam.fade, cam.bend, cam.rate, cam.force],
+            [cam.fade, cam.bend, cam.rate, cam.even],
             [cam.soft, cam.start, cam.scale, cam.share],
             [size[0] as f32, size[1] as f32, cam.reach, cam.lift],
         ];

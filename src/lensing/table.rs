@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// The first bytes of a table file.
 const MAGIC: &[u8; 8] = b"LENSTAB\n";
 /// The version of the layout and of the formulas that the values belong to: raised whenever either changes.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 /// The units of the ranges and of what is looked up.
 const UNITS: &str = "r_s; r_s/c; rad";
 /// Bytes before the values.
@@ -159,6 +159,11 @@ impl Table {
         }
         let values = bytes[HEADER..whole - 4].as_chunks::<4>().0.iter().map(|b| f32::from_le_bytes(*b)).collect();
         Ok(Table { scheme: wanted, size, values })
+    }
+
+    /// The same with its values rounded to half precision.
+    pub fn rounded(&self) -> Table {
+        Table { values: self.values.iter().map(|v| half::f16::from_f32(*v).to_f32()).collect(), ..*self }
     }
 
     /// Writes the file `path`.

@@ -22,10 +22,11 @@ pub fn race() -> Option<Race> {
 /// The index of the method's family in `measure::methods::FAMILIES`.
 fn family(method: Method) -> usize {
     match method {
-        Method::Table | Method::TableLinear | Method::TableHalf | Method::Newton => 0,
-        Method::Paper1 => 1,
+        Method::Table | Method::TableFull | Method::TableLinear | Method::TableHalf | Method::Newton => 0,
+        Method::ResidualCubic { .. } | Method::ResidualLinear { .. } => 0,
+        Method::Paper1 { .. } => 1,
         Method::Beloborodov | Method::Poutanen | Method::Flat => 2,
-        Method::Rk4Coarse | Method::Rk4 => 3,
+        Method::Rk4 { .. } => 3,
         Method::Exact => 4,
     }
 }
@@ -41,7 +42,7 @@ impl Adapter for Race {
     }
 
     fn methods(&self) -> Vec<(&'static str, usize)> {
-        Method::ALL.into_iter().map(|method| (method.name(), family(method))).collect()
+        Method::all().map(|method| (method.name(), family(method))).collect()
     }
 
     fn look_up(&mut self, method: &str, camera: f64, rows: &[[f32; 4]]) -> Option<Vec<Option<[f64; 2]>>> {
@@ -62,5 +63,5 @@ impl Adapter for Race {
 
 /// Whether the method reads more than the constants of the camera.
 fn reads_table(method: Method) -> bool {
-    matches!(method, Method::Table | Method::TableLinear | Method::TableHalf | Method::Newton | Method::Paper1)
+    family(method) < 2
 }

@@ -26,6 +26,7 @@ pub mod shot;
 pub mod sky;
 pub mod stage;
 pub mod swing;
+pub mod tables;
 pub mod targets;
 pub mod timing;
 pub mod types;

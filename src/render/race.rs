@@ -7,14 +7,14 @@ use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{Slice, Table, paper};
+use crate::lensing::{Slice, Table};
 
 use super::Gpu;
 use super::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
 use super::method::Method;
 use super::readback::{self, PictureError};
-use super::renderer::paper_table;
 use super::shaders;
+use super::tables::Tables;
 
 /// Threads of a workgroup.
 const GROUP: usize = 64;
@@ -23,8 +23,7 @@ const GROUP: usize = 64;
 #[derive(Debug)]
 pub struct Race {
     gpu: Gpu,
-    table: Arc<Table>,
-    paper: Option<Table>,
+    tables: Tables,
     layout: wgpu::BindGroupLayout,
     /// The look-up of each method, and the same dispatch without one.
     pipelines: HashMap<Method, [wgpu::ComputePipeline; 2]>,
@@ -35,12 +34,12 @@ impl Race {
     pub fn new(gpu: &Gpu, table: Arc<Table>) -> Race {
         let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Write];
         let layout = layout(&gpu.device, "race", ShaderStages::COMPUTE, &slots);
-        Race { gpu: gpu.clone(), table, paper: None, layout, pipelines: HashMap::new() }
+        Race { gpu: gpu.clone(), tables: Tables::new(table), layout, pipelines: HashMap::new() }
     }
 
-    /// With these tables of paper 1 instead of those that the game draws with.
-    pub fn with_paper(self, table: Table) -> Race {
-        Race { paper: Some(table), ..self }
+    /// The tables of the methods.
+    pub fn tables(&mut self) -> &mut Tables {
+        &mut self.tables
     }
 
     /// The adapter's name and kind.
@@ -52,10 +51,8 @@ impl Race {
 
     /// What `method` reads for a camera at the radius `l`, r_s.
     pub fn texels(&mut self, method: Method, l: f64) -> Vec<[f32; 4]> {
-        if method == Method::Paper1 {
-            return paper::slice(self.paper.get_or_insert_with(paper_table), l);
-        }
-        method.texels(&Slice::new(&self.table, l))
+        let slice = Slice::new(self.tables.small(), l);
+        self.tables.texels(method, l, &slice)
     }
 
     /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in r_s/c,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{self, Scheme, Slice, Table, TableError, paper};
+use crate::lensing::{Slice, Table};
 use crate::scene::model::Model;
 
 use super::Gpu;
@@ -21,6 +21,7 @@ use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
 use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
+use super::tables::Tables;
 use super::targets::Targets;
 use super::timing::Timing;
 use super::types::{self, Counters, Star};
@@ -40,9 +41,7 @@ pub struct Surroundings {
 #[derive(Debug)]
 pub struct Renderer {
     gpu: Gpu,
-    table: Arc<Table>,
-    /// Paper 1's tables, once they are asked for.
-    paper: Option<Arc<Table>>,
+    tables: Tables,
     frame: wgpu::Buffer,
     lens_slice: TableTexture,
     sky_slice: TableTexture,
@@ -100,8 +99,7 @@ impl Renderer {
             models: Models::new(device),
             timing: Timing::new(gpu),
             gpu: gpu.clone(),
-            table: surroundings.table.clone(),
-            paper: None,
+            tables: Tables::new(surroundings.table.clone()),
             frame,
             lens_slice,
             sky_slice,
@@ -128,12 +126,12 @@ impl Renderer {
 
     /// The baked table.
     pub fn table(&self) -> &Arc<Table> {
-        &self.table
+        self.tables.small()
     }
 
-    /// The tables for the method "paper1", instead of those that are loaded or baked when it is first drawn.
-    pub fn set_paper_table(&mut self, table: Arc<Table>) {
-        self.paper = Some(table);
+    /// The tables of the methods.
+    pub fn tables(&mut self) -> &mut Tables {
+        &mut self.tables
     }
 
     /// Adds a model.
@@ -213,14 +211,8 @@ impl Renderer {
                 self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
-            let slice = Slice::new(&self.table, l);
-            let texels = match method {
-                Method::Paper1 => {
-                    let table = self.paper.get_or_insert_with(|| Arc::new(paper_table()));
-                    paper::slice(table, l)
-                }
-                _ => method.texels(&slice),
-            };
+            let slice = Slice::new(self.tables.small(), l);
+            let texels = self.tables.texels(method, l, &slice);
             if self.lens_slice.write(&self.gpu, &texels) {
                 let tables = [&self.lens_slice, &self.sky_slice, &self.blackbody];
                 self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, tables, &self.adaptation);
@@ -393,15 +385,6 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
-}
-
-/// Nodes along each axis of paper 1's tables, when they are baked here: a few seconds on two cores, and about the error of the paper's 64³.
-const PAPER_NODES: usize = 64;
-
-pub(super) fn paper_table() -> Table {
-    let file = lensing::default_file().with_file_name("paper1.lut");
-    let complain = |error: &TableError| bevy::log::warn!("{error}; the tables of paper 1 are baked");
-    lensing::load_or_bake(&file, Scheme::Paper, PAPER_NODES, complain, |_| ())
 }
 
 fn frame_bindings(

@@ -55,7 +55,7 @@ impl Integrate {
 
     fn solve(&self, cam: &Camera, query: Query, order: Order) -> Option<Sight> {
         let (a, c, swept) = (cam.a, 1.0 / query.r, order.swept(query.phi));
-        let [mut w, _] = slope_guess(cam, -(query.r - query.camera) / (query.r * query.camera), bent_sweep(swept));
+        let (mut w, _) = slope_guess(cam, -(query.r - query.camera) / (query.r * query.camera), bent_sweep(swept));
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_SHOTS {
             let step = match self.shoot(a, w, swept) {

@@ -9,38 +9,48 @@ const GREATEST: f32 = 3.0;
 /// The pattern with all its halvings, twice.
 #[derive(Debug)]
 pub struct Textures {
-    /// In 8 bits, (value + 3)/6 in all channels: the format that software rasterisers are fastest with.
+    /// In 8 bits, (value + 3)/6: each texel with its next to the right, below and across, so that one fetch does for a bilinear sample.
     pub far: wgpu::TextureView,
-    /// One halving at a time: two are twice the work.
+    /// Texel by texel, and one halving at a time.
     pub far_sampler: wgpu::Sampler,
     /// In 16-bit floats, for close looks.
     pub near: wgpu::TextureView,
-    /// One halving at a time, too.
+    /// Bilinear, and one halving at a time: two are twice the work.
     pub near_sampler: wgpu::Sampler,
 }
 
 impl Textures {
     /// Uploads them.
     pub fn new(gpu: &Gpu) -> Textures {
-        let levels = halvings();
-        let bytes = |value: f32| [((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8; 4].to_vec();
-        let halves = |value: f32| half::f16::from_f32(value).to_le_bytes().to_vec();
-        let sampler = |label, mipmap_filter| {
+        let levels = halvings((WIDTH as u32, HEIGHT as u32, LATTICE.clone()));
+        let bytes = |level: &Level| -> Vec<u8> {
+            let &(width, height, ref values) = level;
+            let at = |x: u32, y: u32| {
+                let value = values[((y % height) * width + x % width) as usize];
+                ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8
+            };
+            (0..width * height)
+                .map(|k| (k % width, k / width))
+                .flat_map(|(x, y)| [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
+                .collect()
+        };
+        let halves = |level: &Level| level.2.iter().flat_map(|&value| half::f16::from_f32(value).to_le_bytes()).collect();
+        let sampler = |label, filter| {
             gpu.device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some(label),
                 address_mode_u: wgpu::AddressMode::Repeat,
                 address_mode_v: wgpu::AddressMode::Repeat,
-                mag_filter: wgpu::FilterMode::Linear,
-                min_filter: wgpu::FilterMode::Linear,
-                mipmap_filter,
+                mag_filter: filter,
+                min_filter: filter,
+                mipmap_filter: wgpu::MipmapFilterMode::Nearest,
                 ..Default::default()
             })
         };
         Textures {
-            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &levels, &bytes),
-            far_sampler: sampler("gas from far", wgpu::MipmapFilterMode::Nearest),
+            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &halvings(narrower()), &bytes),
+            far_sampler: sampler("gas from far", wgpu::FilterMode::Nearest),
             near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
-            near_sampler: sampler("gas from near", wgpu::MipmapFilterMode::Nearest),
+            near_sampler: sampler("gas from near", wgpu::FilterMode::Linear),
         }
     }
 }
@@ -48,9 +58,14 @@ impl Textures {
 /// One level: width, height, values.
 type Level = (u32, u32, Vec<f32>);
 
-/// The lattice, halved again and again.
-fn halvings() -> Vec<Level> {
-    let mut levels = vec![(WIDTH as u32, HEIGHT as u32, LATTICE.clone())];
+/// The lattice, halved round the hole: its cells are long that way, and the less memory, the more of it stays near the processor.
+fn narrower() -> Level {
+    (WIDTH as u32 / 2, HEIGHT as u32, LATTICE.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect())
+}
+
+/// A level, and halved again and again.
+fn halvings(finest: Level) -> Vec<Level> {
+    let mut levels = vec![finest];
     while let Some((width, height, values)) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
         let (w, h) = (*width as usize, *height as usize);
         let halved = (0..w * h / 4).map(|k| {
@@ -63,7 +78,7 @@ fn halvings() -> Vec<Level> {
     levels
 }
 
-fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level], encode: &dyn Fn(f32) -> Vec<u8>) -> wgpu::TextureView {
+fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level], encode: &dyn Fn(&Level) -> Vec<u8>) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
         size: wgpu::Extent3d { width: levels[0].0, height: levels[0].1, depth_or_array_layers: 1 },
@@ -74,8 +89,9 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level]
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (mip, (width, height, values)) in levels.iter().enumerate() {
-        let bytes: Vec<u8> = values.iter().flat_map(|&value| encode(value)).collect();
+    for (mip, level) in levels.iter().enumerate() {
+        let (width, height, _) = level;
+        let bytes = encode(level);
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,

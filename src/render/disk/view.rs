@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
+use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
@@ -14,18 +15,27 @@ use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
-/// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this.
-const STRAIGHT: f64 = 0.4;
-/// Light does so too: as long as it is off by no more than this share of the brightest ring's.
-const STRAIGHT_LIGHT: f64 = 0.015;
-/// And optical depth.
-const STRAIGHT_DEPTH: f64 = 0.02;
+/// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this
+/// across the orbit.
+const STRAIGHT: f64 = 0.8;
+/// And along it, where streaks are ten times as long.
+const STRAIGHT_ALONG: f64 = 8.0;
+/// The logarithm of light goes straight too, and the optical depth: as long as the light that comes of both is off by no more than this share of the
+/// brightest ring's.
+const STRAIGHT_LIGHT: f64 = 0.03;
+/// And what is stopped of light from behind by no more than this.
+const STRAIGHT_STOPPED: f64 = 0.05;
+/// Optical depths along a ray, over those straight through, for which that must hold: seen face on and from about 80°.
+const SLANTS: [f64; 2] = [1.0, 5.0];
+/// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles, as
+/// shaders/disk/place.wgsl has it.
+const MEAN: [f64; 2] = [0.25, 1.0];
 /// Azimuths at which that is tried, on one side, for both sides are alike.
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
-const LEAST_ARC: f64 = 64.0;
+const LEAST_ARC: f64 = 128.0;
 /// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide. They fade in from here on, as
 /// shaders/disk/draw.wgsl has it.
 const CLOSE: f64 = 3.0;
@@ -71,7 +81,7 @@ impl DiskView {
             }
             let first = circles.len() as u32;
             let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
-            let (rows, pairs) = rows(disk, camera, &seen, width);
+            let (rows, pairs) = rows(disk, camera, &seen, width, order);
             let last = first + rows.len() as u32 - 1;
             let mean = if order == 1 { disk.gas.extent()[0] } else { mean_radius(&seen) };
             circles.extend(rows.into_iter().map(|r| circle(disk, r, mean, level, l, [order, first, last, 0])));
@@ -107,18 +117,23 @@ impl DiskView {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
+fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
     let circles = &disk.arcs.circles;
     if disk.config.gap > 0.0 {
         return (circles.clone(), disk.arcs.rings.clone());
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
-    let brightest = seen.iter().map(|circle| circle.light).fold(1e-300, f64::max);
+    let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
+    // How much of its own each circle shows: the narrower the whole image, the more one gas stands for all of it.
+    let own: [f64; AZIMUTHS] = std::array::from_fn(|k| {
+        let half = 0.5 * seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs() / pixel;
+        if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], half) }
+    });
     let straight = |a: usize, b: usize| {
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
             let m = (a * (n - k) + b * k) / n;
-            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest)
+            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest, &own)
         })
     };
     let mut chosen = vec![0];
@@ -140,12 +155,12 @@ fn mean_radius(seen: &[SeenCircle]) -> f64 {
         let [a, b] = [&pair[0], &pair[1]];
         let angles = a.places.iter().zip(&b.places).map(|(a, b)| a.angle_to(*b).abs()).filter(|angle| angle.is_finite());
         let across: f64 = angles.sum();
-        light += 0.5 * (a.light + b.light) * across;
+        light += 0.5 * (a.shining() + b.shining()) * across;
         width += across;
     }
     let mean = light / width.max(1e-300);
-    let brightest = (0..seen.len()).fold(0, |best, k| if seen[k].light > seen[best].light { k } else { best });
-    let at = seen[brightest..].iter().find(|circle| circle.light <= mean).unwrap_or(&seen[seen.len() - 1]);
+    let brightest = (0..seen.len()).fold(0, |best, k| if seen[k].shining() > seen[best].shining() { k } else { best });
+    let at = seen[brightest..].iter().find(|circle| circle.shining() <= mean).unwrap_or(&seen[seen.len() - 1]);
     at.radius
 }
 
@@ -164,6 +179,7 @@ struct SeenCircle {
     lag: f64,
     /// The radius that its pattern comes from.
     pattern: f64,
+    /// Of gas that lets nothing through.
     light: f64,
     depth: f64,
     /// For each azimuth the place, direction times light path, in the half plane that holds the ray: outward and across.
@@ -188,29 +204,43 @@ impl SeenCircle {
             radius: r,
             lag: radial.lag(r),
             pattern: radial.pattern_radius(r),
-            light: (-GREEN / radial.temperature(r)).exp() * radial.depth(r).min(1.0),
+            light: (-GREEN / radial.temperature(r)).exp().max(1e-300),
             depth: radial.depth(r),
             places,
         }
     }
 
+    /// Light of the gas as it is, face on.
+    fn shining(&self) -> f64 {
+        self.light * self.depth.min(1.0)
+    }
+
     /// Whether this circle looks as it should where one draws straight on from `a` to `b`.
-    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64) -> bool {
+    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64, own: &[f64; AZIMUTHS]) -> bool {
         (0..AZIMUTHS).all(|k| {
             let [here, start, end] = [self.places[k], a.places[k], b.places[k]];
             // Where the straight line is seen in this circle's direction.
             let (before, after) = (here.perp_dot(start), here.perp_dot(end));
             let t = before / (before - after);
-            let off = |value: f64, from: f64, to: f64| (from + t * (to - from) - value).abs();
+            let straight = |from: f64, to: f64| from + t * (to - from);
+            let off = |value: f64, from: f64, to: f64| (straight(from, to) - value).abs();
             // Pixels for each r_s across the ring, and along it.
-            let across = start.angle_to(end).abs() / (b.radius - a.radius) / pixel;
+            let wide = start.angle_to(end).abs() / pixel;
+            let across = wide / (b.radius - a.radius);
+            // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
+            let shown = own[k] * wide.min(1.0);
             let along = self.radius / here.length() / pixel;
+            let light = straight(a.light.ln(), b.light.ln()).exp();
+            let depth = straight(a.depth, b.depth);
+            let stopped = |depth: f64, slant: f64| 1.0 - (-slant * depth).exp();
             t > 0.0
                 && t < 1.0
                 && off(self.pattern, a.pattern, b.pattern) * across < STRAIGHT
-                && off(self.lag, a.lag, b.lag) * along < STRAIGHT
-                && off(self.light, a.light, b.light) < STRAIGHT_LIGHT * brightest
-                && off(self.depth, a.depth, b.depth) < STRAIGHT_DEPTH
+                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < STRAIGHT_ALONG
+                && SLANTS.into_iter().all(|slant| {
+                    (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < STRAIGHT_LIGHT * brightest
+                        && (stopped(depth, slant) - stopped(self.depth, slant)).abs() * shown < STRAIGHT_STOPPED
+                })
         })
     }
 }

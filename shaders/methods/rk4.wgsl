@@ -1,9 +1,7 @@
-// Method "rk4-16": shooting, each shot 16 steps of Runge and Kutta's fourth-order rule in f32. No table.
+// Methods "rk4-16", "rk4-64" and "rk4-256": shooting, each shot SHOT_STEPS steps of Runge and Kutta's fourth-order rule in f32. No table.
 
 /// Triangles are cut at the axis and subdivided, none is dropped.
 const METHOD_FILTERS: bool = false;
-
-const SHOT_STEPS: u32 = 16u;
 
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
