@@ -45,7 +45,7 @@ struct Placement {
     offset: vec4<f32>,
     /// The same centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
     position: vec4<f32>,
-    /// dx/dT of the centre; w: 1 where the object moves or turns, else 0.
+    /// dx/dT of the centre; w: r_s per unit of the model where the object moves or turns, else 0.
     velocity: vec4<f32>,
     /// Rain-frame momentum per mass; w: γ.
     momentum: vec4<f32>,
@@ -53,10 +53,13 @@ struct Placement {
     shape_x: vec4<f32>,
     shape_y: vec4<f32>,
     shape_z: vec4<f32>,
-    /// d(shape)/dT; w: the angular velocity in 1/T, rain axes.
-    shape_rate_x: vec4<f32>,
-    shape_rate_y: vec4<f32>,
-    shape_rate_z: vec4<f32>,
+    /// Angular velocity about T₀ in 1/T, rain axes, its rate, and below dp/dT of the momentum p that contracts the body on the slice;
+    /// w of these three: p at T₀.
+    spin: vec4<f32>,
+    spin_rate: vec4<f32>,
+    /// A jump of the angular velocity; w: when after T₀.
+    jolt: vec4<f32>,
+    force: vec4<f32>,
     /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,

@@ -37,6 +37,8 @@ mod render_shaders;
 #[cfg(feature = "game")]
 mod render_stars;
 #[cfg(feature = "game")]
+mod render_swing;
+#[cfg(feature = "game")]
 mod render_trouble;
 mod scene_aurora;
 mod scene_config;

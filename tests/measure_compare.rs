@@ -68,6 +68,18 @@ fn a_perfect_picture_passes_and_its_faults_are_measured() {
     assert_eq!((good.groups[0].mismatched, good.flip), (0, 0.0));
     assert!(good.groups[0].pixels > 500 && good.groups[1].order == 2 && good.groups[1].pixels > 30, "{:?}", good.groups);
 
+    // What mismatches are a part of: the pixels of an image, and those outside that touch it.
+    let (width, height) = (i64::from(SIZE[0]), i64::from(SIZE[1]));
+    for group in &good.groups {
+        let shows = |x: i64, y: i64| {
+            (0..width).contains(&x) && (0..height).contains(&y) && judge.layers[(y * width + x) as usize].order == group.order
+        };
+        let touches = |x: i64, y: i64| (-1..=1).any(|dy| (-1..=1).any(|dx| shows(x + dx, y + dy)));
+        let places = || (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        assert_eq!(group.pixels, places().filter(|&(x, y)| shows(x, y)).count());
+        assert_eq!(group.rim, places().filter(|&(x, y)| !shows(x, y) && touches(x, y)).count());
+    }
+
     // A pixel to the right: the displacement is one pixel, and edges differ.
     let one = verdict(&case, &judge, &moved(&perfect, 1));
     let d = one.groups[0].displacement;
@@ -130,6 +142,10 @@ fn dropped_triangles_are_holes() {
     assert!(dropped > 20, "{dropped}");
     let found = faults(&case, &judge, &broken);
     assert!(found.iter().any(|fault| fault.contains("holes")), "{found:?}");
+    // Where one of four rays goes through a slit between things, it is no hole to see through it.
+    let mut slit = judge.clone();
+    slit.shares.iter_mut().flatten().for_each(|share| share.2 = 0.75);
+    assert_eq!(verdict(&case, &slit, &broken).holes, 0);
 }
 
 #[test]

@@ -370,7 +370,12 @@ fn bits(seen: &Seen) -> Vec<u64> {
 fn packets_of_every_size_see_what_single_rays_see() {
     let mut rng = StdRng::seed_from_u64(21);
     // Held triangles near and far round the hole, and two bodies that fly before it and through its plane.
-    let (corners, triangles) = strewn(150, 2.5, 12.0, &mut rng);
+    // Some are small and looked at from near, so that packets go past them by a little: among large ones hardly a packet misses all.
+    let (mut corners, mut triangles) = strewn(60, 1.5, 12.0, &mut rng);
+    let (dust, specks) = strewn(60, 0.4, 12.0, &mut rng);
+    let towards_specks: Vec<(DVec3, DVec3, f64)> = dust.iter().step_by(30).map(|&v| (v * (1.0 + 4.0 / v.length()), -v, 0.15)).collect();
+    triangles.extend(specks.iter().map(|triangle| triangle.map(|corner| corner + corners.len() as u32)));
+    corners.extend(dust);
     let (mut small, few) = strewn(40, 1.0, 2.5, &mut rng);
     small.iter_mut().for_each(|v| *v = (*v * 0.4).as_vec3().as_dvec3());
     let models = [model(&corners, &triangles), model(&small, &few)];
@@ -389,7 +394,7 @@ fn packets_of_every_size_see_what_single_rays_see() {
             (DVec3::new(7.0, 5.0, 3.0), DVec3::new(-1.0, -0.6, -0.6), 0.5),
             (DVec3::new(0.4, 0.5, 0.1), DVec3::new(1.0, 0.4, 0.3), 1.0),
         ];
-        for (position, towards, spread) in views {
+        for (position, towards, spread) in views.into_iter().chain(towards_specks.iter().copied()) {
             for packet in [1, 2, 3, 5, 8] {
                 let (looks, starts) = screen(16, packet, towards, spread);
                 for tile in starts.windows(2).map(|ends| &looks[ends[0]..ends[1]]) {

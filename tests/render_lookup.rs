@@ -53,7 +53,7 @@ impl Bench {
     pub fn object<'a>(&self, motion: Motion<'a>, scale: f64, id: u32) -> Object<'a> {
         let light = Light { ambient: [1.0; 3], ..Light::default() };
         let (model, coarse) = (self.model, self.model);
-        Object { model, coarse, stand_ins: &[], motion, reach: scale, scale: DVec3::splat(scale), id, light }
+        Object { model, coarse, stand_ins: &[], motion, reach: scale, scale, id, light }
     }
 
     pub fn place(&self, camera: &Camera, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {

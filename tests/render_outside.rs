@@ -5,10 +5,12 @@ use std::sync::Arc;
 use glam::Vec3;
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::frame::Settings;
+use lensrunner::render::models::{ALONE, Prepared};
 use lensrunner::render::outside::{AGAINST, ALONG, LONE, OPEN, sides};
 use lensrunner::render::readback;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::stage::Stage;
+use lensrunner::scene::model::Vertex;
 use lensrunner::scene::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::{self, GameConfig, Material, Model};
 
@@ -99,4 +101,38 @@ fn nothing_that_is_seen_is_left_out() {
         assert!(other * 2000 <= drawn, "{name}: {other} of {drawn} pixels show another object");
         assert!(lit * 500 <= drawn, "{name}: {lit} of {drawn} pixels are lit otherwise");
     }
+}
+
+/// Outlines are found by the triangles on both sides of an edge, also where a body with corners keeps two vertices at one place for their normals.
+#[test]
+fn an_edge_knows_the_corners_across_it() {
+    let smooth = icosphere(20, Material::default());
+    let mut cornered = Model { vertices: Vec::new(), ..smooth.clone() };
+    for triangle in &mut cornered.triangles {
+        let (normal, _) = normal_and_middle(&smooth, *triangle);
+        *triangle = triangle.map(|vertex| {
+            cornered.vertices.push(Vertex { normal: normal.normalize().to_array(), ..smooth.vertices[vertex as usize] });
+            cornered.vertices.len() as u32 - 1
+        });
+    }
+    for (model, edges) in [(&smooth, 30), (&cornered, 60)] {
+        let prepared = Prepared::new(model);
+        assert_eq!(prepared.edges.len(), edges);
+        let place = |vertex: u32| prepared.vertices[vertex as usize].position.map(f32::to_bits);
+        let is_triangle = |corners: [u32; 3]| {
+            let sorted = |corners: [u32; 3]| {
+                let mut places = corners.map(place);
+                places.sort_unstable();
+                places
+            };
+            prepared.triangles.iter().any(|t| sorted([t.vertices[0], t.vertices[1], t.vertices[2]]) == sorted(corners))
+        };
+        for &[a, b, c, d] in &prepared.edges {
+            assert!(place(c) != place(d) && is_triangle([a, b, c]) && is_triangle([a, b, d]), "edge {a}–{b}: {c}, {d}");
+        }
+    }
+    // A sheet of 2 × 2 cells: of its 16 edges 8 are its border.
+    let sheet = Prepared::new(&square(8, Anchor::Centre, Material::default()));
+    assert_eq!((sheet.edges.len(), sheet.edges.iter().filter(|edge| edge[2] == ALONE).count()), (16, 8));
+    assert!(sheet.edges.iter().all(|edge| (edge[2] == ALONE) == (edge[3] == ALONE)));
 }

@@ -72,7 +72,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             stand_ins: &[],
             motion: Motion::Held { position, attitude },
             reach: object.scale,
-            scale: DVec3::splat(object.scale),
+            scale: object.scale,
             id: 1,
             light: Light::default(),
         };

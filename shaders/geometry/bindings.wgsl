@@ -3,7 +3,8 @@
 /// Placements, as geometry/placement.wgsl reads them.
 @group(1) @binding(0) var placements: texture_2d<u32>;
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
-@group(1) @binding(2) var<storage, read> model_edges: array<vec2<u32>>;
+/// Two vertices, and those opposite to the edge in its two triangles, or `ALONE`.
+@group(1) @binding(2) var<storage, read> model_edges: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
 /// Chunks of 64 threads of one placement, filled up to the size of the dispatch with NO_PLACEMENT.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
@@ -51,6 +52,9 @@ const NO_PLACEMENT: u32 = 0xffffffffu;
 const VERTEX_PLAIN: f32 = 0.0;
 const VERTEX_ON_AXIS: f32 = 1.0;
 const VERTEX_UNSEEN: f32 = -1.0;
+
+/// Of an edge that is not between two triangles, where a surface ends or several meet: no vertex is opposite.
+const ALONE: u32 = 0xffffffffu;
 
 const EDGE_CUT: u32 = 1u;
 const EDGE_UNSEEN: u32 = 2u;

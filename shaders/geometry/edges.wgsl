@@ -36,19 +36,23 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 
     let from_apparent = seen[placement.ids.z + edge.x].apparent.xyz;
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
+    let leaving_a = seen[placement.ids.z + edge.x].leaving.xyz;
+    let leaving_b = seen[placement.ids.z + edge.y].leaving.xyz;
+    let limb = edge.z == ALONE || on_limb(placement, edge, leaving_a, leaving_b, a.xyz);
+    let closer = select(1.0, LIMB_STRICTNESS, limb);
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
     var whole = true;
     // A short edge needs no measuring. Away from the axis it bends for two reasons: aberration and delay are not linear, by θ²/8 at most for an
     // edge seen under θ; and light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both are
-    // held under a quarter of the budget, the tide with another factor of 3 for the shear of images near the ring.
+    // held under a quarter of the budget (of an outline's for one), the tide with another factor of 3 for the shear of images near the ring.
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(across_plane(a.xyz)), length(across_plane(b.xyz)));
     let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.size.w;
-    let small = seen_under < 8.0 * frame.size.z || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let quarter = 0.25 * frame.size.w / closer;
+    let small = (!limb && seen_under < 8.0 * frame.size.z) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     let short = seen_under < 2.0 * frame.size.w || (small && nearest > 4.0 * edge_length);
     if radial || !short {
         let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
@@ -70,7 +74,5 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
-    let limb = on_limb(seen[placement.ids.z + edge.x], seen[placement.ids.z + edge.y]);
-    let strict = strictness(placement) * select(1.0, LIMB_STRICTNESS, limb);
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strict, 1.0)), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement) * closer, 1.0)), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
 }

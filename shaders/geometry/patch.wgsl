@@ -6,10 +6,6 @@ const DEEPEST: u32 = 10u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
-fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
-    return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
-}
-
 /// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
 fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
     if (placement.triangles.w & PLACEMENT_HELD) == 0u {
@@ -80,13 +76,23 @@ fn strictness(placement: Placement) -> f32 {
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 8.0;
-/// An edge may be an outline where the surface is seen under a cosine below this: a sphere of 400 triangles has edges of 0.2 radians.
-const LIMB_COSINE: f32 = 0.2;
+/// A triangle from which light leaves under a sine below this may be seen edge-on here or there: so far a ship may turn while light crosses it.
+const LIMB_SINE: f32 = 0.15;
 
-/// Whether an edge between two seen vertices may be an outline, by the normals of the surface.
-fn on_limb(a: SeenVertex, b: SeenVertex) -> bool {
-    let facing = vec2<f32>(dot(a.normal.xyz, a.leaving.xyz), dot(b.normal.xyz, b.leaving.xyz));
-    return facing.x * facing.y < 0.0 || min(abs(facing.x), abs(facing.y)) < LIMB_COSINE;
+/// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or so differently
+/// at its two ends. Normals of vertices, which are there for the light, do not tell that of a body with corners; nor do places on the screen, where
+/// an edge drawn out along the ring bends by more than its triangles are wide. `edge` has the two vertices and those opposite to it.
+fn on_limb(placement: Placement, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
+    let first = placement.vertices.x;
+    let corner = model_vertices[first + edge.x].position.xyz;
+    let along = shaped(placement, model_vertices[first + edge.y].position.xyz - corner);
+    let c = shaped(placement, model_vertices[first + edge.z].position.xyz - corner);
+    let d = shaped(placement, model_vertices[first + edge.w].position.xyz - corner);
+    // Of both triangles the normal on the same side of the surface.
+    let n = at_rest(placement, cross(along, c), offset);
+    let m = at_rest(placement, cross(d, along), offset);
+    let sines = vec4<f32>(dot(n, leaving_a), dot(n, leaving_b), dot(m, leaving_a), dot(m, leaving_b));
+    return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
 }
 
 /// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.
@@ -106,22 +112,22 @@ fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) 
 }
 
 /// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
-/// zero where no side is outside, or both are drawn. Lengths along the motion are γ times longer in the rest frame than on the slice.
+/// zero where no side is outside, or both are drawn.
 fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let first = placement.vertices.x;
     let corner = model_vertices[first + triangle.vertices.x].position.xyz;
     let a = shaped(placement, model_vertices[first + triangle.vertices.y].position.xyz - corner);
     let b = shaped(placement, model_vertices[first + triangle.vertices.z].position.xyz - corner);
-    let on_slice = cross(a, b);
-    let momentum = momentum_at(placement, frame.radial.xyz * frame.radial.w + offset);
-    let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    return n * select(sign / max(length(n), 1e-30), 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+    return at_rest(placement, cross(a, b), offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
 }
 
-/// A body offset on the slice at T₀.
-fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
-    return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
+/// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times
+/// longer there.
+fn at_rest(placement: Placement, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
+    let momentum = momentum_at(placement, frame.radial.xyz * frame.radial.w + offset);
+    let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
+    return n / max(length(n), 1e-30);
 }
 
 /// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.

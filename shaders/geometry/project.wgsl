@@ -80,17 +80,40 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
     return k / max(length(k), 1e-20);
 }
 
-/// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre.
+/// A direction in body axes, in rain axes at T₀.
+fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
+    return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
+}
+
+/// A body offset on the slice at T₀.
+fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
+    return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
+}
+
+/// The farthest turn that is believed, radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
+const FARTHEST_TURN: f32 = 2.0;
+
+/// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
+/// the momentum of that moment, and goes where the centre goes, to third order. The twin of src/render/swing.rs.
 fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
-    let still = placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
-    let turning = placement.shape_rate_x.xyz * body.x + placement.shape_rate_y.xyz * body.y + placement.shape_rate_z.xyz * body.z;
-    // Second order: the centre's acceleration, and what turning bends. A ship that turns while light crosses it would be off by a pixel.
+    let scale = placement.velocity.w;
+    if scale == 0.0 {
+        return shaped(placement, body);
+    }
+    let jolted = max(s - placement.jolt.w, 0.0) - max(-placement.jolt.w, 0.0);
+    let turn = (placement.spin.xyz + placement.spin_rate.xyz * (0.5 * s)) * s + placement.jolt.xyz * jolted;
+    let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));
+    let q = dot(turned, turned);
+    let straight = normal_of(placement, body) * scale;
+    // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
+    let once = cross(turned, straight);
+    let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
+    let p = vec3<f32>(placement.spin.w, placement.spin_rate.w, placement.force.w) + placement.force.xyz * s;
+    let gamma = sqrt(1.0 + dot(p, p));
+    let contracted = rest - p * (dot(p, rest) / (gamma * (1.0 + gamma)));
     let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
-    let spin = vec3<f32>(placement.shape_rate_x.w, placement.shape_rate_y.w, placement.shape_rate_z.w);
-    // Third order matters inside the horizon, where a fall steepens while light crosses the ship.
     let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
-    let bent = acceleration + cross(spin, cross(spin, still)) + jerk * (s / 3.0);
-    return still + (placement.velocity.xyz + turning) * s + bent * (0.5 * s * s);
+    return contracted + (placement.velocity.xyz + (acceleration + jerk * (s / 3.0)) * (0.5 * s)) * s;
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.

@@ -51,7 +51,9 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     if whole {
         return model_levels[min(edge, 2u)];
     }
-    let closer = edge < 3u && limb[min(edge, 2u)];
+    // Where light grazes a triangle the image folds inside it: the outline comes in over one of its edges and leaves over another.
+    let fold = (limb[0] && limb[1]) || (limb[1] && limb[2]) || (limb[2] && limb[0]);
+    let closer = select(fold, limb[min(edge, 2u)], edge < 3u);
     return level_for(error * strict * select(1.0, LIMB_STRICTNESS, closer), part_between(a, b));
 }
 

@@ -23,6 +23,9 @@ fn shown(first: &Picture, second: &Picture, i: usize) -> Shown {
         order: what[1] as u32,
         body: [surface[0], surface[1], second.surface[i][0]],
         // Thin images add up.
-        coverage: if surface[2] < 1.0 { first.thin.get(i).map_or(0.0, |sum| sum.min(1.0)) } else { 1.0 },
+        coverage: if surface[2] < OPAQUE { first.thin.get(i).map_or(0.0, |sum| sum.min(1.0)) } else { 1.0 },
     }
 }
+
+/// From this coverage on a triangle is an opaque one, whose coverage of 1 has been interpolated and rounded.
+const OPAQUE: f32 = 0.999;

@@ -25,6 +25,7 @@ pub mod shaders;
 pub mod shot;
 pub mod sky;
 pub mod stage;
+pub mod swing;
 pub mod tables;
 pub mod targets;
 pub mod timing;

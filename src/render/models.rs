@@ -28,13 +28,17 @@ pub struct ModelRange {
     pub material: u32,
 }
 
+/// No vertex is opposite to an edge, or more than two are; as in shaders/geometry/bindings.wgsl.
+pub const ALONE: u32 = u32::MAX;
+
 /// A model made ready: vertices in the order that edges need, and its edges.
 #[derive(Debug, Default)]
 pub struct Prepared {
     /// Vertices, each of one material, sorted by position.
     pub vertices: Vec<ModelVertex>,
-    /// Two vertices each, the lower first.
-    pub edges: Vec<[u32; 2]>,
+    /// Two vertices each, the lower first, and those opposite to it in the two triangles that meet there; of another number of triangles,
+    /// [`ALONE`] twice.
+    pub edges: Vec<[u32; 4]>,
     /// Triangles with ascending vertices.
     pub triangles: Vec<ModelTriangle>,
 }
@@ -56,7 +60,7 @@ impl Prepared {
         };
         corners.sort_by_key(key);
         let place: HashMap<(u32, u32), u32> = corners.iter().enumerate().map(|(i, &corner)| (corner, i as u32)).collect();
-        let vertices = corners
+        let vertices: Vec<ModelVertex> = corners
             .iter()
             .map(|&(vertex, material)| {
                 let v = &model.vertices[vertex as usize];
@@ -77,7 +81,7 @@ impl Prepared {
             }
             let mut edge = |a: u32, b: u32| {
                 *numbers.entry([a, b]).or_insert_with(|| {
-                    edges.push([a, b]);
+                    edges.push([a, b, ALONE, ALONE]);
                     edges.len() as u32 - 1
                 })
             };
@@ -86,7 +90,33 @@ impl Prepared {
                 edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0],
             });
         }
+        find_opposite(&vertices, &triangles, &mut edges);
         Prepared { vertices, edges, triangles }
+    }
+}
+
+/// Fills in the vertices opposite to each edge. Vertices at one place are one corner of the body, whatever their normals.
+fn find_opposite(vertices: &[ModelVertex], triangles: &[ModelTriangle], edges: &mut [[u32; 4]]) {
+    let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
+    let corner: Vec<u32> = (0u32..)
+        .zip(vertices)
+        .map(|(i, vertex)| *corners.entry([0, 1, 2].map(|k| (vertex.position[k] + 0.0).to_bits())).or_insert(i))
+        .collect();
+    let key = |a: u32, b: u32| {
+        let [a, b] = [a, b].map(|vertex| corner[vertex as usize]);
+        [a.min(b), a.max(b)]
+    };
+    let mut opposite: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+    for triangle in triangles {
+        let [a, b, c, _] = triangle.vertices;
+        for (edge, third) in [(key(b, c), a), (key(a, c), b), (key(a, b), c)] {
+            opposite.entry(edge).or_default().push(third);
+        }
+    }
+    for edge in edges {
+        if let Some(&[c, d]) = opposite.get(&key(edge[0], edge[1])).map(Vec::as_slice) {
+            (edge[2], edge[3]) = (c, d);
+        }
     }
 }
 
@@ -118,7 +148,7 @@ impl Ord for Total {
 #[derive(Debug)]
 pub struct Models {
     vertices: Vec<ModelVertex>,
-    edges: Vec<[u32; 2]>,
+    edges: Vec<[u32; 4]>,
     triangles: Vec<ModelTriangle>,
     materials: Vec<Material>,
     images: Vec<Arc<Image>>,

@@ -16,6 +16,7 @@ use crate::spacetime::orbit::static_momentum;
 use super::frame::{Camera, Settings};
 use super::method::Method;
 use super::models::ModelRange;
+use super::swing::Swing;
 use super::types::Placement;
 use super::visibility::{may_be_seen, part_of_screen};
 
@@ -46,8 +47,8 @@ pub struct Object<'a> {
     pub motion: Motion<'a>,
     /// Farthest point of the object from its centre, in r_s.
     pub reach: f64,
-    /// Length in r_s of one unit of the model along each body axis.
-    pub scale: DVec3,
+    /// Length in r_s of one unit of the model.
+    pub scale: f64,
     /// A number for the layers of a picture, from 1.
     pub id: u32,
     /// What shines on it.
@@ -229,7 +230,7 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
         offset: row(position - camera.position, 0.0),
         position: row(position, 0.0),
         momentum: [0.0, 0.0, 0.0, 1.0],
-        shape: columns(turn * DMat3::from_diagonal(object.scale)),
+        shape: columns(turn * object.scale),
         turn: columns(turn),
         light: light_rows(&object.light),
         triangles: [0, 0, 0, HELD],
@@ -245,29 +246,23 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         Settings { method: Method::Flat, .. } => flat_emission_time(camera, time, history)?,
         _ => emission_time(camera, time, history, order)?,
     };
-    let at = |t: f64| {
-        let sample = history.at(t);
-        (sample, DMat3::from_quat(sample.attitude) * DMat3::from_diagonal(object.scale))
-    };
-    let (sample, body) = at(emission);
-    let shape = contraction(sample.momentum) * body;
-    // Rates of shape and motion over the while in which light crosses the object: in its middle differences are right to second order.
-    let span = object.scale.max_element().max(1e-3);
-    let [(earlier, earlier_body), (later, later_body)] = [at(emission - 0.5 * span), at(emission + 0.5 * span)];
-    let rate = (contraction(later.momentum) * later_body - contraction(earlier.momentum) * earlier_body) * (1.0 / span);
-    let acceleration = (later.velocity - earlier.velocity) / span;
-    let jerk = (later.velocity + earlier.velocity - 2.0 * sample.velocity) * (4.0 / (span * span));
-    let spin = (later.attitude * earlier.attitude.conjugate()).to_scaled_axis() / span;
+    let sample = history.at(emission);
+    let turn = DMat3::from_quat(sample.attitude);
+    let swing = Swing::new(history, emission, object.reach);
     let still = !view.settings.light_delay;
+    let p = sample.momentum;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
     let placement = Placement {
         offset: row(sample.position - camera.position, time - emission),
         position: row(sample.position, 0.0),
-        velocity: row(sample.velocity, if still { 0.0 } else { 1.0 }),
+        velocity: row(sample.velocity, if still { 0.0 } else { object.scale }),
         momentum: row(momentum, gamma(momentum)),
-        shape: columns_and(shape, acceleration),
-        shape_rate: columns_and(rate, spin),
-        turn: columns_and(DMat3::from_quat(sample.attitude), jerk),
+        shape: columns_and(contraction(p) * turn * object.scale, swing.acceleration),
+        spin: row(swing.spin, p.x),
+        spin_rate: row(swing.spin_rate, p.y),
+        jolt: row(swing.jolt, swing.jolt_after),
+        force: row(swing.force, p.z),
+        turn: columns_and(turn, swing.jerk),
         light: light_rows(&object.light),
         ..Placement::default()
     };

@@ -139,7 +139,7 @@ impl Stage {
                 stand_ins: &model.stand_ins,
                 motion,
                 reach: self.reaches[number],
-                scale: DVec3::splat(object.scale),
+                scale: object.scale,
                 id: number as u32 + 1,
                 light,
             };

@@ -45,7 +45,10 @@ pub struct Placement {
     pub velocity: [f32; 4],
     pub momentum: [f32; 4],
     pub shape: [[f32; 4]; 3],
-    pub shape_rate: [[f32; 4]; 3],
+    pub spin: [f32; 4],
+    pub spin_rate: [f32; 4],
+    pub jolt: [f32; 4],
+    pub force: [f32; 4],
     pub turn: [[f32; 4]; 3],
     pub light: [[f32; 4]; 3],
     pub ids: [u32; 4],
@@ -56,8 +59,8 @@ pub struct Placement {
 impl Placement {
     /// Whether every number of it is one.
     pub fn is_finite(&self) -> bool {
-        let rows = [self.offset, self.position, self.velocity, self.momentum];
-        let matrices = [self.shape, self.shape_rate, self.turn, self.light];
+        let rows = [self.offset, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force];
+        let matrices = [self.shape, self.turn, self.light];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }
 }

@@ -154,6 +154,19 @@ impl History {
         sample
     }
 
+    /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain axes, in
+    /// c/r_s) beyond what it changes from node to node anyway. None where fewer than three nodes lie in between.
+    pub fn jolt(&self, from: f64, to: f64) -> Option<(f64, DVec3)> {
+        let past = &self.past[self.past.partition_point(|node| node.time >= to)..self.past.partition_point(|node| node.time > from)];
+        let since = &self.nodes[self.nodes.partition_point(|node| node.time <= from)..self.nodes.partition_point(|node| node.time < to)];
+        let within: Vec<&Node> = past.iter().rev().chain(since).collect();
+        let rates: Vec<DVec3> = within.windows(2).map(|pair| turning(pair[0], pair[1])).collect();
+        let jumps: Vec<DVec3> = rates.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let (most, jump) = jumps.iter().enumerate().max_by(|a, b| a.1.length_squared().total_cmp(&b.1.length_squared()))?;
+        let beside = [most.checked_sub(1), Some(most + 1)].map(|k| k.and_then(|k| jumps.get(k)).copied().unwrap_or(DVec3::ZERO));
+        Some((within[most + 1].time, *jump - 0.5 * (beside[0] + beside[1])))
+    }
+
     fn last(&self) -> &Node {
         &self.nodes[self.nodes.len() - 1]
     }
@@ -161,6 +174,17 @@ impl History {
     fn oldest(&self) -> &Node {
         self.past.last().unwrap_or(&self.nodes[0])
     }
+}
+
+/// The mean angular velocity between two nodes, rain axes, in c/r_s.
+fn turning(earlier: &Node, later: &Node) -> DVec3 {
+    rotation(earlier.state.attitude, later.state.attitude) / (later.time - earlier.time)
+}
+
+/// The rotation vector that turns attitude `a` into `b` on the shorter way, radians about an axis in the axes that they turn into.
+pub fn rotation(a: DQuat, b: DQuat) -> DVec3 {
+    let turn = b * a.conjugate();
+    (if turn.w < 0.0 { -turn } else { turn }).to_scaled_axis()
 }
 
 fn is_frozen(state: &ShipState) -> bool {

@@ -1,6 +1,6 @@
 //! How far a picture is from the judge's.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::Frame;
 use super::displacement::{Measured, Probe, displacements};
@@ -32,7 +32,7 @@ pub struct Group {
     pub order: u32,
     /// Pixels whose centre shows it to the judge.
     pub pixels: usize,
-    /// Pixels of the judge's image that touch another, and those just outside of it.
+    /// Pixels just outside of the judge's image of an object: those around it that touch it, at a side or a corner.
     pub rim: usize,
     /// Pixels in which one shows it and the other does not.
     pub mismatched: usize,
@@ -57,7 +57,7 @@ pub struct Verdict {
     pub wrong_order: usize,
     /// Of those, the ones where the judge sees that order nowhere within a pixel.
     pub wrong_beyond_rim: usize,
-    /// Pixels without light, in the midst of others, where the judge sees a thing all around.
+    /// Pixels without light, in the midst of others, where the judge sees a thing all around with every ray.
     pub holes: usize,
     /// Pixels with light of a thing where the judge sees the shadow all around.
     pub lit: usize,
@@ -171,8 +171,15 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             let near = around.iter().any(|&j| (judge.layers[j].object, judge.layers[j].order) == (shown.object, shown.order));
             wrong_beyond_rim += usize::from(!near);
         }
-        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0));
+        // Not what is seen through a slit narrower than a pixel, which some of the judge's rays go through.
+        let filled = |j: usize| judge.shares[j].iter().map(|share| share.2).sum::<f32>() >= FULL;
+        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0 && filled(j)));
         lit += usize::from(frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]));
+        let key = |j: usize| (judge.layers[j].object, judge.layers[j].order);
+        let touched: BTreeSet<(u32, u32)> = around.iter().map(|&j| key(j)).filter(|&other| other.0 > 0 && other != key(i)).collect();
+        for (object, order) in touched.into_iter().filter(|&(object, order)| !is_thin(object, order)) {
+            tallies.entry((name(object), order)).or_default().rim += 1;
+        }
         for &(object, order, share) in &judge.shares[i] {
             if is_thin(object, order) {
                 let tally = tallies.entry((name(object), order)).or_default();
@@ -187,7 +194,6 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             let tally = tallies.entry((name(layer.object), layer.order)).or_default();
             tally.pixels += 1;
             tally.flip += f64::from(difference[i]);
-            tally.rim += usize::from(at_rim(layer.object, layer.order));
             if !agree && !beside_thin {
                 tally.mismatched += 1;
                 tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
@@ -205,9 +211,7 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
         if shown.object > 0 && !agree && !beside_thin && !is_thin(shown.object, shown.order) {
             let tally = tallies.entry((name(shown.object), shown.order)).or_default();
             tally.mismatched += 1;
-            let rim = at_rim(shown.object, shown.order);
-            tally.rim += usize::from(rim);
-            tally.beyond_rim += usize::from(!rim);
+            tally.beyond_rim += usize::from(!at_rim(shown.object, shown.order));
         }
     }
     let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();

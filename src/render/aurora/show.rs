@@ -121,7 +121,7 @@ impl Show {
             stand_ins: &[],
             motion: Movement::Flying(&history),
             reach: self.planet.radius * REACH,
-            scale: DVec3::splat(scale),
+            scale,
             id: 0,
             light: Surroundings::default(),
         };
