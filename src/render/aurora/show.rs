@@ -31,11 +31,11 @@ const NODES: usize = 1024;
 const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
 /// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
-/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to three tenths.
+/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 10.0;
-const FULL_PIXELS: f64 = 120.0;
+const FULL_PIXELS: f64 = 300.0;
 /// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
-const SPLATS_PER_PIXEL: f64 = 2.0;
+const SPLATS_PER_PIXEL: f64 = 1.2;
 const LEAST_SPLATS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = 400.0;
@@ -218,7 +218,7 @@ impl Show {
                 total += poles * *weight;
             }
         }
-        let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.3, 1.0);
+        let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.25, 1.0);
         let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
         // Four electrons make a part; on the small, several pairs of nodes make one.
         let least = if both { 8 } else { 4 };
