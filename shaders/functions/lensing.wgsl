@@ -444,6 +444,10 @@ fn swept(at: Place, order: u32) -> f32 {
 /// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the
 /// time since the light left as far as it is known: where camera and point are both inside it decides between E > 0 and E < 0.
 fn lens_lookup_aged(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
+    // Far from the camera the place is known without it: it must be a number all the same.
+    if !finite(along) {
+        return no_ray();
+    }
     let cam = lens_camera();
     let at = place(cam, along, across, height);
     return lookup(cam, at, swept(at, order), elapsed);

@@ -268,6 +268,10 @@ pub fn ray_with(cam: &Camera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitt
 /// The ray of `order` (1 to 3) from the point `along` outward and `across` from the axis, away from the camera of `slice`;
 /// `height` = L + along, rounded from f64; `elapsed` as in [`lookup`].
 pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
+    // Far from the camera the place is known without it: it must be a number all the same.
+    if !finite(along) {
+        return NOTHING;
+    }
     let at = place(&slice.camera, along, across, height);
     lookup(slice, at, swept(at, order), elapsed)
 }

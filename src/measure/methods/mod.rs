@@ -175,10 +175,10 @@ pub fn help() -> String {
     )
 }
 
-/// The method called `name`, or None. Tables that are not there yet are baked, which stderr is told of, and kept in tables/.
+/// The method called `name`, or None. Tables that are not there yet are baked, which stderr is told of, and kept beside the committed one.
 pub fn named(name: &str) -> Option<Box<dyn Projector>> {
     let nodes = |prefix: &str| name.strip_prefix(prefix).and_then(|text| text.parse().ok());
-    let full = || table("tables/full.lut", Scheme::Residual, lensing::FULL_NODES);
+    let full = || table("full.lut", Scheme::Residual, lensing::FULL_NODES);
     Some(match name {
         "exact" => Box::new(Exact),
         "table" => Box::new(Table(lensing::default_table())),
@@ -191,7 +191,7 @@ pub fn named(name: &str) -> Option<Box<dyn Projector>> {
         "residual-cubic-f16" => Box::new(Residual::<[half::f16; 3]>::new(&full(), Interpolation::Cubic)),
         "residual-linear-f32" => Box::new(Residual::<[f32; 3]>::new(&full(), Interpolation::Linear)),
         "residual-linear-f16" => Box::new(Residual::<[half::f16; 3]>::new(&full(), Interpolation::Linear)),
-        "paper1-128-batch" => Box::new(PaperBatch(Paper(table("tables/paper-128.lut", Scheme::Paper, 128)))),
+        "paper1-128-batch" => Box::new(PaperBatch(Paper(table("paper-128.lut", Scheme::Paper, 128)))),
         "beloborodov" => Box::new(Approximation::Beloborodov),
         "poutanen" => Box::new(Approximation::Poutanen),
         "flat" => Box::new(Flat),
@@ -200,16 +200,16 @@ pub fn named(name: &str) -> Option<Box<dyn Projector>> {
             if let Some(steps) = nodes("rk4-") {
                 Box::new(Integrate { steps })
             } else if let Some(count) = nodes("paper1-uniform-") {
-                Box::new(Paper(table(&format!("tables/paper-uniform-{count}.lut"), Scheme::PaperUniform, count)))
+                Box::new(Paper(table(&format!("paper-uniform-{count}.lut"), Scheme::PaperUniform, count)))
             } else {
                 let count = nodes("paper1-")?;
-                Box::new(Paper(table(&format!("tables/paper-{count}.lut"), Scheme::Paper, count)))
+                Box::new(Paper(table(&format!("paper-{count}.lut"), Scheme::Paper, count)))
             }
         }
     })
 }
 
-/// The table at `path`, baked and written there if need be, with a progress bar on stderr.
+/// The table of the file `path` beside the committed one, baked and written there if need be, with a progress bar on stderr.
 fn table(path: &str, scheme: Scheme, nodes: usize) -> lensing::Table {
     let bar = std::sync::OnceLock::new();
     let finished = std::sync::Mutex::new(0.0);
@@ -223,7 +223,7 @@ fn table(path: &str, scheme: Scheme, nodes: usize) -> lensing::Table {
             bar.get_or_init(|| indicatif::ProgressBar::new(1000)).set_position(*sum as u64);
         }
     };
-    let table = lensing::load_or_bake(std::path::Path::new(path), scheme, nodes, complain, done);
+    let table = lensing::load_or_bake(&lensing::default_file().with_file_name(path), scheme, nodes, complain, done);
     if let Some(bar) = bar.get() {
         bar.finish_and_clear();
     }

@@ -25,9 +25,9 @@ pub trait Adapter {
 }
 
 /// Camera radii: each needs a slice of its own, so there are fewer than on the processor.
-const FRAMES: usize = 64;
+const FRAMES: usize = 320;
 /// Of which every so manyth is timed.
-const TIMED: usize = 8;
+const TIMED: usize = 40;
 /// Rounds in which the methods take turns; the median counts.
 const ROUNDS: usize = 5;
 
@@ -40,7 +40,7 @@ fn packed(row: &Row, order: Order) -> [f32; 4] {
 /// Adversarial points of `FRAMES` cameras, as in [`super::rows`].
 fn frames(request: &Request) -> Vec<Vec<Row>> {
     let mut rng = SmallRng::seed_from_u64(request.seed ^ 0x6b75);
-    let count = (request.points / FRAMES).clamp(64, 1024);
+    let count = request.points.div_ceil(FRAMES).clamp(64, 1024);
     (0..FRAMES)
         .map(|_| {
             let camera = super::points::camera(&mut rng);

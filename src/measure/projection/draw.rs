@@ -60,7 +60,15 @@ fn on_adapter(sheet: &Sheet) -> Panel {
     let mut panel = scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", false, (HALF_PIXEL, ""), "");
     panel.title = format!("On the graphics adapter: {}", sheet.note("adapter").unwrap_or("unknown"));
     panel.x = Axis::log("nanoseconds a lookup, many at once");
-    Panel::Scatter(panel)
+    Panel::Scatter(unnamed(panel))
+}
+
+/// Without the names that would cover each other.
+fn unnamed(mut panel: Scatter) -> Scatter {
+    for point in panel.points.iter_mut().filter(|point| nameless(point.label.split(' ').next().unwrap_or_default())) {
+        point.label.clear();
+    }
+    panel
 }
 
 fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: bool, guide: (f64, &str), title: &str) -> Scatter {
@@ -77,7 +85,7 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
             // What an adapter does for nothing beside its overhead is drawn at a nanosecond.
             x: if memory { entry.bytes.max(1e3) } else { entry.nanoseconds.max(1.0) },
             y: y(entry).max(LEAST_ERROR),
-            label: format!("{}{share}", entry.name),
+            label: format!("{}{share}{}", entry.name, if entry.name == RECOMMENDED { ": use this" } else { "" }),
             family: entry.family,
             failed,
         }
@@ -130,6 +138,9 @@ fn significant(value: f64) -> f64 {
     (value / unit).round() * unit
 }
 
+/// What the game draws with.
+const RECOMMENDED: &str = "table";
+
 /// Whether a method's name is left out: of paper 1's tables only the largest of each kind are named, so that names do not cover each other.
 fn nameless(name: &str) -> bool {
     name.starts_with("paper1-") && !["paper1-128", "paper1-uniform-128"].contains(&name)
@@ -140,13 +151,8 @@ fn nameless(name: &str) -> bool {
 pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
     let entries = entries(sheet);
     let guide = (HALF_PIXEL, "half a pixel at 3840 over 60°: less cannot be seen");
-    let panel = |memory: bool, title: &str| {
-        let mut panel = scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", memory, guide, title);
-        for point in panel.points.iter_mut().filter(|point| nameless(point.label.split(' ').next().unwrap_or_default())) {
-            point.label.clear();
-        }
-        panel
-    };
+    let panel =
+        |memory: bool, title: &str| unnamed(scatter(&entries, |e| e.max, "largest error, degrees (rain frame)", memory, guide, title));
     let mut panels = vec![
         Panel::Scatter(panel(false, "On the processor: error against time (lower and further left is better)")),
         Panel::Scatter(panel(true, "Error against memory")),
