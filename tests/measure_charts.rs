@@ -6,7 +6,14 @@ use lensrunner::measure::chart::{Output, Provenance, Sheet, SheetError, Timing, 
 use lensrunner::measure::plot::{Axis, Bars, Figure, Guide, Line, Lines, Map, Panel, Point, Scatter, Series, pareto, tick_text};
 
 fn everything() -> Figure {
-    let point = |x: f64, y: f64, label: &str, failed: bool| Point { x, y, label: label.into(), family: usize::from(x > 1.0), failed };
+    let point = |x: f64, y: f64, label: &str, failed: bool| Point {
+        x,
+        y,
+        label: label.into(),
+        family: usize::from(x > 1.0),
+        failed,
+        chosen: false,
+    };
     let scatter = Scatter {
         title: "Error against time".into(),
         x: Axis::log("ns a lookup"),
@@ -90,7 +97,7 @@ fn an_empty_figure_and_wild_values_are_drawn_too() {
     let mut wild = everything();
     if let Panel::Scatter(scatter) = &mut wild.panels[0] {
         for value in [0.0, -1.0, f64::INFINITY, f64::NEG_INFINITY, 1e300, 1e-300] {
-            scatter.points.push(Point { x: value, y: value, label: "wild".into(), family: 9, failed: false });
+            scatter.points.push(Point { x: value, y: value, label: "wild".into(), family: 9, failed: false, chosen: false });
         }
     }
     wild.save(folder.path(), "wild").unwrap();

@@ -286,7 +286,7 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
         valid: [true; LANES],
     };
     // What is not a plain point outside (inside, NaN, infinite, overflowing) is answered by the scalar lookup.
-    let sum = frequency + emission_frequency + w.abs() + w_e.abs() + delay.abs() + r + f32x8::from(along).abs();
+    let sum = frequency + emission_frequency + w.abs() + w_e.abs() + delay.abs() + r + f32x8::from(sides[0]).abs();
     let plain = room.simd_gt(all(0.0)) & sum.simd_lt(all(3e38));
     let plain = plain.to_bitmask();
     if plain != (1 << LANES) - 1 {

@@ -134,6 +134,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
                 label: sheet.text(row, "method").to_owned(),
                 family: family(&methods, sheet.text(row, "method")),
                 failed: false,
+                chosen: false,
             })
             .collect();
         Panel::Scatter(Scatter {

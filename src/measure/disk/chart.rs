@@ -273,6 +273,7 @@ fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
         label: alone.text(row, "contestant").to_owned(),
         family: alone.number(row, "family") as usize,
         failed: false,
+        chosen: false,
     });
     let scatter = Scatter {
         title: "Speed against error, disk alone".into(),

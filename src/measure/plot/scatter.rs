@@ -39,6 +39,8 @@ pub struct Point {
     pub family: usize,
     /// Drawn as a red cross.
     pub failed: bool,
+    /// Drawn as one of the best and ringed: what a reader should take.
+    pub chosen: bool,
 }
 
 /// Half the size of a point, pixels.
@@ -95,7 +97,10 @@ fn mark(point: &Point, at: [f64; 2], best: bool, shapes: &mut Vec<Shape>) {
         return;
     }
     let ink = color(point.family);
-    shapes.push(Shape::Disc { at, radius: RADIUS, color: if best { ink } else { fade(ink, 0.45) }, filled: true });
+    shapes.push(Shape::Disc { at, radius: RADIUS, color: if best || point.chosen { ink } else { fade(ink, 0.45) }, filled: true });
+    if point.chosen {
+        shapes.push(Shape::Disc { at, radius: 2.0 * RADIUS, color: INK, filled: false });
+    }
 }
 
 fn overlap(a: Bounds, b: Bounds) -> f64 {
@@ -109,7 +114,7 @@ fn overlap(a: Bounds, b: Bounds) -> f64 {
 fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[usize], mut taken: Vec<Bounds>, shapes: &mut Vec<Shape>) {
     taken.extend(marks.iter().map(|(at, _)| [at[0] - 5.0, at[1] - 5.0, at[0] + 5.0, at[1] + 5.0]));
     let mut order: Vec<&([f64; 2], usize)> = marks.iter().filter(|(_, i)| !panel.points[*i].label.is_empty()).collect();
-    order.sort_by_key(|(_, i)| !best.contains(i));
+    order.sort_by_key(|(_, i)| (!panel.points[*i].chosen, !best.contains(i)));
     for (at, i) in order {
         let point = &panel.points[*i];
         let wide = width(&point.label, SMALL);
@@ -147,7 +152,7 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
         }
         let ink = if point.failed {
             FAILED
-        } else if best.contains(i) {
+        } else if best.contains(i) || point.chosen {
             INK
         } else {
             GREY

@@ -88,6 +88,7 @@ fn scatter(entries: &[Entry], y: impl Fn(&Entry) -> f64, y_label: &str, memory: 
             label: format!("{}{share}{}", entry.name, if entry.name == RECOMMENDED { ": use this" } else { "" }),
             family: entry.family,
             failed,
+            chosen: entry.name == RECOMMENDED,
         }
     });
     let x = if memory { "memory of tables, bytes (1000 = none)" } else { "nanoseconds a lookup, one core" };

@@ -220,7 +220,7 @@ fn figure(sheet: &Sheet) -> Figure {
                 let family = methods.iter().position(|method| *method == sheet.text(row, "method"))?;
                 let (x, y) = (sheet.number(row, "rays_per_second"), sheet.number(row, error));
                 let label = sheet.text(row, "tolerance").to_owned();
-                (x > 0.0 && y.is_finite()).then(|| Point { x, y: y.max(1e-17), label, family, failed: false })
+                (x > 0.0 && y.is_finite()).then(|| Point { x, y: y.max(1e-17), label, family, failed: false, chosen: false })
             })
             .collect()
     };
