@@ -45,6 +45,9 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
         vec4<f32>(light.slope, exp2(4.0 * height)), vec4<f32>(thin, path, cosine));
 }
 
+/// A generation shows from this part of the other's share on: more than is left of one over a triangle in which it dies.
+const LEAST_SHARE: f32 = 0.003;
+
 struct Streaks {
     even: vec2<f32>,
     odd: vec2<f32>,
@@ -56,6 +59,13 @@ struct Streaks {
 /// seen edge on became dashes), less would blur what is seen well.
 const LONGEST: f32 = 4.0;
 
+/// The square of the side of a texel for a pixel at `place` in the pattern, in texels.
+fn square_of(place: vec2<f32>, share: f32) -> f32 {
+    let a = dpdx(place);
+    let b = dpdy(place);
+    return max(abs(a.x * b.y - a.y * b.x), max(dot(a, a), dot(b, b)) * share);
+}
+
 /// Where in the pattern a pixel is, in both generations, and how much of it it covers. `share` is the part of the square of the pixel's longest side that
 /// counts: a thin image shows the mean of all it holds.
 fn streaks_of(in: Gas, share: f32) -> Streaks {
@@ -64,11 +74,13 @@ fn streaks_of(in: Gas, share: f32) -> Streaks {
     var result: Streaks;
     result.even = in.even.xy + vec2<f32>(-rate * in.even.z, height);
     result.odd = in.odd.xy + vec2<f32>(-rate * in.odd.z, height);
-    // One size does for both: that of the generation that shows more.
-    let place = select(result.odd, result.even, in.even.z < in.odd.z) * PATTERN_SIZE;
-    let a = dpdx(place);
-    let b = dpdy(place);
-    result.square = max(abs(a.x * b.y - a.y * b.x), max(dot(a, a), dot(b, b)) * share);
+    // One size does for both: that of the younger, if it shows at all. Across a triangle where one dies and the next but one is born its place is nowhere.
+    let even_shows = in.even.w > LEAST_SHARE * in.odd.w;
+    let odd_shows = in.odd.w > LEAST_SHARE * in.even.w;
+    // Differences of each by itself: neighbouring pixels may choose differently.
+    let even = square_of(result.even * PATTERN_SIZE, share);
+    let odd = square_of(result.odd * PATTERN_SIZE, share);
+    result.square = select(odd, even, even_shows & (!odd_shows | (in.even.z < in.odd.z)));
     return result;
 }
 
