@@ -195,27 +195,79 @@ fn order_seams_join() {
     }
 }
 
+/// A method by its name, what it may jump by besides (radians: the rounding of its numbers), and its answer for (r, φ, L) in an order.
+type Watcher<'a> = (&'a str, f64, Box<dyn Fn([f64; 3], Order) -> f64 + 'a>);
+
+/// Every method that answers a camera on both sides of the horizon.
+fn watchers<'a>(projectors: &'a [(&'a str, f64, Box<dyn Projector>)]) -> Vec<Watcher<'a>> {
+    let mut all: Vec<Watcher> = Vec::new();
+    for (name, rounding, method) in projectors {
+        let look = move |[r, phi, camera]: [f64; 3], order: Order| {
+            method.project(Query { r, phi, camera }, order, Branch::Plus).unwrap_or_else(|| panic!("{name}: nothing seen")).psi_rain
+        };
+        all.push((name, *rounding, Box::new(look)));
+    }
+    for (name, method) in without_a_table().into_iter().filter(|(name, _)| !["beloborodov", "poutanen"].contains(name)) {
+        let look = move |[r, phi, l]: [f64; 3], order: Order| {
+            let slice = Slice::new(table(), l);
+            let half = (0.5 * phi).sin();
+            let along = (r - l) - 2.0 * r * half * half;
+            let at = lookup::place(&slice.camera, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32);
+            let ray = method(&slice, at, u32::from(order.number()));
+            assert!(ray.valid, "{name}: nothing seen");
+            angle(&ray)
+        };
+        all.push((name, 3e-6, Box::new(look)));
+    }
+    all
+}
+
 /// A camera falls through the horizon in even steps while it watches a field of points: no point jumps by more than its neighbours in time
-/// explain (three times their step), so there is no frame with a seam.
+/// explain (three times their step), so there is no frame with a seam, by any method that claims to work inside.
 #[test]
 fn no_pixel_jumps_on_the_fall_through_the_horizon() {
     let points: Vec<(f64, f64)> =
         [1.2, 1.5, 2.0, 6.0, 60.0, 3000.0].into_iter().flat_map(|r| [0.01, 0.4, 1.0, 1.8, 2.6, 3.1].map(|phi| (r, phi))).collect();
-    for order in Order::ALL {
-        let frames: Vec<Vec<f64>> = (0..=120)
-            .map(|i| {
-                let l = 1.006 - 1e-4 * f64::from(i);
-                let slice = Slice::new(table(), l);
-                points.iter().map(|(r, phi)| angle(&score::look_up_row(&slice, [*r, *phi, l], order))).collect()
-            })
-            .collect();
-        for (p, point) in points.iter().enumerate() {
-            for i in 1..frames.len() - 2 {
-                let step = |i: usize| (frames[i + 1][p] - frames[i][p]).abs();
-                let explained = step(i - 1).max(step(i + 1));
-                assert!(step(i) < 3.0 * explained + 3e-6, "{point:?} {order:?} frame {i}: {} rad after {explained}", step(i));
+    // Half precision has eleven bits: its turns and with them directions come in steps. Methods that are linear between nodes have a seam: the
+    // slope at the camera decides outside, that at the point inside, and each has its own error.
+    let (half, linear) = (2e-4, 1e-3);
+    let projectors: Vec<(&str, f64, Box<dyn Projector>)> = vec![
+        ("exact in f64", 1e-12, Box::new(methods::Exact)),
+        ("table", 3e-6, Box::new(methods::Table(table().clone()))),
+        ("table-batch", 3e-6, Box::new(methods::Batch(methods::Table(table().clone())))),
+        ("table-linear", linear, Box::new(methods::Reformatted { table: table().clone(), half: false })),
+        ("table-half", half, Box::new(methods::Reformatted { table: table().clone(), half: true })),
+        ("newton in f64", 1e-7, Box::new(Newton(methods::Table(table().clone())))),
+        ("residual-cubic-f32", 3e-6, Box::new(methods::Residual::<[f32; 3]>::new(table(), methods::Interpolation::Cubic))),
+        ("residual-cubic-f16", half, Box::new(methods::Residual::<[half::f16; 3]>::new(table(), methods::Interpolation::Cubic))),
+        ("residual-linear-f32", linear, Box::new(methods::Residual::<[f32; 3]>::new(table(), methods::Interpolation::Linear))),
+        ("residual-linear-f16", linear, Box::new(methods::Residual::<[half::f16; 3]>::new(table(), methods::Interpolation::Linear))),
+        ("rk4-64 in f64", 1e-9, Box::new(Integrate { steps: 64 })),
+        ("flat", 1e-12, Box::new(Flat)),
+    ];
+    for (name, rounding, look) in watchers(&projectors) {
+        let mut worst: f64 = 0.0;
+        for order in Order::ALL {
+            if name == "flat" && order != Order::ALL[0] {
+                continue;
+            }
+            let frames: Vec<Vec<f64>> = (0..=120)
+                .map(|i| {
+                    let l = 1.006 - 1e-4 * f64::from(i);
+                    points.iter().map(|(r, phi)| look([*r, *phi, l], order)).collect()
+                })
+                .collect();
+            for (p, point) in points.iter().enumerate() {
+                for i in 1..frames.len() - 2 {
+                    let step = |i: usize| (frames[i + 1][p] - frames[i][p]).abs();
+                    let explained = step(i - 1).max(step(i + 1));
+                    let allowed = 3.0 * explained + rounding;
+                    worst = worst.max(step(i) - 3.0 * explained);
+                    assert!(step(i) < allowed, "{name} {point:?} {order:?} frame {i}: {} rad after {explained}", step(i));
+                }
             }
         }
+        println!("{name}: {worst:.2e} rad more than explained, {rounding:.0e} allowed");
     }
 }
 
@@ -530,26 +582,37 @@ fn a_newton_step_squares_the_error() {
     assert!(light::newton_step(2.0, 1.0, 0.1, Branch::Plus, [0.1; 2]).is_none());
 }
 
-proptest! {
-    #![proptest_config(crate::support::fixed(256))]
+/// tan(ψ/2) in the rain frame at a camera at u = 1/L, without a difference of nearly equal numbers: it tells directions apart that are nearer to
+/// π than f64 tells angles.
+fn depth(ray: &light::Connection, u: f64) -> f64 {
+    let (w, e, beta) = (ray.slope, ray.energy, u.sqrt());
+    // e ± w = u (1 ∓ β) tan^±1(ψ/2), by what `light::launch` says of ψ.
+    if e > 0.0 && w <= 0.0 { u * (1.0 + beta) / (e - w) } else { (e + w) / (u * (1.0 - beta)) }
+}
 
-    /// At fixed (L, Φ), r decreases strictly as ψ grows: exactly for the closed form, to the rounding of f32 for the lookup.
+/// The lookup in f32 keeps the order of any two points whose true directions differ by more than this, radians: an eightieth of the half pixel
+/// that it promises (0.008°). Of nearer ones its error, 0.0013° at worst, may exchange the places.
+const TOLD_APART: f64 = 1e-4 / 57.3;
+
+proptest! {
+    #![proptest_config(crate::support::fixed(2048))]
+
+    /// At fixed (L, Φ), r decreases strictly as ψ grows: for the closed form at every step, for the lookup at every step that it tells apart.
     #[test]
-    fn nearer_points_are_seen_nearer_to_the_hole(l in -2.9f64..8.5, near in 0.001f64..9.1, ratio in 1e-4f64..1.0, sweep in 0.01f64..9.3) {
+    fn nearer_points_are_seen_nearer_to_the_hole(l in -2.9f64..8.5, near in 0.001f64..9.1, digits in 0.0f64..4.0, sweep in 0.01f64..9.3) {
         let l = l.exp();
         let r = near.exp();
-        let farther = r * (1.0 + ratio);
+        let farther = r * (1.0 + 10f64.powf(-digits));
         let order = if sweep <= PI { 1 } else if sweep <= TAU { 2 } else { 3 };
         let phi = [sweep, TAU - sweep, sweep - TAU][order - 1];
         let order = Order::new(order as u8).unwrap();
         prop_assume!(r > 1.0005 && farther < 1e4);
-        let psi = |r: f64| light::connect(1.0 / r, sweep, 1.0 / l, Branch::Plus).map(|ray| light::rain_angle(ray.slope, ray.energy, 1.0 / l));
-        let (deep, shallow) = (psi(r).unwrap(), psi(farther).unwrap());
-        // Beyond two turns neighbouring points differ by less than the rounding of ψ.
-        prop_assert!(deep > shallow || (sweep > 5.0 && deep > shallow - 1e-15), "{} {}", deep, shallow);
-        let (deep, shallow) = (seen([r, phi, l], order), seen([farther, phi, l], order));
-        prop_assert!(deep.valid && shallow.valid);
-        prop_assert!(angle(&deep) > angle(&shallow) - 2.0 * QUARTER_PIXEL.to_radians());
+        let [deep, shallow] = [r, farther].map(|r| light::connect(1.0 / r, sweep, 1.0 / l, Branch::Plus).expect("there is light"));
+        prop_assert!(depth(&deep, 1.0 / l) > depth(&shallow, 1.0 / l), "{:?} {:?}", deep, shallow);
+        let psi = |ray: &light::Connection| light::rain_angle(ray.slope, ray.energy, 1.0 / l);
+        let (near, far) = (seen([r, phi, l], order), seen([farther, phi, l], order));
+        prop_assert!(near.valid && far.valid);
+        prop_assert!(angle(&near) > angle(&far) || psi(&deep) - psi(&shallow) < TOLD_APART, "{} {}", angle(&near), angle(&far));
     }
 
     /// The same inside, separately for each sign of E.
@@ -557,15 +620,16 @@ proptest! {
     fn inside_the_same_holds_for_each_sign(l in 0.05f64..0.95, first in 0.01f64..1.0, second in 0.01f64..1.0, part in 0.01f64..0.99) {
         let between = |t: f64| l + (1.0 - l) * t * 0.999;
         let (r, farther) = (between(first.min(second)), between(first.max(second)));
-        prop_assume!(farther - r > 1e-3 * (1.0 - l));
+        prop_assume!(farther - r > 1e-6 * (1.0 - l));
         let limit = (1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos();
         let phi = part * limit;
         for (branch, sign) in [(Branch::Plus, 1.0), (Branch::Minus, -1.0)] {
-            let psi = |r: f64| light::connect(1.0 / r, phi, 1.0 / l, branch).map(|ray| light::rain_angle(ray.slope, ray.energy, 1.0 / l));
-            let (deep, shallow) = (psi(r).unwrap(), psi(farther).unwrap());
-            prop_assert!(sign * (deep - shallow) > 0.0, "{:?}: {} {}", branch, deep, shallow);
+            let [deep, shallow] = [r, farther].map(|r| light::connect(1.0 / r, phi, 1.0 / l, branch).expect("there is light"));
+            prop_assert!(sign * (depth(&deep, 1.0 / l) - depth(&shallow, 1.0 / l)) > 0.0, "{:?}: {:?} {:?}", branch, deep, shallow);
+            let psi = |ray: &light::Connection| light::rain_angle(ray.slope, ray.energy, 1.0 / l);
             let look = |r: f64| angle(&score::look_up_row_on(&Slice::new(table(), l), [r, phi, l], Order::ALL[0], branch));
-            prop_assert!(sign * (look(r) - look(farther)) > -2.0 * QUARTER_PIXEL.to_radians());
+            let step = sign * (look(r) - look(farther));
+            prop_assert!(step > 0.0 || sign * (psi(&deep) - psi(&shallow)) < TOLD_APART, "{:?}: {}", branch, step);
         }
     }
 

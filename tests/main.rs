@@ -10,6 +10,7 @@ mod measure_charts;
 mod measure_compare;
 mod measure_project;
 mod measure_projection;
+mod measure_published;
 mod measure_thin_disk;
 mod reference_bvh_build;
 mod reference_bvh_rays;
@@ -29,6 +30,7 @@ mod render_horizon;
 mod render_lookup;
 #[cfg(feature = "game")]
 mod render_methods;
+#[cfg(feature = "game")]
 mod render_outside;
 #[cfg(feature = "game")]
 mod render_pictures;
@@ -51,4 +53,5 @@ mod sim_simulate;
 mod spacetime_light;
 mod spacetime_matter;
 mod support;
+#[cfg(feature = "game")]
 mod twin;

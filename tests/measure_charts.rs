@@ -29,6 +29,7 @@ fn everything() -> Figure {
         pareto: true,
         guides: vec![Guide { at: 0.008, label: "half a pixel".into() }],
         guides_x: vec![],
+        good_below: Some(0.008),
     };
     let lines = Lines {
         title: "Curves".into(),
@@ -64,6 +65,8 @@ fn everything() -> Figure {
         values: vec![1e-4, 1e-3, 1e-2, f64::NAN, f64::NEG_INFINITY, 1.0],
         colors: Axis::log("degrees").between(1e-4, 1.0),
         legend: true,
+        guides_x: vec![Guide { at: 10.0, label: "r = L".into() }],
+        guides: vec![Guide { at: 0.008, label: "½ px".into() }],
     };
     Figure {
         title: "All there is".into(),

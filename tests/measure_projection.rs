@@ -9,11 +9,11 @@ use lensrunner::spacetime::light::{Branch, Order};
 
 #[test]
 fn the_points_are_adversarial() {
-    let drawn = rows(20_000, 5);
+    let drawn = rows(300_000, 5);
     let share = |what: &dyn Fn(&Query) -> bool| drawn.iter().filter(|row| what(&row.query)).count() as f64 / drawn.len() as f64;
     // A third, and what the log-uniform two thirds put there: ln(1.6/0.95)/ln(5000/0.05).
     let expected = 1.0 / 3.0 + 2.0 / 3.0 * (1.6f64 / 0.95).ln() / 1e5f64.ln();
-    assert!((share(&|q| (0.95..1.6).contains(&q.camera)) - expected).abs() < 0.015);
+    assert!((share(&|q| (0.95..1.6).contains(&q.camera)) - expected).abs() < 0.03);
     assert!(share(&|q| (q.r / q.camera - 1.0).abs() < 1e-3) > 0.08, "r clusters at L");
     assert!(share(&|q| q.phi < 1e-3) > 0.05 && share(&|q| q.phi > std::f64::consts::PI - 1e-3) > 0.05, "φ clusters at 0 and π");
     assert!(share(&|q| q.r < 1.0 && q.camera < 1.0) > 0.05, "some are inside");
@@ -23,7 +23,9 @@ fn the_points_are_adversarial() {
         assert!(distance > 0.99e-4 * camera && (0.05..=5000.0).contains(&camera), "{row:?}");
         assert!((1.0005..=1e4).contains(&r) || (camera < 1.0 && r < 1.0), "{row:?}");
     }
-    let again = rows(20_000, 5);
+    // A graphics adapter answers the same rows, a camera at a time.
+    assert!(drawn.chunks(100).all(|rows| rows.iter().all(|row| row.query.camera == rows[0].query.camera)));
+    let again = rows(300_000, 5);
     assert!(drawn.iter().zip(&again).all(|(a, b)| a.query == b.query && a.branch == b.branch), "the same seed, the same points");
 }
 

@@ -34,7 +34,11 @@ pub struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    /// The cut of `table` (scheme residual) at the camera radius `l`, in r_s, clamped to the table's range.
+    /// The cut of `table` (scheme residual) at the camera radius `l`, in r_s.
+    ///
+    /// A frame must be drawn wherever its camera is, so there is no error here: a radius beyond the table's range is moved to its nearer end
+    /// ([`grid::CAMERA_RANGE`]), and what is not finite counts as the far end. `camera.l` tells the radius used. Who must not have that asks
+    /// first whether the range holds the radius, as the methods of `project` do, which answer nothing beyond.
     pub fn new(table: &'a Table, l: f64) -> Cut<'a> {
         debug_assert_eq!(table.scheme, Scheme::Residual);
         let [nx, ny, nz] = table.size.map(|n| n as usize);
@@ -86,7 +90,7 @@ fn pair(coefficients: [[f32; 4]; 2]) -> [f32; 4] {
 }
 
 impl Slice {
-    /// The slice of `table` (scheme residual) at the camera radius `l`, in r_s, clamped to the table's range.
+    /// The slice of `table` (scheme residual) at the camera radius `l`, in r_s; beyond the table's range as [`Cut::new`] says.
     pub fn new(table: &Table, l: f64) -> Slice {
         let cut = Cut::new(table, l);
         let [a, b, c, d] = cut.layers;

@@ -211,6 +211,7 @@ impl Renderer {
                 self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
+            // A camera nearer than 0.05 or farther than 5,000 r_s sees the hole as from there.
             let slice = Slice::new(self.tables.small(), l);
             let texels = self.tables.texels(method, l, &slice);
             if self.lens_slice.write(&self.gpu, &texels) {

@@ -1,8 +1,9 @@
 //! Values over a plane, as colours.
 
+use super::Guide;
 use super::axis::{self, Area, Axis, Titles, tick_text};
 use super::paint::{Anchor, Shape};
-use super::style::{Color, FAILED, INK, SMALL, scale};
+use super::style::{Color, FAILED, INK, SMALL, WHITE, scale};
 
 /// A panel of coloured cells.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +22,10 @@ pub struct Map {
     pub colors: Axis,
     /// Draws the colour scale beside the map.
     pub legend: bool,
+    /// Values of the axis across to mark.
+    pub guides_x: Vec<Guide>,
+    /// Values of the colour scale to mark; their words stand in its legend.
+    pub guides: Vec<Guide>,
 }
 
 pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
@@ -58,6 +63,13 @@ pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
             first = column;
         }
     }
+    for guide in panel.guides_x.iter().filter(|guide| plane.x.holds(guide.at)) {
+        let [at, _] = plane.place(guide.at, plane.y.low());
+        // White under ink: seen on every colour.
+        shapes.push(Shape::line([at, top], [at, bottom], WHITE, 3.0));
+        shapes.push(Shape::Path { points: vec![[at, top], [at, bottom]], color: INK, width: 1.0, dash: 4.0 });
+        shapes.push(Shape::text([at, top - 6.0], guide.label.clone(), SMALL, INK, Anchor::Middle));
+    }
     if panel.legend {
         let (x0, x1) = (right - 74.0, right - 58.0);
         let steps = 64;
@@ -69,6 +81,12 @@ pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
             let at = bottom - (bottom - top) * colors.share(value);
             shapes.push(Shape::line([x1, at], [x1 + 4.0, at], INK, 1.0));
             shapes.push(Shape::text([x1 + 7.0, at], tick_text(value), SMALL, INK, Anchor::Start));
+        }
+        for guide in panel.guides.iter().filter(|guide| colors.holds(guide.at)) {
+            let at = bottom - (bottom - top) * colors.share(guide.at);
+            shapes.push(Shape::line([x0 - 4.0, at], [x1 + 4.0, at], WHITE, 4.0));
+            shapes.push(Shape::line([x0 - 4.0, at], [x1 + 4.0, at], INK, 2.0));
+            shapes.push(Shape::text([x1 + 7.0, at], guide.label.clone(), SMALL, INK, Anchor::Start));
         }
         let label = [right - 7.0, 0.5 * (top + bottom)];
         shapes.push(Shape::Text {

@@ -2,7 +2,7 @@
 
 use super::axis::{self, Area, Axis, Bounds, Plane, Titles};
 use super::paint::{Anchor, Shape, width};
-use super::style::{FAILED, GREY, INK, SMALL, color, fade};
+use super::style::{FAILED, GOOD, GREY, INK, SMALL, color, fade};
 use super::{Guide, pareto};
 
 /// A panel of labelled points.
@@ -24,6 +24,8 @@ pub struct Scatter {
     pub guides: Vec<Guide>,
     /// Values of the axis across to mark.
     pub guides_x: Vec<Guide>,
+    /// Shades what lies below this value of the axis upward: good enough.
+    pub good_below: Option<f64>,
 }
 
 /// A point with its name.
@@ -59,7 +61,13 @@ pub(super) fn draw(panel: &Scatter, area: Area, shapes: &mut Vec<Shape>) {
     }
     let x = panel.x.fitted(panel.points.iter().map(|p| p.x).chain(panel.guides_x.iter().map(|g| g.at)));
     let y = panel.y.fitted(panel.points.iter().map(|p| p.y).chain(panel.guides.iter().map(|g| g.at)));
+    let under = shapes.len();
     let plane = axis::frame(area, &Titles { title: &panel.title, x: &panel.x.label, y: &panel.y.label }, [x, y], true, shapes);
+    if let Some(limit) = panel.good_below {
+        let Area { x: [left, right], y: [_, bottom] } = plane.inner;
+        // Under the grid.
+        shapes.insert(under, Shape::Rect { from: [left, plane.clamped(plane.x.low(), limit)[1]], to: [right, bottom], color: GOOD });
+    }
     let mut taken = axis::guides(&plane, &panel.guides, true, shapes);
     taken.extend(axis::guides(&plane, &panel.guides_x, false, shapes));
 

@@ -20,6 +20,8 @@ pub const INK: Color = [30, 30, 30];
 pub const GREY: Color = [110, 110, 110];
 /// Grid lines.
 pub const FAINT: Color = [225, 225, 225];
+/// Behind what is good enough.
+pub const GOOD: Color = [233, 246, 233];
 /// What failed.
 pub const FAILED: Color = [200, 0, 0];
 

@@ -1,13 +1,12 @@
 //! The methods on a graphics adapter: handed in from above, for this floor knows no renderer.
 
-use super::points::{CAMERAS, Row, row_of};
-use super::score::{tally, truth};
+use super::points::{Row, by_camera};
+use super::score::{Truth, tally};
+use super::time::TimedFrame;
 use super::{ChartError, Request};
 use crate::measure::chart::{Provenance, Sheet};
 use crate::measure::methods::{FAMILIES, Vertex};
 use crate::spacetime::light::{Branch, Order};
-use rand::SeedableRng;
-use rand::rngs::SmallRng;
 
 /// The methods of projection on a graphics adapter, by their names in `game.toml`.
 pub trait Adapter {
@@ -24,29 +23,32 @@ pub trait Adapter {
     fn bytes(&mut self, method: &str) -> usize;
 }
 
-/// Camera radii: each needs a slice of its own, so there are fewer than on the processor.
-const FRAMES: usize = 320;
-/// Of which every so manyth is timed.
-const TIMED: usize = 40;
+/// Of the cameras that are timed on the processor every so manyth is timed here: an adapter does many points of each at once.
+const TIMED: usize = 2;
 /// Rounds in which the methods take turns; the median counts.
 const ROUNDS: usize = 5;
 
-fn packed(row: &Row, order: Order) -> [f32; 4] {
-    let Vertex { along, across, height, .. } = row.query.into();
-    let age = if row.branch == Branch::Minus { 4.0 } else { 0.0 };
+fn packed(vertex: Vertex, order: Order, branch: Branch) -> [f32; 4] {
+    let Vertex { along, across, height, .. } = vertex;
+    let age = if branch == Branch::Minus { 4.0 } else { 0.0 };
     [along, across, height, f32::from(order.number()) + age]
 }
 
-/// Adversarial points of `FRAMES` cameras, as in [`super::rows`].
-fn frames(request: &Request) -> Vec<Vec<Row>> {
-    let mut rng = SmallRng::seed_from_u64(request.seed ^ 0x6b75);
-    let count = request.points.div_ceil(FRAMES).clamp(64, 1024);
-    (0..FRAMES)
-        .map(|_| {
-            let camera = super::points::camera(&mut rng);
-            (0..count).map(|_| row_of(&mut rng, camera)).collect()
-        })
-        .collect()
+/// What the method answers to `rows` in each order.
+fn answers(adapter: &mut dyn Adapter, method: &str, rows: &[Row]) -> [Vec<Option<[f64; 2]>>; 3] {
+    let mut all = [Vec::new(), Vec::new(), Vec::new()];
+    for rows in by_camera(rows) {
+        // One dispatch a camera: its slice is the same for all orders.
+        let asked: Vec<_> = Order::ALL
+            .into_iter()
+            .flat_map(|order| rows.iter().map(move |row| packed(row.query.into(), order, row.branch)))
+            .collect();
+        let found = adapter.look_up(method, rows[0].query.camera, &asked).unwrap_or_else(|| vec![None; asked.len()]);
+        for (all, found) in all.iter_mut().zip(found.chunks(rows.len())) {
+            all.extend_from_slice(found);
+        }
+    }
+    all
 }
 
 const COLUMNS: &[&str] = &[
@@ -71,27 +73,31 @@ const COLUMNS: &[&str] = &[
     "bytes",
 ];
 
-/// One row for each method and order.
-pub fn measure(request: &Request, adapter: &mut dyn Adapter) -> Result<Sheet, ChartError> {
+/// One row for each method and order, on the very `rows` of the processor, whose truth in each order is `truths`; timed on points of the
+/// processor's `frames`.
+pub fn measure(
+    request: &Request,
+    adapter: &mut dyn Adapter,
+    rows: &[Row],
+    truths: &[Vec<Truth>],
+    frames: &[TimedFrame],
+) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(COLUMNS);
     sheet.notes = Provenance::now(&adapter.name()).notes();
-    let frames = frames(request);
-    let [low, high] = CAMERAS;
-    let points = frames.len() * frames[0].len();
-    sheet
-        .notes
-        .push(("points".into(), format!("{points} for each order, from {FRAMES} cameras in {low} … {high} r_s, seed {}", request.seed)));
+    sheet.notes.push(("points".into(), format!("{}, the same as in projection.csv", super::told(request, rows))));
     let methods: Vec<_> = adapter
         .methods()
         .into_iter()
         .filter(|(name, _)| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == name))
         .collect();
-    // Times side by side: orders 1 and 2, as on the processor, of cameras that every method has an answer for.
+    // Times side by side: orders 1 and 2, as on the processor.
     let timed: Vec<(f64, Vec<[f32; 4]>)> = frames
         .iter()
-        .filter(|rows| rows[0].query.camera > 1.02)
         .step_by(TIMED)
-        .map(|rows| (rows[0].query.camera, rows.iter().flat_map(|row| Order::ALL[..2].iter().map(|order| packed(row, *order))).collect()))
+        .map(|frame| {
+            let asked = |point: &Vertex| [0, 1].map(|order| packed(*point, Order::ALL[order], Branch::Plus));
+            (frame.camera, frame.points.iter().flat_map(asked).collect())
+        })
         .collect();
     eprintln!("timing {} methods on {}", methods.len(), adapter.name());
     let mut times = vec![Vec::new(); methods.len()];
@@ -105,22 +111,18 @@ pub fn measure(request: &Request, adapter: &mut dyn Adapter) -> Result<Sheet, Ch
             }
         }
     }
-    let truths: Vec<Vec<Vec<_>>> = Order::ALL.into_iter().map(|order| frames.iter().map(|rows| truth(rows, order)).collect()).collect();
     for ((name, family), mut times) in methods.into_iter().zip(times) {
+        eprintln!("scoring {name} on the adapter");
         times.sort_by(f64::total_cmp);
         let bytes = adapter.bytes(name);
-        for (order, truths) in Order::ALL.into_iter().zip(&truths) {
-            let mut answers = Vec::new();
-            for rows in &frames {
-                let asked: Vec<_> = rows.iter().map(|row| packed(row, order)).collect();
-                answers.extend(adapter.look_up(name, rows[0].query.camera, &asked).unwrap_or_else(|| vec![None; rows.len()]));
-            }
-            let s = tally(&frames.concat(), &answers, &truths.concat());
+        let answers = answers(adapter, name, rows);
+        for ((order, truth), answers) in Order::ALL.into_iter().zip(truths).zip(&answers) {
+            let s = tally(rows, answers, truth);
             let mut cells = vec![
                 name.to_owned(),
                 FAMILIES[family].to_owned(),
                 order.number().to_string(),
-                points.to_string(),
+                rows.len().to_string(),
                 s.answered.to_string(),
                 s.missing.to_string(),
                 s.invented.to_string(),

@@ -56,7 +56,10 @@ pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<P
     let sheet = output.sheet("projection", || measure(request))?;
     let mut paths = vec![output.csv("projection")];
     let graphics = match adapter {
-        Some(adapter) => Some(output.sheet("projection-gpu", || adapter::measure(request, adapter))?),
+        Some(adapter) => Some(output.sheet("projection-gpu", || {
+            let rows = rows(request.points, request.seed);
+            adapter::measure(request, adapter, &rows, &truths(&rows), &time::frames(request.seed))
+        })?),
         None if output.redraw && output.csv("projection-gpu").is_file() => Some(Sheet::load(&output.csv("projection-gpu"))?),
         None => None,
     };
@@ -89,6 +92,16 @@ fn chosen(request: &Request) -> Result<Methods, ChartError> {
     Ok(CATALOGUE.iter().filter(wanted).filter_map(|entry| Some((*entry, methods::named(entry.name)?))).collect())
 }
 
+/// What the rows are, for the notes of a sheet.
+fn told(request: &Request, rows: &[Row]) -> String {
+    format!("{} for each order, from {} cameras, seed {}", rows.len(), points::by_camera(rows).count(), request.seed)
+}
+
+/// The truth of the rows in each order.
+fn truths(rows: &[Row]) -> Vec<Vec<Truth>> {
+    Order::ALL.into_iter().map(|order| truth(rows, order)).collect()
+}
+
 const COLUMNS: &[&str] = &[
     "method",
     "family",
@@ -118,12 +131,12 @@ fn measure(request: &Request) -> Result<Sheet, ChartError> {
     let methods = chosen(request)?;
     let mut sheet = Sheet::new(COLUMNS);
     sheet.notes = Provenance::now("").notes();
-    sheet.notes.push(("points".into(), format!("{} for each order, seed {}", request.points, request.seed)));
     eprintln!("timing {} methods", methods.len());
     let frames = time::frames(request.seed);
     let times = time::measure(&methods, &frames);
     let rows = rows(request.points, request.seed);
-    let truths: Vec<Vec<Truth>> = Order::ALL.iter().map(|order| truth(&rows, *order)).collect();
+    sheet.notes.push(("points".into(), told(request, &rows)));
+    let truths = truths(&rows);
     for ((entry, method), timed) in methods.iter().zip(times) {
         eprintln!("scoring {}", entry.name);
         for (order, truth) in Order::ALL.into_iter().zip(&truths) {

@@ -17,6 +17,9 @@ pub const POINTS: [f64; 2] = [1.0005, 1e4];
 /// The least distance in the slice, in camera radii.
 const LEAST_DISTANCE: f64 = 1e-4;
 
+/// Points of one camera: a graphics adapter needs a slice for each camera, so they come in groups of one camera.
+const EACH: usize = 100;
+
 /// A point, a camera and the sign of the photon's energy, which matters only where both are inside.
 #[derive(Clone, Copy, Debug)]
 pub struct Row {
@@ -28,24 +31,36 @@ pub struct Row {
 
 /// `count` rows from `seed`: L log-uniform, a third of them in 0.95 … 1.6; r half log-uniform, half log-clustered around L down to 1e-4
 /// of it; φ half uniform, half clustered at 0 and π down to 1e-5 π; nothing left out but slice distances below 1e-4 L. Among the points
-/// around a camera inside are some that no light joins to it.
+/// around a camera inside are some that no light joins to it. Rows of one camera follow each other, `EACH` at a time.
 pub fn rows(count: usize, seed: u64) -> Vec<Row> {
     let mut rng = SmallRng::seed_from_u64(seed);
-    (0..count).map(|_| row(&mut rng)).collect()
+    let mut rows = Vec::with_capacity(count + EACH);
+    while rows.len() < count {
+        let camera = camera(&mut rng);
+        rows.extend((0..EACH).map(|_| row_of(&mut rng, camera)));
+    }
+    rows.truncate(count);
+    rows
 }
 
-fn row(rng: &mut SmallRng) -> Row {
+/// The rows of each camera.
+pub(super) fn by_camera(rows: &[Row]) -> impl Iterator<Item = &[Row]> {
+    rows.chunk_by(|a, b| a.query.camera == b.query.camera)
+}
+
+/// A row of a camera of its own.
+pub(super) fn row(rng: &mut SmallRng) -> Row {
     let camera = camera(rng);
     row_of(rng, camera)
 }
 
 /// A camera's radius.
-pub(super) fn camera(rng: &mut SmallRng) -> f64 {
+fn camera(rng: &mut SmallRng) -> f64 {
     if rng.random_bool(1.0 / 3.0) { between(rng, NEAR) } else { between(rng, CAMERAS) }
 }
 
 /// A row of that camera.
-pub(super) fn row_of(rng: &mut SmallRng, camera: f64) -> Row {
+fn row_of(rng: &mut SmallRng, camera: f64) -> Row {
     let branch = if rng.random_bool(0.5) { Branch::Plus } else { Branch::Minus };
     loop {
         let clustered = rng.random_bool(0.5);

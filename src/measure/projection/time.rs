@@ -2,7 +2,10 @@
 
 use std::time::Instant;
 
-use super::points::rows;
+use rand::SeedableRng;
+use rand::rngs::SmallRng;
+
+use super::points::row;
 use crate::measure::chart::interleaved;
 use crate::measure::methods::{Entry, Frame, Projector, Vertex};
 use crate::spacetime::light::Order;
@@ -35,7 +38,8 @@ pub struct Timed {
 
 /// Adversarial points that every method has an answer for: paper 1's ranges.
 pub fn frames(seed: u64) -> Vec<TimedFrame> {
-    let drawn = rows(FRAMES * POINTS * 40, seed ^ 0x5eed);
+    let mut rng = SmallRng::seed_from_u64(seed ^ 0x5eed);
+    let drawn: Vec<_> = (0..FRAMES * POINTS * 40).map(|_| row(&mut rng)).collect();
     let cameras: Vec<f64> = drawn.iter().map(|row| row.query.camera).filter(|l| (1.02..5000.0).contains(l)).take(FRAMES).collect();
     // The points are drawn around other cameras: kept as multiples of those.
     let points: Vec<(f64, f64)> = drawn.iter().map(|row| (row.query.r / row.query.camera, row.query.phi)).collect();

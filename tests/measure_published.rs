@@ -1,0 +1,210 @@
+//! The figures that README.md and docs/projection.md print are those of the CSVs beside them. Where they are not, the test prints what to write.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::Path;
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The rows of a CSV, each by the names of its columns.
+fn rows(path: &str) -> Vec<BTreeMap<String, String>> {
+    let text = read(path);
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    lines.map(|line| header.iter().map(|name| (*name).to_owned()).zip(line.split(',').map(str::to_owned)).collect()).collect()
+}
+
+fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+    row[name].parse().unwrap_or_else(|_| panic!("{name} is {:?}", row[name]))
+}
+
+/// A method over its three orders.
+struct Method {
+    name: String,
+    max: f64,
+    most: f64,
+    rms: f64,
+    delay: f64,
+    wrong: f64,
+    row: BTreeMap<String, String>,
+}
+
+fn methods(path: &str) -> Vec<Method> {
+    let rows = rows(path);
+    let mut names: Vec<&String> = rows.iter().map(|row| &row["method"]).collect();
+    names.dedup();
+    let of = |name: &String| {
+        let of_it: Vec<_> = rows.iter().filter(|row| row["method"] == *name).collect();
+        assert_eq!(of_it.len(), 3, "{path}: {name} has three orders");
+        // Orders that a method does not answer have no errors.
+        let most = |column: &str| of_it.iter().map(|row| number(row, column)).fold(f64::NAN, f64::max);
+        let sum = |value: &dyn Fn(&BTreeMap<String, String>) -> f64| of_it.iter().map(|row| value(row)).sum::<f64>();
+        let answered = |row: &BTreeMap<String, String>| number(row, "answered");
+        let square = |row: &BTreeMap<String, String>| if answered(row) > 0.0 { number(row, "rms_degrees").powi(2) * answered(row) } else { 0.0 };
+        Method {
+            name: name.clone(),
+            max: most("max_degrees"),
+            most: most("p999_degrees"),
+            rms: (sum(&square) / sum(&answered)).sqrt(),
+            delay: most("delay_over_allowed"),
+            wrong: sum(&|row| number(row, "missing") + number(row, "false")) / sum(&|row| number(row, "rows")),
+            row: of_it[0].clone(),
+        }
+    };
+    names.into_iter().map(of).collect()
+}
+
+/// At most `digits` digits that count, without zeros at the end.
+fn short(value: f64, digits: i32) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let decimals = |value: f64| (digits - 1 - value.abs().log10().floor() as i32).max(0) as usize;
+    // What rounding carries over a power of ten has a digit less behind the point.
+    let rounded: f64 = format!("{value:.*}", decimals(value)).parse().expect("a number");
+    let text = format!("{value:.*}", decimals(rounded));
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
+
+/// An error: two digits, as a power of ten below 0.01; a dash for none.
+fn error(value: f64) -> String {
+    if value == 0.0 {
+        "–".into()
+    } else if value > 1e4 {
+        "> 10,000".into()
+    } else if value < 0.01 {
+        format!("{value:.1e}")
+    } else {
+        short(value, 2)
+    }
+}
+
+/// The same that keeps two digits behind the point where there is little before it.
+fn share(value: f64) -> String {
+    if (0.01..1.0).contains(&value) { format!("{value:.2}") } else { error(value) }
+}
+
+fn cells(method: &Method) -> String {
+    let Method { name, max, most, rms, delay, wrong, .. } = method;
+    format!("| `{name}` | {} | {} | {} | {} | {:.1} % |", error(*max), error(*most), error(*rms), share(*delay), 100.0 * wrong)
+}
+
+/// Fails with the lines as they should stand, if they do not stand together in the document.
+fn stands(document: &str, lines: &str) {
+    let text = read(document);
+    assert!(text.contains(lines), "{document} and its CSV differ. It should say:\n\n{lines}\n");
+}
+
+#[test]
+fn the_tables_of_the_projection_are_those_of_its_csv() {
+    let mut lines = String::new();
+    for method in methods("docs/projection.csv") {
+        let [time, frame, bytes] = ["nanoseconds", "frame_microseconds", "bytes"].map(|name| number(&method.row, name));
+        writeln!(lines, "{} {time:.0} | {frame:.1} | {:.1} |", cells(&method), bytes / 1_048_576.0).unwrap();
+    }
+    stands("docs/projection.md", &lines);
+    let mut lines = String::new();
+    for method in methods("docs/projection-gpu.csv") {
+        let time = number(&method.row, "nanoseconds");
+        let time = if time < 1.0 { "< 1".into() } else { format!("{time:.0}") };
+        writeln!(lines, "{} {time} | {:.0} |", cells(&method), number(&method.row, "bytes") / 1024.0).unwrap();
+    }
+    stands("docs/projection.md", &lines);
+}
+
+#[test]
+fn the_reach_is_that_of_the_csv() {
+    let rows = rows("docs/projection.csv");
+    let mut lines = String::new();
+    for name in ["table-full", "table"] {
+        for row in rows.iter().filter(|row| row["method"] == name) {
+            let at = |columns: [&str; 3]| columns.map(|column| short(number(row, column), 5)).join(", ");
+            writeln!(
+                lines,
+                "| `{name}` {} | {} | {:.5}° | {:.6}° | {:.6}° | {} | {:.2} | {} |",
+                row["order"],
+                row["answered"],
+                number(row, "max_degrees"),
+                number(row, "p999_degrees"),
+                number(row, "rms_degrees"),
+                at(["worst_r", "worst_phi", "worst_L"]),
+                number(row, "delay_over_allowed"),
+                at(["delay_worst_r", "delay_worst_phi", "delay_worst_L"]),
+            )
+            .unwrap();
+        }
+    }
+    stands("docs/projection.md", &lines);
+}
+
+#[test]
+fn paper_ones_tables_are_those_of_their_csv() {
+    let rows = rows("docs/projection-paper1.csv");
+    let mut lines = String::new();
+    for samplings in rows.chunks(3) {
+        let row = &samplings[0];
+        let ours = |row: &BTreeMap<String, String>| ["max", "p999", "deviation"].map(|name| short(number(row, name), 3)).join(", ");
+        let [a, b, c] = [0, 1, 2].map(|k| ours(&samplings[k]));
+        writeln!(
+            lines,
+            "| {} | {}³ | {} | {} | {}, {} | {a} | {b} | {c} |",
+            row["mesh"], row["nodes"], row["order"], row["half"], row["printed_max"], row["printed_deviation"]
+        )
+        .unwrap();
+    }
+    stands("docs/projection.md", &lines);
+}
+
+/// Sentences with numbers in README.md and docs/projection.md, however their lines are broken.
+#[test]
+fn the_sentences_about_the_projection_are_those_of_the_csv() {
+    let all = methods("docs/projection.csv");
+    let of = |name: &str| all.iter().find(|method| method.name == name).unwrap_or_else(|| panic!("{name} is not in the CSV"));
+    let time = |name: &str| number(&of(name).row, "nanoseconds");
+    let (table, full, paper) = (of("table"), of("table-full"), of("paper1-128"));
+    let mebibytes = |method: &Method| number(&method.row, "bytes") / 1_048_576.0;
+    let sentences = [
+        (
+            "README.md",
+            format!("is off by at most {:.4}° and the full table by {:.4}°, where half a pixel", table.max, full.max),
+        ),
+        ("README.md", format!("rms {:.5}° and {:.5}°.", table.rms, full.rms)),
+        (
+            "README.md",
+            format!(
+                "Paper 1's 128³ tables, at {:.0} MiB, are off by up to {:.0}° on those points that they answer and leave {:.0} % unanswered.",
+                mebibytes(paper),
+                paper.max,
+                100.0 * paper.wrong
+            ),
+        ),
+        (
+            "README.md",
+            format!(
+                "On one core a lookup takes {:.0} ns eight at a time ({:.0} ns alone), a fetch from paper 1's tables {:.0} ns eight at a time \
+                 ({:.0} ns alone), the exact ray {:.0} ns.",
+                time("table-batch"),
+                time("table"),
+                time("paper1-128-batch"),
+                time("paper1-128"),
+                time("exact")
+            ),
+        ),
+        ("README.md", format!("A table of {:.0} MiB, baked", mebibytes(table))),
+        (
+            "docs/projection.md",
+            format!("`table-batch` takes {:.2} of the time of the plain fetch", time("table-batch") / time("paper1-128-batch")),
+        ),
+        ("docs/projection.md", format!("and {:.2} of the fetch of single points", time("table-batch") / time("paper1-128"))),
+        ("docs/projection.md", format!("One point at a time, `table` takes {:.2} of the single fetch", time("table") / time("paper1-128"))),
+    ];
+    let plain = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let wrong: Vec<_> = sentences
+        .into_iter()
+        .filter(|(document, sentence)| !plain(read(document)).contains(&plain(sentence.clone())))
+        .map(|(document, sentence)| format!("{document}: {sentence}"))
+        .collect();
+    assert!(wrong.is_empty(), "these should be said:\n{}\n", wrong.join("\n"));
+}
