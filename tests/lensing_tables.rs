@@ -124,7 +124,13 @@ fn keeps_its_promise_inside(points: usize, seed: u64) {
     let most = |k: usize| errors.iter().map(|e| e[k]).fold(0.0, f64::max);
     let rms = (errors.iter().map(|e| e[0] * e[0]).sum::<f64>() / errors.len() as f64).sqrt();
     let both = [Branch::Plus, Branch::Minus].map(|branch| inside.iter().filter(|row| row.branch == branch).count());
-    println!("inside: {} of {} seen, {:.6}° at most, {rms:.7}° rms, delay off by {:.6} at most", errors.len(), inside.len(), most(0), most(1));
+    println!(
+        "inside: {} of {} seen, {:.6}° at most, {rms:.7}° rms, delay off by {:.6} at most",
+        errors.len(),
+        inside.len(),
+        most(0),
+        most(1)
+    );
     assert!(errors.len() > points / 50 && both.iter().all(|count| *count > points / 100), "{} seen, {both:?}", errors.len());
     assert!(most(0) <= 0.008 && rms <= 0.0005, "{}° at most, {rms}° rms", most(0));
     assert!(most(1) <= 0.02, "delay off by {} r_s/c", most(1));

@@ -42,7 +42,8 @@ fn methods(path: &str) -> Vec<Method> {
         let most = |column: &str| of_it.iter().map(|row| number(row, column)).fold(f64::NAN, f64::max);
         let sum = |value: &dyn Fn(&BTreeMap<String, String>) -> f64| of_it.iter().map(|row| value(row)).sum::<f64>();
         let answered = |row: &BTreeMap<String, String>| number(row, "answered");
-        let square = |row: &BTreeMap<String, String>| if answered(row) > 0.0 { number(row, "rms_degrees").powi(2) * answered(row) } else { 0.0 };
+        let square =
+            |row: &BTreeMap<String, String>| if answered(row) > 0.0 { number(row, "rms_degrees").powi(2) * answered(row) } else { 0.0 };
         Method {
             name: name.clone(),
             max: most("max_degrees"),
@@ -166,10 +167,7 @@ fn the_sentences_about_the_projection_are_those_of_the_csv() {
     let (table, full, paper) = (of("table"), of("table-full"), of("paper1-128"));
     let mebibytes = |method: &Method| number(&method.row, "bytes") / 1_048_576.0;
     let sentences = [
-        (
-            "README.md",
-            format!("is off by at most {:.4}° and the full table by {:.4}°, where half a pixel", table.max, full.max),
-        ),
+        ("README.md", format!("is off by at most {:.4}° and the full table by {:.4}°, where half a pixel", table.max, full.max)),
         ("README.md", format!("rms {:.5}° and {:.5}°.", table.rms, full.rms)),
         (
             "README.md",

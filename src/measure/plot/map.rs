@@ -77,13 +77,17 @@ pub(super) fn draw(panel: &Map, mut area: Area, shapes: &mut Vec<Shape>) {
             let y = |k: usize| bottom - (bottom - top) * k as f64 / steps as f64;
             shapes.push(Shape::Rect { from: [x0, y(i + 1)], to: [x1, y(i)], color: scale((i as f64 + 0.5) / steps as f64) });
         }
+        let height = |value: f64| bottom - (bottom - top) * colors.share(value);
         for value in colors.ticks(((bottom - top) / 30.0) as usize) {
-            let at = bottom - (bottom - top) * colors.share(value);
+            let at = height(value);
+            if panel.guides.iter().any(|guide| (height(guide.at) - at).abs() < 10.0) {
+                continue;
+            }
             shapes.push(Shape::line([x1, at], [x1 + 4.0, at], INK, 1.0));
             shapes.push(Shape::text([x1 + 7.0, at], tick_text(value), SMALL, INK, Anchor::Start));
         }
         for guide in panel.guides.iter().filter(|guide| colors.holds(guide.at)) {
-            let at = bottom - (bottom - top) * colors.share(guide.at);
+            let at = height(guide.at);
             shapes.push(Shape::line([x0 - 4.0, at], [x1 + 4.0, at], WHITE, 4.0));
             shapes.push(Shape::line([x0 - 4.0, at], [x1 + 4.0, at], INK, 2.0));
             shapes.push(Shape::text([x1 + 7.0, at], guide.label.clone(), SMALL, INK, Anchor::Start));

@@ -2,7 +2,7 @@
 
 use super::axis::{self, Area, Axis, Bounds, Plane, Titles};
 use super::paint::{Anchor, Shape, width};
-use super::style::{FAILED, GOOD, GREY, INK, SMALL, color, fade};
+use super::style::{FAILED, GOOD, GREY, HEADING, INK, SMALL, color, fade};
 use super::{Guide, pareto};
 
 /// A panel of labelled points.
@@ -49,6 +49,8 @@ pub struct Point {
 const RADIUS: f64 = 5.0;
 /// The height of a label, pixels.
 const HEIGHT: f64 = 14.0;
+/// Letters of the chosen point's name.
+const CHOSEN: f64 = HEADING;
 
 pub(super) fn draw(panel: &Scatter, area: Area, shapes: &mut Vec<Shape>) {
     let mut area = area;
@@ -125,12 +127,13 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
     order.sort_by_key(|(_, i)| (!panel.points[*i].chosen, !best.contains(i)));
     for (at, i) in order {
         let point = &panel.points[*i];
-        let wide = width(&point.label, SMALL);
+        let (size, around) = if point.chosen { (CHOSEN, 6.0) } else { (SMALL, 0.0) };
+        let (wide, height) = (width(&point.label, size), HEIGHT * size / SMALL);
         let frame = plane.inner;
         let inside = |b: &Bounds| b[0] >= frame.x[0] && b[2] <= frame.x[1] && b[1] >= frame.y[0] && b[3] <= frame.y[1];
         let mut found: Option<(f64, Bounds, f64)> = None;
         for step in 0..12 {
-            let reach = 9.0 + 11.0 * f64::from(step);
+            let reach = 9.0 + around + 11.0 * f64::from(step);
             for turn in 0..16 {
                 // Right, left, then the rest of the circle.
                 let angle = [0.0, 8.0, 4.0, 12.0, 2.0, 14.0, 6.0, 10.0, 1.0, 15.0, 7.0, 9.0, 3.0, 13.0, 5.0, 11.0][turn]
@@ -139,8 +142,8 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
                 let (cos, sin) = (angle.cos(), angle.sin());
                 let near = [at[0] + reach * cos, at[1] - reach * sin];
                 let left = near[0] - wide * 0.5 * (1.0 - cos);
-                let top = near[1] - 0.5 * HEIGHT * (1.0 + sin);
-                let place = [left, top, left + wide, top + HEIGHT];
+                let top = near[1] - 0.5 * height * (1.0 + sin);
+                let place = [left, top, left + wide, top + height];
                 if !inside(&place) {
                     continue;
                 }
@@ -154,7 +157,7 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
             }
         }
         let Some((_, place, reach)) = found else { continue };
-        if reach > 15.0 {
+        if reach > 15.0 + around {
             let end = [at[0].clamp(place[0], place[2]), at[1].clamp(place[1], place[3])];
             shapes.push(Shape::line(*at, end, fade(GREY, 0.3), 1.0));
         }
@@ -165,7 +168,7 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
         } else {
             GREY
         };
-        shapes.push(Shape::text([place[0], 0.5 * (place[1] + place[3])], point.label.clone(), SMALL, ink, Anchor::Start));
+        shapes.push(Shape::text([place[0], 0.5 * (place[1] + place[3])], point.label.clone(), size, ink, Anchor::Start));
         taken.push(place);
     }
 }

@@ -39,10 +39,8 @@ fn answers(adapter: &mut dyn Adapter, method: &str, rows: &[Row]) -> [Vec<Option
     let mut all = [Vec::new(), Vec::new(), Vec::new()];
     for rows in by_camera(rows) {
         // One dispatch a camera: its slice is the same for all orders.
-        let asked: Vec<_> = Order::ALL
-            .into_iter()
-            .flat_map(|order| rows.iter().map(move |row| packed(row.query.into(), order, row.branch)))
-            .collect();
+        let asked: Vec<_> =
+            Order::ALL.into_iter().flat_map(|order| rows.iter().map(move |row| packed(row.query.into(), order, row.branch))).collect();
         let found = adapter.look_up(method, rows[0].query.camera, &asked).unwrap_or_else(|| vec![None; asked.len()]);
         for (all, found) in all.iter_mut().zip(found.chunks(rows.len())) {
             all.extend_from_slice(found);

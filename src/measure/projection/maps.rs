@@ -107,8 +107,8 @@ pub fn draw(sheet: &Sheet) -> Figure {
     let mut panels = Vec::new();
     for (i, block) in sheet.rows.chunks(SIZE[1]).enumerate() {
         let (method, plane) = (sheet.text(&block[0], "method"), planes[i % planes.len()]);
-        // Eight colours a decade: the SVG's rectangles merge.
-        let round = |v: f64| if v.is_finite() { 10f64.powf((8.0 * v.max(SCALE[0]).log10()).round() / 8.0) } else { v };
+        // Four colours a decade: the SVG's rectangles merge.
+        let round = |v: f64| if v.is_finite() { 10f64.powf((4.0 * v.max(SCALE[0]).log10()).round() / 4.0) } else { v };
         let numbers = block.iter().flat_map(|row| row.iter().skip(4));
         let mut values: Vec<f64> = numbers.map(|cell| round(cell.parse().unwrap_or(f64::NAN))).collect();
         values.resize(SIZE[0] * SIZE[1], f64::NEG_INFINITY);
@@ -127,7 +127,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             colors: Axis::log("error, degrees").between(SCALE[0], SCALE[1]),
             legend: i % planes.len() == planes.len() - 1,
             guides_x: vec![Guide { at: plane.camera, label: String::new() }],
-            guides: vec![Guide { at: HALF_PIXEL, label: "½ pixel".into() }],
+            guides: vec![Guide { at: HALF_PIXEL, label: "½ px".into() }],
         }));
     }
     let rows = panels.len().div_ceil(planes.len()).max(1) as u32;
@@ -138,7 +138,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             .into(),
         panels,
         columns: planes.len(),
-        size: [2000, 130 + 215 * rows],
+        size: [1800, 130 + 190 * rows],
         footer: Provenance::footer(&sheet.notes),
     }
 }
