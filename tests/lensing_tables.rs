@@ -404,6 +404,78 @@ fn linear_and_cubic_agree_at_the_nodes() {
     }
 }
 
+/// What colours and brightness are made from: a photon per unit of angular momentum, so that its tangential momentum is 1/r at either end, its
+/// frequency the length of its momentum, and ω − √(1/r) p_r the same energy e at both (a falling observer's energy is not the one at infinity).
+#[test]
+fn momenta_and_frequencies_belong_to_one_photon() {
+    use lensrunner::measure::projection::rows;
+    use lensrunner::spacetime::light::Branch;
+    let mut inside = 0;
+    for row in rows(6000, 3) {
+        let [mut phi, r, l] = [row.query.phi, row.query.r, row.query.camera];
+        if r < 1.0 && r > l {
+            phi *= 0.9 * ((1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos()) / PI;
+        }
+        for order in Order::ALL {
+            let ray = score::look_up_row_on(&Slice::new(table(), l), [r, phi, l], order, row.branch);
+            if !ray.valid {
+                continue;
+            }
+            inside += u32::from(r < 1.0 && row.branch == Branch::Minus);
+            let near = |a: f64, b: f64, scale: f64, what: &str| {
+                assert!((a - b).abs() < 3e-5 * scale, "{what}: {a} and {b} at r {r} φ {phi} L {l} {order:?} {:?}: {ray:?}", row.branch);
+            };
+            let [frequency, sin, cos, energy] = [ray.frequency, ray.sin_psi, ray.cos_psi, ray.energy].map(f64::from);
+            let [left, out, around] = [ray.emission_frequency, ray.emission_radial, ray.emission_tangential].map(f64::from);
+            // Looking and moving are opposite.
+            near(frequency * sin, 1.0 / l, 1.0 / l, "tangential at the camera");
+            near(frequency * (1.0 + cos / l.sqrt()), energy, frequency * (1.0 + 1.0 / l.sqrt()), "energy at the camera");
+            near(around, 1.0 / r, 1.0 / r, "tangential at the point");
+            near(out.hypot(around), left, left, "frequency at the point");
+            near(left - out / r.sqrt(), energy, left * (1.0 + 1.0 / r.sqrt()), "energy at the point");
+            near(
+                f64::from(ray.slope).hypot((1.0 - 1.0 / l).max(0.0).sqrt() / l),
+                energy.hypot((1.0 / l - 1.0).max(0.0).sqrt() / l),
+                frequency,
+                "slope",
+            );
+            let signed = row.branch == Branch::Plus || r > 1.0;
+            assert!((energy >= 0.0) == signed, "energy {energy} of {:?}", row.branch);
+        }
+    }
+    assert!(inside > 30, "only {inside} with E < 0");
+}
+
+/// What is looked up is the cubic B-spline of the coefficients, by its definition (de Boor, A Practical Guide to Splines, ch. IX), in the table's
+/// corners too; places beyond are those of the edge.
+#[test]
+fn the_lookup_is_the_spline_of_its_coefficients() {
+    let slice = Slice::new(table(), 1.3);
+    let ([nx, ny], coefficients) = (slice.size.map(|n| n as usize), &slice.texels()[4..]);
+    // The basis function around 0 over knots a unit apart.
+    let basis = |x: f64| match x.abs() {
+        d if d < 1.0 => 2.0 / 3.0 - d * d + 0.5 * d * d * d,
+        d if d < 2.0 => (2.0 - d).powi(3) / 6.0,
+        _ => 0.0,
+    };
+    for x in [0.0, 1e-4, 0.013, 0.31, 0.5, 0.77, 0.995, 0.9999, 1.0, 1.5, -0.2] {
+        for y in [0.0, 1e-4, 0.007, 0.24, 0.5, 0.86, 0.998, 1.0, 1.1, -3.0] {
+            let (px, py) = (f64::clamp(x, 0.0, 1.0) * (nx - 1) as f64, f64::clamp(y, 0.0, 1.0) * (ny - 1) as f64);
+            let mut sum = [0.0f64; 3];
+            for j in 0..ny + 2 {
+                for i in 0..nx + 2 {
+                    let weight = basis(px + 1.0 - i as f64) * basis(py + 1.0 - j as f64);
+                    (0..3).for_each(|h| sum[h] += weight * f64::from(coefficients[j * (nx + 2) + i][h]));
+                }
+            }
+            let found = residuals(&slice, x as f32, y as f32);
+            for (got, want) in found.into_iter().zip(sum) {
+                assert!((f64::from(got) - want).abs() < 3e-5 * (0.1 + want.abs()), "at {x}, {y}: {found:?}, not {sum:?}");
+            }
+        }
+    }
+}
+
 /// A point exactly as far out as the camera is seen like its neighbours: what is divided by r − L has its limit there.
 #[test]
 fn the_cameras_own_radius_is_no_hole() {

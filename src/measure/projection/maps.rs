@@ -15,11 +15,11 @@ use crate::spacetime::light::{Branch, Order};
 /// Camera radii with points outside the horizon; the first of them also with points inside.
 const CAMERAS: [f64; 6] = [0.5, 1.02, 1.5, 3.0, 10.0, 1000.0];
 /// The methods whose maps are drawn, where they take part.
-const METHODS: [&str; 7] = ["table", "newton", "residual-linear-f16", "paper1-128", "rk4-64", "poutanen", "flat"];
+const METHODS: [&str; 7] = ["table", "newton", "table-linear", "paper1-128", "rk4-64", "poutanen", "flat"];
 /// Columns (r) and rows (φ).
 const SIZE: [usize; 2] = [56, 36];
 /// Colour scale, degrees.
-const SCALE: [f64; 2] = [1e-6, 1e2];
+const SCALE: [f64; 2] = [1e-5, 1e2];
 
 /// The plane of a map: a camera, and where its points are.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +138,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
             .into(),
         panels,
         columns: planes.len(),
-        size: [1800, 130 + 190 * rows],
+        size: [1700, 130 + 185 * rows],
         footer: Provenance::footer(&sheet.notes),
     }
 }
