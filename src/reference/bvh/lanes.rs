@@ -5,6 +5,8 @@ pub(super) trait Lanes: Copy {
     fn splat(value: f32) -> Self;
     fn load(from: &[f32; 8]) -> Self;
     fn store(self) -> [f32; 8];
+    /// The seven columns of eight rows.
+    fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7];
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -64,6 +66,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn store(self) -> [f32; 8] {
         self.0
+    }
+    #[inline(always)]
+    fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] {
+        std::array::from_fn(|column| Portable(rows.map(|row| row[column])))
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -140,6 +146,32 @@ mod avx {
     #[derive(Clone, Copy)]
     pub(in super::super) struct Avx(__m256);
 
+    /// Four columns of eight rows, from `first` ≤ 3.
+    #[inline(always)]
+    fn four_columns(rows: &[[f32; 7]; 8], first: usize) -> [Avx; 4] {
+        let [a, b, c, d, e, f, g, h] = rows;
+        let (p, q, r, s) = (two_rows(a, e, first), two_rows(b, f, first), two_rows(c, g, first), two_rows(d, h, first));
+        // SAFETY: the instructions exist, see above.
+        unsafe {
+            let (pq, rs) = (_mm256_unpacklo_ps(p, q), _mm256_unpacklo_ps(r, s));
+            let (pq_high, rs_high) = (_mm256_unpackhi_ps(p, q), _mm256_unpackhi_ps(r, s));
+            [
+                Avx(_mm256_shuffle_ps::<0x44>(pq, rs)),
+                Avx(_mm256_shuffle_ps::<0xee>(pq, rs)),
+                Avx(_mm256_shuffle_ps::<0x44>(pq_high, rs_high)),
+                Avx(_mm256_shuffle_ps::<0xee>(pq_high, rs_high)),
+            ]
+        }
+    }
+
+    /// Four numbers of each of two rows, from `first` ≤ 3.
+    #[inline(always)]
+    fn two_rows(low: &[f32; 7], high: &[f32; 7], first: usize) -> __m256 {
+        let (low, high) = (&low[first..first + 4], &high[first..first + 4]);
+        // SAFETY: the instructions exist, see above; the slices hold four numbers each.
+        unsafe { _mm256_set_m128(_mm_loadu_ps(high.as_ptr()), _mm_loadu_ps(low.as_ptr())) }
+    }
+
     // SAFETY (all blocks of this impl): the instructions exist, see above; loads and stores go through references to eight numbers, unaligned.
     impl Lanes for Avx {
         #[inline(always)]
@@ -155,6 +187,13 @@ mod avx {
             let mut out = [0.0; 8];
             unsafe { _mm256_storeu_ps(out.as_mut_ptr(), self.0) };
             out
+        }
+        #[inline(always)]
+        fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] {
+            // Numbers 0 to 3 and 3 to 6 of each row: four at a time, none beyond its end.
+            let [a, b, c, _] = four_columns(rows, 0);
+            let [d, e, f, g] = four_columns(rows, 3);
+            [a, b, c, d, e, f, g]
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {

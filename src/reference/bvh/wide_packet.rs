@@ -159,13 +159,11 @@ fn eight<'a>(rays: &'a [Ray], spare: &'a mut [Ray; GROUP]) -> &'a [Ray; GROUP] {
     spare
 }
 
+/// Rays lane by lane: origin, direction, end.
 #[inline(always)]
-fn lanes<L: Lanes>(rays: &[Ray; GROUP], number: impl Fn(&Ray) -> f32) -> L {
-    let mut numbers = [0.0; GROUP];
-    for (to, ray) in numbers.iter_mut().zip(rays) {
-        *to = number(ray);
-    }
-    L::load(&numbers)
+fn lanes<L: Lanes>(rays: &[Ray; GROUP]) -> ([L; 3], [L; 3], L) {
+    let [x, y, z, along_x, along_y, along_z, until] = L::columns(bytemuck::cast_ref(rays));
+    ([x, y, z], [along_x, along_y, along_z], until)
 }
 
 /// The common direction of the rays and the hull of each group; None if they have none.
@@ -178,11 +176,10 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
     let sign = 1f32.copysign(middle[z]);
     let (mut low, mut high) = ([L::splat(f32::INFINITY); 3], [L::splat(f32::NEG_INFINITY); 3]);
     for rays in rays.chunks(GROUP) {
-        let eight = eight(rays, &mut spare);
+        let (origin, ..) = lanes::<L>(eight(rays, &mut spare));
         for axis in 0..3 {
-            let origin = lanes::<L>(eight, |r| r.origin[axis]);
-            low[axis] = origin.min(low[axis]);
-            high[axis] = origin.max(high[axis]);
+            low[axis] = origin[axis].min(low[axis]);
+            high[axis] = origin[axis].max(high[axis]);
         }
     }
     let low = [low[0].least(), low[1].least(), low[2].least()];
@@ -192,15 +189,15 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
     let axes = Axes { axes, sign, front, widening };
     hulls.clear();
     for rays in rays.chunks(GROUP) {
-        let eight = eight(rays, &mut spare);
-        let along = lanes::<L>(eight, |r| r.direction[z]).mul(L::splat(sign));
-        let depth = lanes::<L>(eight, |r| r.origin[z]).sub(L::splat(front)).mul(L::splat(sign));
-        let end = depth.add(along.mul(lanes::<L>(eight, |r| r.until)));
+        let (origin, direction, until) = lanes::<L>(eight(rays, &mut spare));
+        let along = direction[z].mul(L::splat(sign));
+        let depth = origin[z].sub(L::splat(front)).mul(L::splat(sign));
+        let end = depth.add(along.mul(until));
         let mut hull = Hull { depth: [depth.least(), end.greatest()], ..Hull::EMPTY };
         for k in 0..2 {
             let axis = axes.axes[k];
-            let slope = lanes::<L>(eight, |r| r.direction[axis]).div(along);
-            let offset = lanes::<L>(eight, |r| r.origin[axis]).sub(slope.mul(depth));
+            let slope = direction[axis].div(along);
+            let offset = origin[axis].sub(slope.mul(depth));
             hull.slopes[k] = [slope.least(), slope.greatest()];
             hull.offsets[k] = [offset.least(), offset.greatest()];
         }
@@ -298,8 +295,7 @@ struct Group<'a, L> {
 impl<'a, L: Lanes> Group<'a, L> {
     #[inline(always)]
     fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, L> {
-        let origin: [L; 3] = [lanes(rays, |r| r.origin[0]), lanes(rays, |r| r.origin[1]), lanes(rays, |r| r.origin[2])];
-        let direction: [L; 3] = [lanes(rays, |r| r.direction[0]), lanes(rays, |r| r.direction[1]), lanes(rays, |r| r.direction[2])];
+        let (origin, direction, until) = lanes::<L>(rays);
         // As `fastest`.
         let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
         let (all, none) = (L::splat(0.0).at_most(L::splat(0.0)), L::splat(0.0));
@@ -327,7 +323,7 @@ impl<'a, L: Lanes> Group<'a, L> {
             origin,
             slopes,
             fastest,
-            until: lanes(rays, |r| r.until),
+            until,
             t: L::splat(Hit::MISS.t),
             triangle: L::splat(f32::from_bits(Hit::NONE)),
             depth: [origin[depth].sub(L::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
