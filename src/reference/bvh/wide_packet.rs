@@ -20,7 +20,7 @@ const CLOSED: u32 = 4;
 
 /// Eight rays that have looked at this many nodes and blocks together share too little (rays from an eye look at about ten), and go on one by one.
 /// That costs at most twice the time of single rays.
-const PATIENCE: u32 = 40;
+const PATIENCE: u32 = 400;
 
 /// Packets whose slopes differ by more do not sift: they reach almost everything.
 const SIFTED: f32 = 0.5;
@@ -193,14 +193,20 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
         let along = direction[z].mul(L::splat(sign));
         let depth = origin[z].sub(L::splat(front)).mul(L::splat(sign));
         let end = depth.add(along.mul(until));
-        let mut hull = Hull { depth: [depth.least(), end.greatest()], ..Hull::EMPTY };
-        for k in 0..2 {
-            let axis = axes.axes[k];
-            let slope = direction[axis].div(along);
-            let offset = origin[axis].sub(slope.mul(depth));
-            hull.slopes[k] = [slope.least(), slope.greatest()];
-            hull.offsets[k] = [offset.least(), offset.greatest()];
-        }
+        let [x, y] = [axes.axes[0], axes.axes[1]];
+        let (slope_x, slope_y) = (direction[x].div(along), direction[y].div(along));
+        let (offset_x, offset_y) = (origin[x].sub(slope_x.mul(depth)), origin[y].sub(slope_y.mul(depth)));
+        let lower_and_upper = [
+            offset_x,
+            offset_x.negative(),
+            offset_y,
+            offset_y.negative(),
+            slope_x,
+            slope_x.negative(),
+            slope_y,
+            slope_y.negative(),
+        ];
+        let hull = Hull { sides: L::leasts(lower_and_upper).store(), depth: [depth.least(), -end.greatest()] };
         // The comparison also fails where something is not a number.
         if L::splat(0.0).less(along).bits() != 0xff || !hull.is_gentle() {
             return None;
@@ -284,6 +290,8 @@ struct Group<'a, L> {
     slopes: [L; 3],
     /// By axis: the lanes that move fastest along it.
     fastest: [L; 3],
+    /// One bit an axis along which any lane moves fastest.
+    axes: u32,
     until: L,
     t: L,
     /// Numbers of triangles as bits.
@@ -323,6 +331,7 @@ impl<'a, L: Lanes> Group<'a, L> {
             origin,
             slopes,
             fastest,
+            axes: u32::from(fastest[0].bits() != 0) | u32::from(fastest[1].bits() != 0) << 1 | u32::from(fastest[2].bits() != 0) << 2,
             until,
             t: L::splat(Hit::MISS.t),
             triangle: L::splat(f32::from_bits(Hit::NONE)),
@@ -343,10 +352,11 @@ impl<'a, L: Lanes> Group<'a, L> {
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize;
             lanes &= lanes - 1;
-            for axis in 0..3 {
-                if self.fastest[axis].bits() != 0 {
-                    nearer |= self.triangle(block, lane, axis);
-                }
+            let mut axes = self.axes;
+            while axes != 0 {
+                let axis = axes.trailing_zeros() as usize;
+                axes &= axes - 1;
+                nearer |= self.triangle(block, lane, axis);
             }
         }
         nearer
@@ -443,7 +453,7 @@ fn group<L: Lanes>(
             } else {
                 let (block, count) = leaf(at);
                 let block = &wide.blocks[block];
-                let lanes = if count > 1 { planes.triangles(block) } else { 1 };
+                let lanes = if count > 1 { planes.triangles(block, until) } else { 1 };
                 if group.block(block, lanes) {
                     until = group.deepest() + axes.widening;
                 }
