@@ -10,7 +10,7 @@ use super::lanes::{Lanes, Portable};
 use super::ray::{Hit, Ray, widening};
 use super::triangle::{Shear, fastest};
 use super::wide::{Block, LEAF, STACK, Wide, leaf};
-use super::wide_ray::{meet, sheared, splat};
+use super::wide_ray::{meet, sheared};
 
 /// Rays that are tested at once.
 const GROUP: usize = 8;
@@ -18,9 +18,9 @@ const GROUP: usize = 8;
 /// A node is kept closed while a packet reaches at least this many of its children: its parts will throw away more.
 const CLOSED: u32 = 4;
 
-/// Eight rays that have looked at this many nodes and blocks together share too little (rays from an eye look at about ten), and go on one by one.
-/// That costs at most twice the time of single rays.
-const PATIENCE: u32 = 400;
+/// Eight rays that have looked at this many nodes and blocks together share too little, and go on one by one. Rays from an eye look at about ten, at
+/// the outlines of many small things at a hundred: single rays are slow there too, and giving them up at forty cost a sixth of all time on balls4A.
+const PATIENCE: u32 = 200;
 
 /// Packets whose slopes differ by more do not sift: they reach almost everything.
 const SIFTED: f32 = 0.5;
@@ -282,6 +282,13 @@ fn slopes_along<L: Lanes>(direction: &[L; 3], axis: usize) -> [L; 3] {
     [x.div(z), y.div(z), L::splat(1.0).div(z)]
 }
 
+/// A corner of the triangle in one lane of a block, for every ray.
+#[inline(always)]
+fn corner<L: Lanes>(block: &Block, corner: usize, axes: [usize; 3], lane: usize) -> [L; 3] {
+    let corner = &block.corners[corner];
+    [L::splat(corner[axes[0]][lane]), L::splat(corner[axes[1]][lane]), L::splat(corner[axes[2]][lane])]
+}
+
 /// Eight rays laid out lane by lane, and what they have met.
 struct Group<'a, L> {
     rays: &'a [Ray; GROUP],
@@ -367,11 +374,10 @@ impl<'a, L: Lanes> Group<'a, L> {
     fn triangle(&mut self, block: &Block, lane: usize, axis: usize) -> bool {
         let axes = [(axis + 1) % 3, (axis + 2) % 3, axis];
         let origin = [self.origin[axes[0]], self.origin[axes[1]], self.origin[axes[2]]];
-        let [a, b, c] = block.lane(lane);
         let met = meet(
-            sheared(splat([a[axes[0]], a[axes[1]], a[axes[2]]]), origin, self.slopes),
-            sheared(splat([b[axes[0]], b[axes[1]], b[axes[2]]]), origin, self.slopes),
-            sheared(splat([c[axes[0]], c[axes[1]], c[axes[2]]]), origin, self.slopes),
+            sheared(corner(block, 0, axes, lane), origin, self.slopes),
+            sheared(corner(block, 1, axes, lane), origin, self.slopes),
+            sheared(corner(block, 2, axes, lane), origin, self.slopes),
         );
         let inside = met.inside.and(self.fastest[axis]);
         if inside.bits() == 0 {
