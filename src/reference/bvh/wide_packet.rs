@@ -196,16 +196,8 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
         let [x, y] = [axes.axes[0], axes.axes[1]];
         let (slope_x, slope_y) = (direction[x].div(along), direction[y].div(along));
         let (offset_x, offset_y) = (origin[x].sub(slope_x.mul(depth)), origin[y].sub(slope_y.mul(depth)));
-        let lower_and_upper = [
-            offset_x,
-            offset_x.negative(),
-            offset_y,
-            offset_y.negative(),
-            slope_x,
-            slope_x.negative(),
-            slope_y,
-            slope_y.negative(),
-        ];
+        let lower_and_upper =
+            [offset_x, offset_x.negative(), offset_y, offset_y.negative(), slope_x, slope_x.negative(), slope_y, slope_y.negative()];
         let hull = Hull { sides: L::leasts(lower_and_upper).store(), depth: [depth.least(), -end.greatest()] };
         // The comparison also fails where something is not a number.
         if L::splat(0.0).less(along).bits() != 0xff || !hull.is_gentle() {
