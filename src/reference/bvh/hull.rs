@@ -11,41 +11,45 @@ use super::wide::{Block, Wide8};
 pub(super) const STEEPEST: f32 = 4.0;
 
 /// What the rays of a packet sweep, as seen along one axis.
+///
+/// Of every interval the lower end and the negative of the upper one are kept, so that of two hulls the lesser numbers are the hull of both.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hull {
-    /// [x, y]: lowest and highest where z = 0.
-    pub offsets: [[f32; 2]; 2],
-    /// [x, y]: least and largest slope.
-    pub slopes: [[f32; 2]; 2],
+    /// x where z = 0: lower and upper end, then y; then likewise their slopes.
+    pub sides: [f32; 8],
     /// Where the first ray starts and where the last one ends, along z.
     pub depth: [f32; 2],
 }
 
 impl Hull {
     /// Holds nothing.
-    pub const EMPTY: Hull = {
-        let nothing = [f32::INFINITY, f32::NEG_INFINITY];
-        Hull { offsets: [nothing; 2], slopes: [nothing; 2], depth: nothing }
-    };
+    pub const EMPTY: Hull = Hull { sides: [f32::INFINITY; 8], depth: [f32::INFINITY; 2] };
 
     /// The hull of both.
     #[inline(always)]
     pub fn union(&self, other: &Hull) -> Hull {
-        let join = |a: [f32; 2], b: [f32; 2]| [a[0].min(b[0]), a[1].max(b[1])];
-        let both = |a: [[f32; 2]; 2], b: [[f32; 2]; 2]| [join(a[0], b[0]), join(a[1], b[1])];
-        Hull { offsets: both(self.offsets, other.offsets), slopes: both(self.slopes, other.slopes), depth: join(self.depth, other.depth) }
+        // Loops that the compiler makes one instruction of.
+        let mut both = *self;
+        for (side, other) in both.sides.iter_mut().zip(other.sides) {
+            *side = if other < *side { other } else { *side };
+        }
+        for (end, other) in both.depth.iter_mut().zip(other.depth) {
+            *end = if other < *end { other } else { *end };
+        }
+        both
     }
 
     /// Whether the slopes differ by less than `spread` along x and along y.
     #[inline(always)]
     pub fn is_narrow(&self, spread: f32) -> bool {
-        self.slopes.iter().all(|[least, greatest]| greatest - least < spread)
+        let [.., x, above_x, y, above_y] = self.sides;
+        -above_x - x < spread && -above_y - y < spread
     }
 
     /// Whether the slopes are finite and gentle.
     #[inline(always)]
     pub fn is_gentle(&self) -> bool {
-        self.slopes.iter().flatten().all(|s| s.abs() <= STEEPEST)
+        self.sides[4..].iter().all(|s| s.abs() <= STEEPEST)
     }
 }
 
@@ -82,22 +86,17 @@ impl<L: Lanes> Planes<L> {
         let shift = axes.sign * axes.widening;
         // A slope carries the depth's widening over to x and y.
         let pad = axes.widening * (1.0 + STEEPEST);
+        let [x, above_x, y, above_y, slope_x, upper_x, slope_y, upper_y] = hull.sides;
         Planes {
             axes: *axes,
-            offsets: [
-                [L::splat(hull.offsets[0][0] - pad), L::splat(hull.offsets[0][1] + pad)],
-                [L::splat(hull.offsets[1][0] - pad), L::splat(hull.offsets[1][1] + pad)],
-            ],
-            slopes: [
-                [L::splat(hull.slopes[0][0]), L::splat(hull.slopes[0][1])],
-                [L::splat(hull.slopes[1][0]), L::splat(hull.slopes[1][1])],
-            ],
+            offsets: [[L::splat(x - pad), L::splat(pad - above_x)], [L::splat(y - pad), L::splat(pad - above_y)]],
+            slopes: [[L::splat(slope_x), L::splat(-upper_x)], [L::splat(slope_y), L::splat(-upper_y)]],
             sign: L::splat(axes.sign),
             enter: L::splat(axes.front + shift),
             leave: L::splat(axes.front - shift),
             front: L::splat(axes.front),
             start: L::splat((hull.depth[0] - axes.widening).max(0.0)),
-            end: hull.depth[1] + axes.widening,
+            end: axes.widening - hull.depth[1],
         }
     }
 
@@ -119,16 +118,16 @@ impl<L: Lanes> Planes<L> {
         (met.bits(), near)
     }
 
-    /// Which of a block's triangles are not wholly outside one of the planes.
+    /// Which of a block's triangles are not wholly outside one of the planes, nor wholly behind the depth `until`.
     #[inline(always)]
-    pub fn triangles(&self, block: &Block) -> u32 {
+    pub fn triangles(&self, block: &Block, until: f32) -> u32 {
         let [x, y, z] = self.axes.axes;
         let depth: [L; 3] = [
             L::load(&block.corners[0][z]).sub(self.front).mul(self.sign),
             L::load(&block.corners[1][z]).sub(self.front).mul(self.sign),
             L::load(&block.corners[2][z]).sub(self.front).mul(self.sign),
         ];
-        let mut met = L::splat(0.0).at_most(L::splat(0.0));
+        let mut met = depth[0].min(depth[1]).min(depth[2]).at_most(L::splat(until + self.axes.widening));
         for (k, axis) in [x, y].into_iter().enumerate() {
             let across: [L; 3] = [L::load(&block.corners[0][axis]), L::load(&block.corners[1][axis]), L::load(&block.corners[2][axis])];
             let low = beside(&across, self.slopes[k][0], &depth);

@@ -5,6 +5,8 @@ pub(super) trait Lanes: Copy {
     fn splat(value: f32) -> Self;
     fn load(from: &[f32; 8]) -> Self;
     fn store(self) -> [f32; 8];
+    /// The seven columns of eight rows.
+    fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7];
     fn add(self, other: Self) -> Self;
     fn sub(self, other: Self) -> Self;
     fn mul(self, other: Self) -> Self;
@@ -29,12 +31,19 @@ pub(super) trait Lanes: Copy {
     fn least(self) -> f32;
     /// The greatest lane. No lane may be other than a number.
     fn greatest(self) -> f32;
+    /// The least lane of each of eight. No lane may be other than a number.
+    fn leasts(rows: [Self; 8]) -> Self;
     /// Asks for memory that will be needed soon.
     fn prefetch<T>(soon: &T);
+    /// With the other sign (0 stays 0).
+    #[inline(always)]
+    fn negative(self) -> Self {
+        Self::splat(0.0).sub(self)
+    }
     /// Without the sign.
     #[inline(always)]
     fn abs(self) -> Self {
-        self.max(Self::splat(0.0).sub(self))
+        self.max(self.negative())
     }
 }
 
@@ -64,6 +73,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn store(self) -> [f32; 8] {
         self.0
+    }
+    #[inline(always)]
+    fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] {
+        std::array::from_fn(|column| Portable(rows.map(|row| row[column])))
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
@@ -122,6 +135,10 @@ impl Lanes for Portable {
         self.0.into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
     #[inline(always)]
+    fn leasts(rows: [Self; 8]) -> Self {
+        Portable(rows.map(Lanes::least))
+    }
+    #[inline(always)]
     fn prefetch<T>(_: &T) {}
 }
 
@@ -140,6 +157,43 @@ mod avx {
     #[derive(Clone, Copy)]
     pub(in super::super) struct Avx(__m256);
 
+    /// Four columns of eight rows, from `first` ≤ 3.
+    #[inline(always)]
+    fn four_columns(rows: &[[f32; 7]; 8], first: usize) -> [Avx; 4] {
+        let [a, b, c, d, e, f, g, h] = rows;
+        let (p, q, r, s) = (two_rows(a, e, first), two_rows(b, f, first), two_rows(c, g, first), two_rows(d, h, first));
+        // SAFETY: the instructions exist, see above.
+        unsafe {
+            let (pq, rs) = (_mm256_unpacklo_ps(p, q), _mm256_unpacklo_ps(r, s));
+            let (pq_high, rs_high) = (_mm256_unpackhi_ps(p, q), _mm256_unpackhi_ps(r, s));
+            [
+                Avx(_mm256_shuffle_ps::<0x44>(pq, rs)),
+                Avx(_mm256_shuffle_ps::<0xee>(pq, rs)),
+                Avx(_mm256_shuffle_ps::<0x44>(pq_high, rs_high)),
+                Avx(_mm256_shuffle_ps::<0xee>(pq_high, rs_high)),
+            ]
+        }
+    }
+
+    /// Four numbers of each of two rows, from `first` ≤ 3.
+    #[inline(always)]
+    fn two_rows(low: &[f32; 7], high: &[f32; 7], first: usize) -> __m256 {
+        let (low, high) = (&low[first..first + 4], &high[first..first + 4]);
+        // SAFETY: the instructions exist, see above; the slices hold four numbers each.
+        unsafe { _mm256_set_m128(_mm_loadu_ps(high.as_ptr()), _mm_loadu_ps(low.as_ptr())) }
+    }
+
+    /// The least number of each half of four registers: of the lower halves, then of the upper ones.
+    #[inline(always)]
+    fn four_leasts(a: __m256, b: __m256, c: __m256, d: __m256) -> __m256 {
+        // SAFETY: the instructions exist, see above.
+        unsafe {
+            let ab = _mm256_min_ps(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+            let cd = _mm256_min_ps(_mm256_unpacklo_ps(c, d), _mm256_unpackhi_ps(c, d));
+            _mm256_min_ps(_mm256_shuffle_ps::<0x44>(ab, cd), _mm256_shuffle_ps::<0xee>(ab, cd))
+        }
+    }
+
     // SAFETY (all blocks of this impl): the instructions exist, see above; loads and stores go through references to eight numbers, unaligned.
     impl Lanes for Avx {
         #[inline(always)]
@@ -155,6 +209,13 @@ mod avx {
             let mut out = [0.0; 8];
             unsafe { _mm256_storeu_ps(out.as_mut_ptr(), self.0) };
             out
+        }
+        #[inline(always)]
+        fn columns(rows: &[[f32; 7]; 8]) -> [Self; 7] {
+            // Numbers 0 to 3 and 3 to 6 of each row: four at a time, none beyond its end.
+            let [a, b, c, _] = four_columns(rows, 0);
+            let [d, e, f, g] = four_columns(rows, 3);
+            [a, b, c, d, e, f, g]
         }
         #[inline(always)]
         fn add(self, other: Self) -> Self {
@@ -219,6 +280,11 @@ mod avx {
                 let two = _mm_max_ps(four, _mm_movehl_ps(four, four));
                 _mm_cvtss_f32(_mm_max_ss(two, _mm_shuffle_ps::<1>(two, two)))
             }
+        }
+        #[inline(always)]
+        fn leasts([a, b, c, d, e, f, g, h]: [Self; 8]) -> Self {
+            let (low, high) = (four_leasts(a.0, b.0, c.0, d.0), four_leasts(e.0, f.0, g.0, h.0));
+            Avx(unsafe { _mm256_min_ps(_mm256_permute2f128_ps::<0x20>(low, high), _mm256_permute2f128_ps::<0x31>(low, high)) })
         }
         #[inline(always)]
         fn prefetch<T>(soon: &T) {

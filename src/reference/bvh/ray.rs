@@ -3,7 +3,8 @@
 use super::bounds::Bounds;
 
 /// A straight ray: origin + t · direction for 0 ≤ t ≤ until. Any unit of length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct Ray {
     /// Where it starts.
     pub origin: [f32; 3],
