@@ -82,7 +82,7 @@ pub fn measure(
 ) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(COLUMNS);
     sheet.notes = Provenance::now(&adapter.name()).notes();
-    sheet.notes.push(("points".into(), format!("{}, the same as in projection.csv", super::told(request, rows))));
+    sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
     let methods: Vec<_> = adapter
         .methods()
         .into_iter()

@@ -4,6 +4,8 @@ use crate::measure::chart::{Provenance, Sheet};
 use crate::measure::methods::FAMILIES;
 use crate::measure::plot::{Axis, Figure, Guide, Panel, Point, Scatter, tick_text};
 
+/// What the sheet of a graphics adapter says of its points if they are those of the processor.
+pub const SAME: &str = "the same as in projection.csv";
 /// Half a pixel at 3840 pixels over 60°, degrees.
 pub const HALF_PIXEL: f64 = 0.008;
 /// Smaller errors are drawn here, degrees: less than a hundred-thousandth of a pixel.
@@ -80,7 +82,8 @@ fn entries(sheet: &Sheet) -> Vec<Entry> {
 fn on_adapter(sheet: &Sheet) -> Panel {
     let entries = entries(sheet);
     let mut panel = scatter(&entries, |e| e.max, LARGEST, false, (HALF_PIXEL, GUIDE), "");
-    panel.title = format!("On the graphics adapter, the same points: {}", sheet.note("adapter").unwrap_or("unknown"));
+    let same = if sheet.note("points").is_some_and(|points| points.ends_with(SAME)) { ", the same points" } else { "" };
+    panel.title = format!("On the graphics adapter{same}: {}", sheet.note("adapter").unwrap_or("unknown"));
     panel.x = Axis::log("nanoseconds a lookup, many at once");
     Panel::Scatter(unnamed(panel))
 }
