@@ -6,7 +6,7 @@ use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, 
 use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
-use lensrunner::render::aurora::{fall_table, veil};
+use lensrunner::render::aurora::{RAYS_PERIOD, fall_table, planet_history, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
@@ -58,6 +58,48 @@ fn red_lags_in_the_shader_as_its_lifetime_says() {
             // where the life is that short.
             assert!((mean - want).abs() <= 0.05 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
         }
+    }
+}
+
+#[test]
+fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
+    // A curtain that moves evenly is drawn, at a height between two ends of chords, as old as the ends' mean waits say between them.
+    let falls = layout::storage(&GPU, "falls", &fall_table());
+    let body = "let count = u32(row.y); let chord = chord_at(RED, row.x, count); let above = chord_height(RED, chord, count); \
+                let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
+                twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
+    // So many chords, and by how much the straight line between their ends may be off, in parts of the wait: a curtain moves some 100 m in a second.
+    for (count, part) in [(4.0, 1.0), (8.0, 0.3)] {
+        let rows: Vec<[f32; 4]> = (150..400).step_by(10).map(|z| [z as f32, count, 0.0, 0.0]).collect();
+        for (row, got) in rows.iter().zip(run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 1)) {
+            let want = lines::delays(f64::from(row[0]))[Line::Red as usize];
+            assert!(got[2] >= row[0] && row[0] >= got[3], "{row:?} lies in {got:?}");
+            assert!((f64::from(got[0]) - want).abs() < part * want + 1.0, "{} km, {count} chords: {} s, lives {want} s", row[0], got[0]);
+        }
+    }
+}
+
+#[test]
+fn the_clock_of_the_rays_starts_again_without_a_jump() {
+    let rows: Vec<[f32; 4]> = (0..400).map(|k| [0.37 * k as f32, 0.0, 0.0, 0.0]).collect();
+    let body = "twin_out[id.x] = vec4<f32>(rays(row.x, 0.0), rays(row.x, 102400.0), rays(row.x, -3.0), rays(row.x, 102397.0));";
+    for (row, got) in rows.iter().zip(run(Pass::AuroraProject, body, [&[], &[]], &rows, 1)) {
+        // Late in the day a number of f32 is a hundredth of a second.
+        assert!((got[0] - got[1]).abs() < 0.03 && (got[2] - got[3]).abs() < 0.03, "{row:?}: {got:?}");
+    }
+    assert_eq!(RAYS_PERIOD, 102_400.0);
+}
+
+#[test]
+fn a_planet_far_away_has_a_history() {
+    let text = "[camera]\nposition = [-2000.0, 0.0, 0.0]\n[planet]\norbit_radius = 600.0\nradius = 0.8\n";
+    let path = std::env::temp_dir().join(format!("lensrunner-far-{}.toml", std::process::id()));
+    std::fs::write(&path, text).unwrap();
+    let planet = scene::load(path.to_str().unwrap()).unwrap().planet.unwrap();
+    std::fs::remove_file(&path).unwrap();
+    for back in [10.0, 900.0, 6000.0, 1e5] {
+        let history = planet_history(&planet, 0.0, back, planet.dipole()).expect("it is somewhere");
+        assert!(history.at(-back).position.is_finite() && history.at(0.0).position.is_finite());
     }
 }
 

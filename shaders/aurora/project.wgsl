@@ -12,17 +12,40 @@ fn node_at(node: u32, age: f32) -> vec4<f32> {
     return mix(newer, older, x - f32(row));
 }
 
+/// Values of the rays' noise, a power of two; the seconds after which both its drifts have passed a multiple of them stand in show.rs.
+const RAYS_CELLS: i32 = 1024;
+
+/// Smooth noise in [0, 1], of period RAYS_CELLS in x: the clock may start again without a jump.
+fn ray_noise(x: f32, channel: u32) -> f32 {
+    let cell = floor(x);
+    let s = x - cell;
+    let key = hash(channel);
+    let a = unit(hash(key + u32(i32(cell) & (RAYS_CELLS - 1))));
+    let b = unit(hash(key + u32((i32(cell) + 1) & (RAYS_CELLS - 1))));
+    return mix(a, b, s * s * (3.0 - 2.0 * s));
+}
+
+/// Rays: brightness along the curtain at a few kilometres, drifting, at a time in s.
+fn rays(arc: f32, time: f32) -> f32 {
+    return ray_noise(arc * 2.7 + 0.11 * time, 3u) * ray_noise(arc * 0.83 - 0.07 * time, 4u) * 4.0;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    let ends = aurora.counts.y + 1u;
+    let ends = chord_room();
     let index = id.x;
     if index >= aurora.counts.x * ends {
         return;
     }
     let streak = streak_of(index / ends);
-    let range = height_range(streak.kind);
-    let height = mix(range.x, range.y, f32(index % ends) / f32(aurora.counts.y));
-    let age = waits(streak, height) + aurora.clock.y;
+    let count = chords_of(streak.kind);
+    let end_index = index % ends;
+    if end_index > count {
+        return;
+    }
+    let height = chord_height(streak.kind, end_index, count);
+    let wait = waits(streak, height);
+    let age = wait + aurora.clock.y;
     let segment = segments[streak.segment];
     let a = node_at(segment.range.y, age);
     let b = node_at(segment.range.y + segment.range.w, age);
@@ -50,7 +73,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var end: ChordEnd;
     end.apparent = vec4<f32>(seen[0], select(0.0, 1.0, valid));
-    end.east = vec4<f32>((seen[1] - seen[0]) / ASIDE, mix(a.z, b.z, streak.along));
-    end.north = vec4<f32>((seen[2] - seen[0]) / ASIDE, 0.0);
+    let flux = mix(a.z, b.z, streak.along);
+    let arc = f32(segment.range.y) + streak.along * f32(segment.range.w);
+    end.east = vec4<f32>((seen[1] - seen[0]) / ASIDE, flux * mix(1.0, rays(arc, aurora.clock.z - wait), aurora.clock.w));
+    end.north = vec4<f32>((seen[2] - seen[0]) / ASIDE, flux);
     chords[id.y * aurora.counts.x * ends + index] = end;
 }

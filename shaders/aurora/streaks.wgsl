@@ -2,11 +2,11 @@
 // planet, in the axes of its magnetic dipole (+z north); see src/scene/aurora for the physics, and src/render/aurora for who fills what.
 
 struct AuroraSettings {
-    /// x: streaks, y: chords of a streak, z: splats of a streak, w: nodes in a row of the history.
+    /// x: streaks, y: chords of a streak that is not red, z: splats of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
     /// x: rows of the history, y: segments, z: room for splats of one placement, w: AURORA_*.
     history: vec4<u32>,
-    /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod 4096), w: contrast.
+    /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
     /// x: accelerated, y: thermal energy in keV, z: spread of a luminous point in km, w unused.
     electrons: vec4<f32>,
@@ -29,7 +29,8 @@ struct Segment {
 struct ChordEnd {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
     apparent: vec4<f32>,
-    /// Change of it for a km in two directions across the field; w: energy flux there over its mean (first), unused (second).
+    /// Change of it for a km in two directions across the field; w: energy flux over its mean when the light seen there was made, with the rays
+    /// (first) and without (second).
     east: vec4<f32>,
     north: vec4<f32>,
 }
@@ -81,6 +82,30 @@ fn height_range(kind: u32) -> vec2<f32> {
     return select(vec2<f32>(340.0, 84.0), vec2<f32>(480.0, 130.0), kind == RED);
 }
 
+/// Chords of a streak. Red light has twice as many: it waits, and how long changes fast with height.
+fn chords_of(kind: u32) -> u32 {
+    return select(aurora.counts.y, 2u * aurora.counts.y, kind == RED);
+}
+
+/// Room for the ends of a streak's chords.
+fn chord_room() -> u32 {
+    return 2u * aurora.counts.y + 1u;
+}
+
+/// Height of the end `k` of `count` chords: evenly spaced, those of red closer together further down, where it waits seconds and not minutes.
+fn chord_height(kind: u32, k: u32, count: u32) -> f32 {
+    let range = height_range(kind);
+    let left = 1.0 - f32(k) / f32(count);
+    return mix(range.y, range.x, select(left, left * left, kind == RED));
+}
+
+/// The chord of `count` that a height lies in.
+fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
+    let range = height_range(kind);
+    let left = clamp((height - range.y) / (range.x - range.y), 0.0, 1.0);
+    return min(u32((1.0 - select(left, sqrt(left), kind == RED)) * f32(count)), count - 1u);
+}
+
 struct Streak {
     segment: u32,
     /// Of the segment from its first node, and across it in [−½, ½].
@@ -122,16 +147,20 @@ fn streak_of(index: u32) -> Streak {
     return streak;
 }
 
-/// Seconds that the light of a streak waits at a height: exponentially distributed over the streaks, with the mean of the line there.
-fn waits(streak: Streak, height: f32) -> f32 {
-    if streak.kind == PROMPT {
+/// Mean time in s that light of a kind waits at a height.
+fn mean_wait(kind: u32, height: f32) -> f32 {
+    if kind == PROMPT {
         return 0.0;
     }
     let x = clamp((height - 80.0) / 420.0, 0.0, 1.0) * f32(DELAYS - 1u);
     let k = min(u32(x), DELAYS - 2u);
-    let column = FIRST_DELAY + select(0u, 1u, streak.kind == RED);
-    let mean = mix(falls[column + 2u * k], falls[column + 2u * k + 2u], x - f32(k));
-    return -log(max(1.0 - unit(hash(streak.key + 2u)), 1e-6)) * mean;
+    let column = FIRST_DELAY + select(0u, 1u, kind == RED);
+    return mix(falls[column + 2u * k], falls[column + 2u * k + 2u], x - f32(k));
+}
+
+/// The same for one streak: exponentially distributed over the streaks.
+fn waits(streak: Streak, height: f32) -> f32 {
+    return -log(max(1.0 - unit(hash(streak.key + 2u)), 1e-6)) * mean_wait(streak.kind, height);
 }
 
 /// Row of the table of falls for a streak: energy from the spectrum φ ∝ E exp(−(E − E_acc)/E_th), slope µ = √u. y: the energy in keV.

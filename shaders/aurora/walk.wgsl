@@ -6,18 +6,10 @@
 const PIXEL_VARIANCE: f32 = 0.35;
 /// The widest a splat may be, pixels: one just before the camera is large, and faint.
 const MOST_SIGMA: f32 = 160.0;
+/// The brightest that the middle of one splat may be, kR: sums of them must stay within half floats.
+const BRIGHTEST: f32 = 1e4;
 /// Fainter splats are left out, kR.
 const FAINTEST: f32 = 1e-4;
-
-/// Smooth noise in [0, 1].
-fn ray_noise(x: f32, channel: u32) -> f32 {
-    let cell = floor(x);
-    let s = x - cell;
-    let key = hash(channel);
-    let a = unit(hash(key + bitcast<u32>(i32(cell))));
-    let b = unit(hash(key + bitcast<u32>(i32(cell) + 1)));
-    return mix(a, b, s * s * (3.0 - 2.0 * s));
-}
 
 /// Pixels that the apparent place `c` moves by when it changes by `v`.
 fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
@@ -32,15 +24,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let streak = streak_of(index);
-    let chord_count = aurora.counts.y;
-    let first = (id.y * aurora.counts.x + index) * (chord_count + 1u);
+    let chord_count = chords_of(streak.kind);
+    let first = (id.y * aurora.counts.x + index) * chord_room();
     let segment = segments[streak.segment];
-    let flux = chords[first].east.w;
-    let fall = fall_of(streak, flux);
-    // Rays: brightness along the curtain at a few kilometres, drifting.
-    let arc = f32(segment.range.y) + streak.along * f32(segment.range.w);
-    let rays = ray_noise(arc * 2.7 + 0.11 * aurora.clock.z, 3u) * ray_noise(arc * 0.83 - 0.07 * aurora.clock.z, 4u) * 4.0;
-    let glow = flux * mix(1.0, rays, aurora.clock.w);
+    // How hard its electrons are, by the flux when those of the middle came down.
+    let fall = fall_of(streak, chords[first + chord_count / 2u].north.w);
     // Collisions of this streak, and from them photons of its lines, in kR km².
     let row = min(u32(fall.x), ROWS - 2u);
     let part = fall.x - f32(row);
@@ -60,12 +48,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let count = min(aurora.counts.z, arrayLength(&splats));
     let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
     // A streak of twice the energy stands for half as many electrons: the flux of energy is what is given.
-    let power = light * glow * streak.share * segment.light.x / f32(count);
+    let power = light * streak.share * segment.light.x / f32(count);
     lines /= light;
 
     let focal = frame.projection.xy * 0.5 * frame.size.xy;
     let range = height_range(streak.kind);
-    let per_chord = (range.x - range.y) / f32(chord_count);
     let top = chords[first].apparent;
     let foot = chords[first + chord_count].apparent;
     let is_linear = (aurora.history.w & AURORA_LINEAR) != 0u;
@@ -78,14 +65,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let length_km = upper - lower;
         let height = 0.5 * (upper + lower);
         upper = lower;
-        let x = clamp((range.x - height) / per_chord, 0.0, f32(chord_count));
-        let chord = min(u32(x), chord_count - 1u);
+        let chord = chord_at(streak.kind, height, chord_count);
+        let above = chord_height(streak.kind, chord, chord_count);
+        let per_chord = above - chord_height(streak.kind, chord + 1u, chord_count);
         let a = chords[first + chord];
         let b = chords[first + chord + 1u];
         if a.apparent.w * b.apparent.w == 0.0 {
             continue;
         }
-        let s = x - f32(chord);
+        let s = clamp((above - height) / per_chord, 0.0, 1.0);
         // Homogeneous coordinates, linear between the ends.
         var c = mix(a.apparent.xyz, b.apparent.xyz, s);
         let down = (b.apparent.xyz - a.apparent.xyz) / per_chord;
@@ -112,7 +100,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let spread = sqrt(max(xx * yy - xy * xy, 1e-12));
         // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km².
         let area = sqrt(max(j.x * j.z - j.y * j.y, 0.0));
-        let peak = min(power * area / (6.2831853 * spread), 1e4);
+        let peak = min(power * mix(a.east.w, b.east.w, s) * area / (6.2831853 * spread), BRIGHTEST);
         if !(peak > FAINTEST) {
             continue;
         }

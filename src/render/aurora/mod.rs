@@ -10,7 +10,7 @@ mod show;
 pub mod veil;
 
 pub use pass::{Aurora, fall_table};
-pub use show::{AuroraFrame, Show, planet_history};
+pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};
 
 use bytemuck::{Pod, Zeroable};
 

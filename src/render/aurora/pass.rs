@@ -22,6 +22,11 @@ const ALIGNMENT: u64 = 256;
 /// Entries of the tabulated Gaussian, for r²/σ² from 0 to 9.
 const GAUSSIAN: usize = 256;
 
+/// Room for the ends of a streak's chords, as in streaks.wgsl: red ones have twice as many.
+fn chord_room(chords: u32) -> u32 {
+    2 * chords + 1
+}
+
 /// Pipelines, buffers and the texture in which light is added up.
 #[derive(Debug)]
 pub struct Aurora {
@@ -134,7 +139,7 @@ impl Aurora {
             self.uploaded = Some(frame.nodes.clone());
         }
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
-        replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chords + 1) * orders as u64);
+        replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
         replaced |= self.splats.reserve(device, room * ORDERS as u64);
         if self.accumulation.as_ref().is_none_or(|(size, _)| *size != targets.size) {
             self.accumulation = Some((targets.size, target(device, "aurora light", targets.size, HDR_FORMAT).1));
@@ -195,7 +200,7 @@ impl Aurora {
     /// The ends of the chords, through the lookup.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, chords, orders] = self.drawn;
-        self.compute(pass, &self.project, (streaks * (chords + 1)).div_ceil(64), orders);
+        self.compute(pass, &self.project, (streaks * chord_room(chords)).div_ceil(64), orders);
     }
 
     /// From chords to splats.

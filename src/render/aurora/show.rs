@@ -25,6 +25,8 @@ use crate::spacetime::matter::{ShipState, gamma, velocity};
 /// Rows of the history that red light waits in, and seconds between two.
 const ROWS: usize = 128;
 const ROW: f64 = 1.0;
+/// Seconds after which the rays' noise is the same again: in them it drifts by 11 and by 7 times its 1024 values (project.wgsl).
+pub const RAYS_PERIOD: f64 = 102_400.0;
 /// Nodes of all curtains together.
 const NODES: usize = 1024;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
@@ -34,6 +36,8 @@ const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 10.0;
 const FULL_PIXELS: f64 = 300.0;
+/// Splats with a wider standard deviation, pixels, cover one another the more: their number falls as their area grows, so that what is filled is bounded.
+const WIDE: f64 = 3.0;
 /// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
 const SPLATS_PER_PIXEL: f64 = 1.2;
 const LEAST_SPLATS: u32 = 2;
@@ -80,8 +84,8 @@ pub struct Show {
 /// The worldline of a planet about T = `time`, as far back as light may come from, with the axes of its model turned by `turn`.
 pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Option<History> {
     let state = |t: f64| planet.state(t).map(|state| ShipState { attitude: state.attitude * turn, ..state });
-    // Attitudes are interpolated between nodes: a fiftieth of a turn is a straight line to 0.2 %.
-    let step = (planet.day / 50.0).clamp(back / 400.0, 2.0);
+    // Attitudes are interpolated between nodes: a fiftieth of a turn is a straight line to 0.2 %. No more than 400 nodes, however far light comes from.
+    let step = (planet.day / 50.0).min(2.0).max(back / 400.0);
     let first = time - back;
     let mut history = History::new(first, &state(first)?);
     for k in 1..=(back / step).ceil() as u32 + 1 {
@@ -144,7 +148,7 @@ impl Show {
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends();
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
-                frame.colours.push(self.colours(view.camera, time, &history, placement.ids[0], part));
+                frame.colours.push(self.colours(view, time, &history, placement.ids[0], part));
                 frame.placements.push(placement);
             }
         }
@@ -168,7 +172,7 @@ impl Show {
         frame.settings = AuroraSettings {
             counts: [streaks, chords, splats, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
-            clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(4096.0) as f32, self.config.contrast as f32],
+            clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
             electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, 0.0],
         };
         frame.segments = segments;
@@ -205,7 +209,7 @@ impl Show {
         let Some((motion, row)) = self.motion.as_ref().zip(self.rows.front()) else { return Vec::new() };
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2.0 } else { 1.0 };
-        // Length on the screen of each pair of nodes, in pixels, as if space were flat; no nearer than the top of the aurora.
+        // Length on the screen of each pair of nodes, in pixels, as if space were flat, less where splats are wide; no nearer than the top of the aurora.
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
         for window in motion.starts().windows(2) {
@@ -214,7 +218,9 @@ impl Show {
                 let place = |k: usize| DVec2::new(f64::from(row[k][0]), f64::from(row[k][1]));
                 let here = centre + attitude * (on_field_line(place(k), REFERENCE_HEIGHT) * scale);
                 let length = place(k).distance(place(k + 1)) * scale;
-                *weight = length / (here - view.camera.position).length().max(100.0 * scale) / view.pixel;
+                let per_pixel = (here - view.camera.position).length().max(100.0 * scale) * view.pixel;
+                let sigma = self.config.radius * scale / per_pixel;
+                *weight = length / per_pixel * (WIDE / sigma.max(WIDE)).powi(2);
                 total += poles * *weight;
             }
         }
@@ -247,12 +253,13 @@ impl Show {
         segments
     }
 
-    /// The lines' colours, shifted as the planet's centre is, and that part of their brightness.
-    fn colours(&self, camera: &Camera, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
-        let g = frequency_ratio(camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
-        // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it.
-        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
-        kilorayleigh_xyz(g).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
+    /// The lines' colours, shifted and beamed as the planet's centre is where the settings ask for it, and that part of their brightness.
+    fn colours(&self, view: &View, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
+        let g = frequency_ratio(view.camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
+        let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g } else { 1.0 });
+        // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it. Shifted lines come with g⁴ of power.
+        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
+        kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
 }
 

@@ -1,10 +1,10 @@
 //! The motion of the curtains in the plane across the field: charge → potential → electric field → drift (paper 3, 2.4).
 //!
-//! The electrons that come down leave the sheet charged. The charges are laid on a grid (cloud in cell), −∇²V = ρ/ε₀ is solved with V = 0 on
+//! The electrons that come down charge the sheet negatively. The charges are laid on a grid (cloud in cell), −∇²V = ρ/ε₀ is solved with V = 0 on
 //! the edge of the square ([`Poisson`]), E = −∇V by central differences, and every node drifts with E × B/B², which is what the Lorentz force
 //! leaves of a charge's motion once its gyration (a microsecond for electrons) is averaged away. A charged sheet in this drift is a vortex
-//! sheet: it folds and curls by itself (Hallinan and Davis 1970). New electrons keep arriving where the curve was, so nodes are drawn back
-//! to it within the renewal time, and no fold winds up without end.
+//! sheet: it folds and curls by itself, in the north counterclockwise as seen from the ground (Hallinan and Davis 1970). New electrons keep arriving
+//! where the curve was, so nodes are drawn back to it within the renewal time, and no fold winds up without end.
 
 use glam::DVec2;
 
@@ -28,7 +28,7 @@ pub struct Plan {
     pub curves: Vec<Curve>,
     /// Nodes of all curves together; shared out by length.
     pub nodes: usize,
-    /// Electric field beside a long straight curtain, mV/m: the sheet's charge is 2 ε₀ of it.
+    /// Electric field toward a long straight curtain beside it, mV/m: the sheet's charge is −2 ε₀ of it.
     pub field: f64,
     /// Time in which new electrons take the place of old, s.
     pub renewal: f64,
@@ -191,7 +191,8 @@ impl Motion {
         for (curve, window) in self.starts.windows(2).enumerate() {
             let count = window[1] - window[0];
             // Each node carries the charge of its share of the curve at rest; stretching thins it out.
-            let charge = 2.0 * self.plan.field * length(&self.plan.curves[curve]) / count as f64 / (spacing * spacing);
+            // Electrons: it is negative.
+            let charge = -2.0 * self.plan.field * length(&self.plan.curves[curve]) / count as f64 / (spacing * spacing);
             for node in &self.nodes[window[0]..window[1]] {
                 let p = (node.place - self.centre + 0.5 * self.side) / spacing - 1.0;
                 let (i, j) = (p.x.floor(), p.y.floor());
