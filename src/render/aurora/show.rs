@@ -36,8 +36,9 @@ const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 10.0;
 const FULL_PIXELS: f64 = 300.0;
-/// Splats with a wider standard deviation, pixels, cover one another the more: their number falls as their area grows, so that what is filled is bounded.
-const WIDE: f64 = 3.0;
+/// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always twelve to a standard
+/// deviation of the curtain's length, so that what is filled is bounded by the picture's size.
+const WIDE: f64 = 1.2;
 /// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
 const SPLATS_PER_PIXEL: f64 = 1.2;
 const LEAST_SPLATS: u32 = 2;
@@ -220,7 +221,7 @@ impl Show {
                 let length = place(k).distance(place(k + 1)) * scale;
                 let per_pixel = (here - view.camera.position).length().max(100.0 * scale) * view.pixel;
                 let sigma = self.config.radius * scale / per_pixel;
-                *weight = length / per_pixel * (WIDE / sigma.max(WIDE)).powi(2);
+                *weight = length / per_pixel * WIDE / sigma.max(WIDE);
                 total += poles * *weight;
             }
         }
