@@ -11,6 +11,7 @@ mod measure_compare;
 mod measure_project;
 mod measure_projection;
 mod measure_thin_disk;
+mod measure_verdicts;
 mod reference_bvh_build;
 mod reference_bvh_rays;
 mod reference_bvh_robust;
@@ -21,6 +22,7 @@ mod reference_trace;
 mod render_aurora;
 #[cfg(feature = "game")]
 mod render_branches;
+mod render_chords;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]

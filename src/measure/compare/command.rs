@@ -5,8 +5,10 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
+use super::collect::{add, moments};
 use super::metrics::{Limits, compare};
 use super::report::{side_by_side, table};
+use crate::measure::chart::SheetError;
 use crate::measure::flip::flip;
 use crate::measure::picture_file::{PictureFileError, write_png};
 use crate::measure::trace::{Case, Request, TraceError};
@@ -26,6 +28,9 @@ pub enum CompareError {
     /// The contestant has none: exit code 1.
     #[error("the renderer gave no picture: {0}")]
     Contestant(String),
+    /// The table of verdicts cannot be read or written: exit code 1.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
 }
 
 impl From<PictureFileError> for CompareError {
@@ -41,8 +46,31 @@ impl CompareError {
     }
 }
 
-/// Renders both, gives what goes beyond the limits, prints the verdict to standard output and writes the pictures side by side to `output`, a .png.
-pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+/// The name that stands for every scene of the project.
+pub const ALL: &str = "all";
+
+/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts.
+/// Gives what goes beyond the limits.
+pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+    let mut faults = Vec::new();
+    for (scene, at) in moments() {
+        let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
+        println!("{scene}, T = {at}:");
+        let request = Request { scene, at, ..request.clone() };
+        faults.extend(run(&request, config, &output.join(name), Some(&output.join("verdict.csv")), contestant)?);
+    }
+    Ok(faults)
+}
+
+/// Renders both, gives what goes beyond the limits, prints the verdict to standard output, writes the pictures side by side to `output`, a .png, and
+/// adds the verdict to `collected`, a .csv.
+pub fn run(
+    request: &Request,
+    config: Option<&Path>,
+    output: &Path,
+    collected: Option<&Path>,
+    contestant: &Contestant,
+) -> Result<Vec<String>, CompareError> {
     let side = request.check()?;
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
@@ -68,6 +96,9 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     print!("{}", table(&verdict, &limits, &faults));
     let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
     write_png(output, &bytes, size)?;
+    if let Some(csv) = collected {
+        add(csv, request, &verdict, &limits, &faults)?;
+    }
     Ok(faults)
 }
 
