@@ -87,7 +87,7 @@ const PLACEMENT_HELD: u32 = 2u;
 const PLACEMENT_THIN: u32 = 4u;
 /// The image of something held inside the horizon by light of E < 0.
 const PLACEMENT_MINUS: u32 = 8u;
-/// Its image of this order is a few pixels wide: much of it is outline.
+/// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
 const PLACEMENT_NARROW: u32 = 16u;
 
 fn two_sided(placement: Placement) -> bool {

@@ -47,7 +47,7 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 
 /// How much of the budget a chord may use. What a patch shows inside is off by more than its sides are: in a triangle by up to 4/3 of it
 /// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
-const CHORD_SHARE: f32 = 0.4;
+const CHORD_SHARE: f32 = 0.45;
 /// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
 const ARC_SHARE: f32 = 0.03125;
 
@@ -75,9 +75,9 @@ fn strictness(placement: Placement) -> f32 {
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
-const LIMB_STRICTNESS: f32 = 8.0;
-/// The same for images of a few pixels' width, of which hardly more than the outline is seen.
-const NARROW_LIMB_STRICTNESS: f32 = 32.0;
+const LIMB_STRICTNESS: f32 = 9.0;
+/// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
+const NARROW_LIMB_STRICTNESS: f32 = 64.0;
 
 fn limb_strictness(placement: Placement) -> f32 {
     return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);

@@ -99,7 +99,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         }
         if width < settings.thin_below && settings.min_width > 0.0 {
             placement.triangles[3] |= THIN;
-        } else if width < NARROW_BELOW {
+        } else if width < NARROW_BELOW && order.number() > 1 {
             placement.triangles[3] |= NARROW;
         }
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
@@ -125,7 +125,7 @@ const HELD: u32 = 2;
 pub const THIN: u32 = 4;
 /// The image by light of E < 0; as in shaders/types.wgsl.
 const MINUS: u32 = 8;
-/// An image of a few pixels' width; as in shaders/types.wgsl.
+/// An image of a higher order of a few pixels' width, drawn out along the ring; as in shaders/types.wgsl.
 const NARROW: u32 = 16;
 /// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
 const NARROW_BELOW: f64 = 10.0;

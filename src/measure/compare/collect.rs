@@ -66,7 +66,7 @@ pub fn add(csv: &Path, request: &Request, verdict: &Verdict, limits: &Limits, fa
 pub fn rows(request: &Request, verdict: &Verdict, limits: &Limits, faults: &[String], commit: &str) -> Vec<Vec<String>> {
     let [width, height] = request.size;
     let before = [request.scene.clone(), request.at.to_string(), format!("{width}x{height}"), request.samples.to_string()];
-    let said = if faults.is_empty() { "within".to_owned() } else { faults.join("; ") };
+    let said = if faults.is_empty() { "within".to_owned() } else { faults.join("; ").replace(',', ";") };
     let command =
         format!("lensrunner compare --scene {} --at {} --size {width}x{height} --samples {}", request.scene, request.at, request.samples);
     let counts = [verdict.wrong_order, verdict.holes, verdict.lit].map(|count| count.to_string());
