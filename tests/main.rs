@@ -23,6 +23,7 @@ mod render_aurora;
 #[cfg(feature = "game")]
 mod render_branches;
 mod render_chords;
+mod render_contestant;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]

@@ -131,15 +131,16 @@ fn contrast(judge: &Picture, light: &[[f32; 3]]) -> Vec<f32> {
     flip(&exposed(&judge.light), &exposed(light), judge.size)
 }
 
-/// The models of a case with the first two of their points' coordinates as texture coordinates, and with the third: a renderer that draws
-/// these shows, in its layer of texture coordinates, which point of a surface is at each pixel.
-pub fn marked(models: &[Model]) -> [Vec<Model>; 2] {
-    let mark = |pick: fn([f32; 3]) -> [f32; 2]| {
-        let mut models = models.to_vec();
-        for vertex in models.iter_mut().flat_map(|model| &mut model.vertices) {
-            vertex.uv = pick(vertex.position);
-        }
-        models
-    };
-    [mark(|[x, y, _]| [x, y]), mark(|[_, _, z]| [z, 0.0])]
+/// What makes of a model one with the first two of its points' coordinates as texture coordinates, and one with the third: a renderer that draws these
+/// shows, in its layer of texture coordinates, which point of a surface is at each pixel. Coarser models that stand in for one must be marked after they
+/// are made.
+pub const MARKS: [fn(&Model) -> Model; 2] =
+    [|model| with_places(model, |[x, y, _]| [x, y]), |model| with_places(model, |[_, _, z]| [z, 0.0])];
+
+fn with_places(model: &Model, pick: fn([f32; 3]) -> [f32; 2]) -> Model {
+    let mut model = model.clone();
+    for vertex in &mut model.vertices {
+        vertex.uv = pick(vertex.position);
+    }
+    model
 }
