@@ -64,6 +64,8 @@ struct Placement {
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,
     turn_z: vec4<f32>,
+    /// d⁴x/dT⁴ of the centre; w unused.
+    snap: vec4<f32>,
     /// Light that falls on a surface of normal n (rain axes): ambient + direction·n, per channel.
     light_red: vec4<f32>,
     light_green: vec4<f32>,
@@ -85,6 +87,8 @@ const PLACEMENT_HELD: u32 = 2u;
 const PLACEMENT_THIN: u32 = 4u;
 /// The image of something held inside the horizon by light of E < 0.
 const PLACEMENT_MINUS: u32 = 8u;
+/// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
+const PLACEMENT_NARROW: u32 = 16u;
 
 fn two_sided(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;

@@ -118,8 +118,8 @@ struct TraceArgs {
 #[cfg(feature = "game")]
 #[derive(Args)]
 struct CompareArgs {
-    /// The scene: a TOML file, or the name of one in assets/scenes.
-    #[arg(long, value_name = "NAME|FILE")]
+    /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
+    #[arg(long, value_name = "NAME|FILE|all")]
     scene: String,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
@@ -136,8 +136,11 @@ struct CompareArgs {
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
-    /// The game's picture, the judge's and their difference, side by side.
-    #[arg(short, value_name = "FILE.png")]
+    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it.
+    #[arg(long, value_name = "FILE.csv")]
+    table: Option<PathBuf>,
+    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md.
+    #[arg(short, value_name = "FILE.png|DIR")]
     output: PathBuf,
 }
 
@@ -309,7 +312,13 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
         tolerance: args.tolerance,
         packet: lensrunner::reference::picture::DEFAULT_PACKET,
     };
-    match command::run(&request, args.config.as_deref(), &args.output, &lensrunner::play::contestant::draw) {
+    let (config, draw) = (args.config.as_deref(), &lensrunner::play::contestant::draw);
+    let judged = if args.scene == command::ALL {
+        command::run_all(&request, config, &args.output, draw)
+    } else {
+        command::run(&request, config, &args.output, args.table.as_deref(), draw)
+    };
+    match judged {
         Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }

@@ -12,6 +12,7 @@ mod measure_project;
 mod measure_projection;
 mod measure_published;
 mod measure_thin_disk;
+mod measure_verdicts;
 mod reference_bvh_build;
 mod reference_bvh_rays;
 mod reference_bvh_robust;
@@ -22,6 +23,8 @@ mod reference_trace;
 mod render_aurora;
 #[cfg(feature = "game")]
 mod render_branches;
+mod render_chords;
+mod render_contestant;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]

@@ -30,3 +30,31 @@ fn ships_are_whole_where_the_camera_crosses_the_horizon() {
         assert!(50 * wrong <= inner, "T = {at}: {wrong} pixels show another ship than the judge's, {inner} show ships");
     }
 }
+
+/// The camera of `plunge` at r = 0.69, a ship beside it: of its parts, some a hundredth of r_s behind others, the nearest is seen. A point of the ship is
+/// where the judge sees it to a fiftieth of its length but for rims of parts; of the pixels that show ships one in three hundred may differ.
+#[test]
+fn parts_of_a_ship_beside_the_camera_hide_each_other() {
+    let size = [160, 90];
+    let case = Case::new(scene::load("plunge").unwrap(), GameConfig::default(), 1.5, size);
+    let frame = contestant::draw(&case).unwrap();
+    let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let (mut inner, mut wrong) = (0, 0);
+    for y in 1..size[1] as usize - 1 {
+        for x in 1..size[0] as usize - 1 {
+            let at = |x: usize, y: usize| &judge.layers[y * size[0] as usize + x];
+            let here = at(x, y);
+            let body = case.body(here);
+            let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+            if here.object == 0 || around.iter().any(|&(x, y)| at(x, y).object != here.object || case.body(at(x, y)).distance(body) > 0.02)
+            {
+                continue;
+            }
+            let shown = frame.shown[y * size[0] as usize + x];
+            inner += 1;
+            wrong += u32::from(shown.object != here.object || glam::DVec3::from(shown.body.map(f64::from)).distance(body) > 0.02);
+        }
+    }
+    assert!(inner > 2000, "only {inner} pixels show ships");
+    assert!(300 * wrong <= inner, "{wrong} of {inner} pixels show another part of a ship than the judge sees");
+}

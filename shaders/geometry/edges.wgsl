@@ -39,7 +39,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let leaving_a = seen[placement.ids.z + edge.x].leaving.xyz;
     let leaving_b = seen[placement.ids.z + edge.y].leaving.xyz;
     let limb = edge.z == ALONE || on_limb(placement, edge, leaving_a, leaving_b, a.xyz);
-    let closer = select(1.0, LIMB_STRICTNESS, limb);
+    let closer = select(1.0, limb_strictness(placement), limb);
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
     var whole = true;

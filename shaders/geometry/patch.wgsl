@@ -47,7 +47,7 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 
 /// How much of the budget a chord may use. What a patch shows inside is off by more than its sides are: in a triangle by up to 4/3 of it
 /// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
-const CHORD_SHARE: f32 = 0.4;
+const CHORD_SHARE: f32 = 0.45;
 /// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
 const ARC_SHARE: f32 = 0.03125;
 
@@ -75,7 +75,14 @@ fn strictness(placement: Placement) -> f32 {
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
-const LIMB_STRICTNESS: f32 = 8.0;
+const LIMB_STRICTNESS: f32 = 9.0;
+/// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
+const NARROW_LIMB_STRICTNESS: f32 = 64.0;
+
+fn limb_strictness(placement: Placement) -> f32 {
+    return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
+}
+
 /// A triangle from which light leaves under a sine below this may be seen edge-on here or there: so far a ship may turn while light crosses it.
 const LIMB_SINE: f32 = 0.15;
 
@@ -95,12 +102,20 @@ fn on_limb(placement: Placement, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_
     return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
 }
 
-/// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it.
+/// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it; or, where the curve bends most in
+/// one part, between that part and its own chord, times the four by which the error of a curve that bends evenly falls when it is halved: equal
+/// segments, which `level_for` counts, must be short enough for the part that bends most.
 fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>) -> f32 {
-    let e1 = angle_between(quarter, mix(a, b, vec3<f32>(0.25)));
-    let e2 = angle_between(middle, mix(a, b, vec3<f32>(0.5)));
-    let e3 = angle_between(three_quarters, mix(a, b, vec3<f32>(0.75)));
-    return max(e2, max(e1, e3));
+    let whole = max(slant(middle, a + b), max(slant(quarter, a * 3.0 + b), slant(three_quarters, a + b * 3.0)));
+    let part = max(slant(middle, quarter + three_quarters), max(slant(quarter, a + middle), slant(three_quarters, middle + b)));
+    return atan(max(sqrt(whole), 4.0 * sqrt(part)));
+}
+
+/// The square of the tangent of the angle between two directions; from a right angle on, as good as infinite.
+fn slant(a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let across = cross(a, b);
+    let along = dot(a, b);
+    return select(1e12, min(dot(across, across) / (along * along), 1e12), along > 0.0);
 }
 
 /// The body point of barycentric coordinates in a model triangle.

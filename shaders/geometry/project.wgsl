@@ -94,7 +94,7 @@ fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
 const FARTHEST_TURN: f32 = 2.0;
 
 /// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
-/// the momentum of that moment, and goes where the centre goes, to third order. The twin of src/render/swing.rs.
+/// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/swing.rs.
 fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let scale = placement.velocity.w;
     if scale == 0.0 {
@@ -113,7 +113,7 @@ fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let contracted = rest - p * (dot(p, rest) / (gamma * (1.0 + gamma)));
     let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
     let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
-    return contracted + (placement.velocity.xyz + (acceleration + jerk * (s / 3.0)) * (0.5 * s)) * s;
+    return contracted + (placement.velocity.xyz + (acceleration + (jerk + placement.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
@@ -139,8 +139,10 @@ fn query_body(body: vec3<f32>) -> Query {
 }
 
 /// Most steps on the emission time. Newton squares the error, which starts as the part of c at which the object turns or accelerates while light
-/// crosses it, so two or three do; next to the horizon the first guesses may have no ray at all, and halving comes before Newton.
-const EMISSION_STEPS: u32 = 16u;
+/// crosses it, so two or three do; next to the horizon the first guesses may have no ray at all, and halving comes before Newton. Of what falls
+/// inside beside the camera, seen by light of hardly any energy, some points need 16: the delay goes there as the root of the time that is left until
+/// there is no ray.
+const EMISSION_STEPS: u32 = 24u;
 /// Before any time, and after all.
 const NEVER: f32 = 3e38;
 
@@ -185,6 +187,8 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
             late = s;
             back = select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0);
             s = select(s - back, 0.5 * (early + s), early > -NEVER);
+            // The last look is at a time that has a ray.
+            s = select(s, early, i + 1u == steps && early > -NEVER);
             continue;
         }
         let missing = elapsed - result.ray.delay;

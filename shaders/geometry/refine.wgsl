@@ -12,6 +12,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     let placement = placement_at(piece.what.x);
     let triangle = model_triangles[piece.what.y];
     strict = strictness(placement);
+    limb_strict = limb_strictness(placement);
     measure(piece, placement, triangle);
     for (var k = 0u; k < 3u; k++) {
         let state = edge_states[placement.ids.w + triangle.edges[k]];
@@ -35,8 +36,9 @@ var<private> offsets: array<vec3<f32>, 6>;
 /// Whether one of them is not seen.
 var<private> unseen: bool;
 
-/// `strictness` of the placement.
+/// `strictness` of the placement, and that of its outlines.
 var<private> strict: f32;
+var<private> limb_strict: f32;
 /// Levels of the model triangle's edges, and whether they may be outlines, from the stage of edges.
 var<private> model_levels: vec3<u32>;
 var<private> limb: array<bool, 3>;
@@ -54,7 +56,7 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     // Where light grazes a triangle the image folds inside it: the outline comes in over one of its edges and leaves over another.
     let fold = (limb[0] && limb[1]) || (limb[1] && limb[2]) || (limb[2] && limb[0]);
     let closer = select(fold, limb[min(edge, 2u)], edge < 3u);
-    return level_for(error * strict * select(1.0, LIMB_STRICTNESS, closer), part_between(a, b));
+    return level_for(error * strict * select(1.0, limb_strict, closer), part_between(a, b));
 }
 
 /// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge

@@ -1,6 +1,6 @@
 //! The game's renderer before the judge.
 
-use crate::measure::compare::command::marked;
+use crate::measure::compare::command::MARKS;
 use crate::measure::compare::{Frame, Shown};
 use crate::measure::trace::Case;
 use crate::render::readback::Picture;
@@ -9,8 +9,7 @@ use crate::render::shot::for_comparison;
 /// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
 pub fn draw(case: &Case) -> Result<Frame, String> {
     let [sky, bare, first, second] =
-        for_comparison(&case.scene, &case.assembly, marked(&case.assembly.models), &case.config, case.time, case.camera.size)
-            .map_err(|error| error.to_string())?;
+        for_comparison(&case.scene, &case.assembly, MARKS, &case.config, case.time, case.camera.size).map_err(|error| error.to_string())?;
     let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
     let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
     Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })

@@ -99,6 +99,8 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         }
         if width < settings.thin_below && settings.min_width > 0.0 {
             placement.triangles[3] |= THIN;
+        } else if width < NARROW_BELOW && order.number() > 1 {
+            placement.triangles[3] |= NARROW;
         }
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
@@ -123,6 +125,10 @@ const HELD: u32 = 2;
 pub const THIN: u32 = 4;
 /// The image by light of E < 0; as in shaders/types.wgsl.
 const MINUS: u32 = 8;
+/// An image of a higher order of a few pixels' width, drawn out along the ring; as in shaders/types.wgsl.
+const NARROW: u32 = 16;
+/// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
+const NARROW_BELOW: f64 = 10.0;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]
@@ -263,6 +269,7 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         jolt: row(swing.jolt, swing.jolt_after),
         force: row(swing.force, p.z),
         turn: columns_and(turn, swing.jerk),
+        snap: row(swing.snap, 0.0),
         light: light_rows(&object.light),
         ..Placement::default()
     };

@@ -91,12 +91,12 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     Ok(renderer.picture(&frame, request.layers)?)
 }
 
-/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each of the
-/// `marked` sets of models. Auroras have a judge of their own and are left out.
+/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
+/// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
 pub fn for_comparison(
     scene: &Scene,
     assembly: &Assembly,
-    marked: [Vec<Model>; 2],
+    marks: [fn(&Model) -> Model; 2],
     config: &GameConfig,
     at: f64,
     size: [u32; 2],
@@ -109,18 +109,14 @@ pub fn for_comparison(
     let mut config = config.clone();
     config.aurora.enabled = false;
     let config = &config;
-    let mut draw = |models: Option<Vec<Model>>, settings: &Settings| {
-        let layers = models.is_some();
-        let mut assembly = assembly.clone();
-        if let Some(models) = models {
-            assembly.models = models;
-        }
-        let stage = Stage::of(&mut renderer, scene, assembly, config);
+    let mut draw = |mark: Option<fn(&Model) -> Model>, settings: &Settings| {
+        let layers = mark.is_some();
+        let stage = Stage::of(&mut renderer, scene, assembly.clone(), config, mark);
         let camera = stage.camera(moment.time(), &moment.ships());
         let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, settings);
         renderer.picture(&frame, layers)
     };
-    let [first, second] = marked;
+    let [first, second] = marks;
     Ok([draw(None, &with)?, draw(None, &without)?, draw(Some(first), &without)?, draw(Some(second), &without)?])
 }
 

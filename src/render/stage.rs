@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
-use crate::scene::{self, Assembly, Body, GameConfig, Planet, Scene, lighting, viewpoint};
+use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
@@ -49,27 +49,31 @@ struct Fineness {
 impl Stage {
     /// Uploads the models of the scene. Warnings about models are logged.
     pub fn new(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Stage {
-        Stage::of(renderer, scene, scene.assemble(config), config)
+        Stage::of(renderer, scene, scene.assemble(config), config, None)
     }
 
-    /// The same with models made elsewhere.
-    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig) -> Stage {
+    /// The same with models made elsewhere; `mark` changes each before it is uploaded, those too that stand in for finer ones.
+    pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig, mark: Option<fn(&Model) -> Model>) -> Stage {
         renderer.clear_models();
         renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
+        let mut add = |model: &Model| match mark {
+            Some(mark) => renderer.add_model(&mark(model)),
+            None => renderer.add_model(model),
+        };
         let mut ranges: Vec<Fineness> = Vec::new();
         for model in &assembly.models {
-            let fine = renderer.add_model(model);
-            let coarse = coarse(model).map_or(fine, |model| renderer.add_model(&model));
+            let fine = add(model);
+            let coarse = coarse(model).map_or(fine, |model| add(&model));
             ranges.push(Fineness { model: fine, coarse, stand_ins: Vec::new() });
         }
         // A globe needs the fewer triangles the smaller it is.
         let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
         for (number, globe) in globes.zip(&scene.planet).map(|(object, planet)| (object.model, planet)) {
             let stand_ins = globe.stand_ins(&assembly.models[number]);
-            ranges[number].stand_ins.extend(stand_ins.iter().map(|(below, model)| (*below, renderer.add_model(model))));
+            ranges[number].stand_ins.extend(stand_ins.iter().map(|(below, model)| (*below, add(model))));
         }
         let radii: Vec<f64> = assembly.models.iter().map(|model| f64::from(model.radius())).collect();
         let reaches = assembly.objects.iter().map(|object| radii[object.model] * object.scale).collect();

@@ -1,11 +1,11 @@
-//! How a moving body swings while its light crosses it: its centre to third order, its attitude to second order in the rotation vector and
+//! How a moving body swings while its light crosses it: its centre to fourth order, its attitude to second order in the rotation vector and
 //! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the placement;
 //! [`swing_at`] is the twin of the shader's.
 
 use glam::{DVec3, Vec3};
 
 use crate::sim::History;
-use crate::sim::history::rotation;
+use crate::sim::history::{Sample, rotation};
 
 use super::types::Placement;
 
@@ -16,6 +16,8 @@ pub struct Swing {
     pub acceleration: DVec3,
     /// d³x/dT³ of the centre, in c³/r_s².
     pub jerk: DVec3,
+    /// d⁴x/dT⁴ of the centre, in c⁴/r_s³.
+    pub snap: DVec3,
     /// Angular velocity against the attitude at T₀, rain axes, in c/r_s.
     pub spin: DVec3,
     /// Its rate, in (c/r_s)².
@@ -29,7 +31,9 @@ pub struct Swing {
 }
 
 impl Swing {
-    /// Fitted through the places and attitudes of T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c): light crosses a body of that radius in such a while.
+    /// Fitted through the places and attitudes of T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c), and the places halfway: light crosses a body of that
+    /// radius in such a while. The fourth order is for what falls inside the horizon beside the camera: the fall of a ship of 0.16 r_s at
+    /// r = 0.6 is off by 10⁻⁴ r_s without it, a pixel where that is a thirtieth of r_s away.
     /// A Taylor series about T₀ would be off by the most where it matters, at the ends; and where the turning of a ship jumps, which one of a hundred
     /// pixels shows by two, there are no derivatives to take.
     pub fn new(history: &History, emission: f64, reach: f64) -> Swing {
@@ -41,11 +45,15 @@ impl Swing {
         let jolt_after = after - emission;
         let [back, on] =
             [(earlier, -w), (later, w)].map(|(sample, s)| rotation(now.attitude, sample.attitude) - jolt * jolted(s, jolt_after));
-        let moved_back = earlier.position - now.position + now.velocity * w;
-        let moved_on = later.position - now.position - now.velocity * w;
+        let moved = |sample: &Sample, s: f64| sample.position - now.position - now.velocity * s;
+        let (moved_back, moved_on) = (moved(&earlier, -w), moved(&later, w));
+        let [half_back, half_on] = [-0.5 * w, 0.5 * w].map(|s| moved(&history.at(emission + s), s));
+        // What is even in s is a s² + k s⁴/12.
+        let (even, even_half) = (moved_on + moved_back, half_on + half_back);
         Swing {
-            acceleration: (moved_on + moved_back) / (w * w),
+            acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
             jerk: (moved_on - moved_back) * (3.0 / (w * w * w)),
+            snap: (even - even_half * 4.0) * (16.0 / (w * w * w * w)),
             spin: (on - back) / (2.0 * w),
             spin_rate: (on + back) / (w * w),
             jolt,
@@ -84,5 +92,6 @@ pub fn swing_at(placement: &Placement, body: Vec3, s: f32) -> Vec3 {
     let p = Vec3::new(placement.spin[3], placement.spin_rate[3], placement.force[3]) + xyz(placement.force) * s;
     let gamma = (1.0 + p.length_squared()).sqrt();
     let contracted = rest - p * (p.dot(rest) / (gamma * (1.0 + gamma)));
-    contracted + (xyz(placement.velocity) + (last(placement.shape) + last(placement.turn) * (s / 3.0)) * (0.5 * s)) * s
+    let jerk = last(placement.turn) + xyz(placement.snap) * (0.25 * s);
+    contracted + (xyz(placement.velocity) + (last(placement.shape) + jerk * (s / 3.0)) * (0.5 * s)) * s
 }

@@ -50,6 +50,7 @@ pub struct Placement {
     pub jolt: [f32; 4],
     pub force: [f32; 4],
     pub turn: [[f32; 4]; 3],
+    pub snap: [f32; 4],
     pub light: [[f32; 4]; 3],
     pub ids: [u32; 4],
     pub vertices: [u32; 4],
@@ -59,7 +60,7 @@ pub struct Placement {
 impl Placement {
     /// Whether every number of it is one.
     pub fn is_finite(&self) -> bool {
-        let rows = [self.offset, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force];
+        let rows = [self.offset, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force, self.snap];
         let matrices = [self.shape, self.turn, self.light];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }

@@ -5,8 +5,10 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
+use super::collect::{add, moments};
 use super::metrics::{Limits, compare};
 use super::report::{side_by_side, table};
+use crate::measure::chart::SheetError;
 use crate::measure::flip::flip;
 use crate::measure::picture_file::{PictureFileError, write_png};
 use crate::measure::trace::{Case, Request, TraceError};
@@ -26,6 +28,9 @@ pub enum CompareError {
     /// The contestant has none: exit code 1.
     #[error("the renderer gave no picture: {0}")]
     Contestant(String),
+    /// The table of verdicts cannot be read or written: exit code 1.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
 }
 
 impl From<PictureFileError> for CompareError {
@@ -41,8 +46,31 @@ impl CompareError {
     }
 }
 
-/// Renders both, gives what goes beyond the limits, prints the verdict to standard output and writes the pictures side by side to `output`, a .png.
-pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+/// The name that stands for every scene of the project.
+pub const ALL: &str = "all";
+
+/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts.
+/// Gives what goes beyond the limits.
+pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+    let mut faults = Vec::new();
+    for (scene, at) in moments() {
+        let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
+        println!("{scene}, T = {at}:");
+        let request = Request { scene, at, ..request.clone() };
+        faults.extend(run(&request, config, &output.join(name), Some(&output.join("verdict.csv")), contestant)?);
+    }
+    Ok(faults)
+}
+
+/// Renders both, gives what goes beyond the limits, prints the verdict to standard output, writes the pictures side by side to `output`, a .png, and
+/// adds the verdict to `collected`, a .csv.
+pub fn run(
+    request: &Request,
+    config: Option<&Path>,
+    output: &Path,
+    collected: Option<&Path>,
+    contestant: &Contestant,
+) -> Result<Vec<String>, CompareError> {
     let side = request.check()?;
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
@@ -68,6 +96,9 @@ pub fn run(request: &Request, config: Option<&Path>, output: &Path, contestant: 
     print!("{}", table(&verdict, &limits, &faults));
     let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
     write_png(output, &bytes, size)?;
+    if let Some(csv) = collected {
+        add(csv, request, &verdict, &limits, &faults)?;
+    }
     Ok(faults)
 }
 
@@ -100,15 +131,16 @@ fn contrast(judge: &Picture, light: &[[f32; 3]]) -> Vec<f32> {
     flip(&exposed(&judge.light), &exposed(light), judge.size)
 }
 
-/// The models of a case with the first two of their points' coordinates as texture coordinates, and with the third: a renderer that draws
-/// these shows, in its layer of texture coordinates, which point of a surface is at each pixel.
-pub fn marked(models: &[Model]) -> [Vec<Model>; 2] {
-    let mark = |pick: fn([f32; 3]) -> [f32; 2]| {
-        let mut models = models.to_vec();
-        for vertex in models.iter_mut().flat_map(|model| &mut model.vertices) {
-            vertex.uv = pick(vertex.position);
-        }
-        models
-    };
-    [mark(|[x, y, _]| [x, y]), mark(|[_, _, z]| [z, 0.0])]
+/// What makes of a model one with the first two of its points' coordinates as texture coordinates, and one with the third: a renderer that draws these
+/// shows, in its layer of texture coordinates, which point of a surface is at each pixel. Coarser models that stand in for one must be marked after they
+/// are made.
+pub const MARKS: [fn(&Model) -> Model; 2] =
+    [|model| with_places(model, |[x, y, _]| [x, y]), |model| with_places(model, |[_, _, z]| [z, 0.0])];
+
+fn with_places(model: &Model, pick: fn([f32; 3]) -> [f32; 2]) -> Model {
+    let mut model = model.clone();
+    for vertex in &mut model.vertices {
+        vertex.uv = pick(vertex.position);
+    }
+    model
 }

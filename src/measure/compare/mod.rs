@@ -3,8 +3,10 @@
 //! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
 //! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
 //! - [`report`]: the numbers as text, the pictures side by side.
+//! - [`collect`]: verdicts of many scenes in one table.
 //! - [`command`]: `lensrunner compare`.
 
+pub mod collect;
 pub mod command;
 pub mod displacement;
 pub mod metrics;

@@ -1,0 +1,27 @@
+//! What the game hands in to the judge.
+
+use glam::DVec3;
+use lensrunner::measure::trace::Case;
+use lensrunner::play::contestant;
+use lensrunner::reference::picture::Quality;
+use lensrunner::scene::{self, GameConfig};
+
+#[test]
+fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
+    // The planet of `chase` is ten pixels wide here.
+    let case = Case::new(scene::load("chase").unwrap(), GameConfig::default(), 0.0, [160, 90]);
+    let planet = case.assembly.objects.iter().position(|object| object.body == scene::Body::Planet).unwrap() as u32 + 1;
+    let frame = contestant::draw(&case).unwrap();
+    let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let both = judge
+        .layers
+        .iter()
+        .zip(&frame.shown)
+        .filter(|(layer, shown)| (layer.object, layer.order) == (planet, 1) && (shown.object, shown.order) == (planet, 1));
+    let radius = f64::from(case.assembly.models[case.assembly.objects[planet as usize - 1].model].radius());
+    // At the rim a tenth of a pixel is a long way on the globe: the mean counts.
+    let off: Vec<f64> = both.map(|(layer, shown)| DVec3::from(shown.body.map(f64::from)).distance(case.body(layer))).collect();
+    assert!(off.len() > 40, "only {} pixels show the planet", off.len());
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(mean < 0.1 * radius, "points are {mean} off in the mean, of a globe of {radius}");
+}
