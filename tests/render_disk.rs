@@ -14,7 +14,7 @@ use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
-use lensrunner::scene::disk::{Gas, shares, slant};
+use lensrunner::scene::disk::{Gas, RENEWAL, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
@@ -426,4 +426,102 @@ fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
     assert_eq!(across, picture(&mut inside, 0.8));
     let lit = |picture: &[[f32; 4]]| picture.iter().filter(|p| p[0] > 1e-4).count();
     assert!(lit(&across) > size[0] as usize && lit(&outside) > size[0] as usize, "{} and {} pixels of gas", lit(&outside), lit(&across));
+}
+
+/// Linear light of a picture of the disk as it is configured, drawn at a time, and the exact one with that many image orders.
+fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Camera, size: [u32; 2], time: f64, orders: u32) -> [Vec<[f32; 3]>; 2] {
+    renderer.set_disk(Some(disk.clone()));
+    // A budget of many pixels: no third image unasked.
+    let settings = Settings { orders, pixel_error: 100.0, ..settings() };
+    let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
+    let got = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
+    [got, disk::picture(&disk.gas, &eye(&camera), size, time, orders, 2)]
+}
+
+fn eye(camera: &Camera) -> Eye {
+    Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
+}
+
+/// Where one generation of streaks dies and the next is born, at light that left at a whole number of renewals, the picture is as near to the truth as
+/// elsewhere: no seam.
+#[test]
+fn no_seam_shows_where_a_generation_of_streaks_dies() {
+    let size = [320, 180];
+    let disk = a_disk();
+    let mut renderer = renderer(size);
+    // Light from the middle of the picture left 27 r_s/c ago.
+    let (camera, time) = (camera(27.0, 60.0, 60f64.to_radians()), 4.0 * RENEWAL + 27.0);
+    let [got, truth] = drawn_and_exact(&mut renderer, &disk, camera, size, time, 1);
+    // Off by and light, at the seam and elsewhere.
+    let mut sums = [[0.0f64; 2]; 2];
+    let mut pixels = [0; 2];
+    for (k, (got, truth)) in got.iter().zip(&truth).enumerate() {
+        let at = [f64::from(k as u32 % size[0]) + 0.5, f64::from(k as u32 / size[0]) + 0.5];
+        let crossing = disk::exact::crossings(&disk.gas, &eye(&camera), size, at, 1);
+        let Some(crossing) = crossing.first().filter(|crossing| (4.0..10.0).contains(&crossing.radius)) else { continue };
+        let phase = (time - crossing.path) / RENEWAL;
+        let there = usize::from((phase - phase.round()).abs() > 0.02);
+        sums[there][0] += f64::from((got[1] - truth[1]).abs());
+        sums[there][1] += f64::from(truth[1]);
+        pixels[there] += 1;
+    }
+    let [seam, elsewhere] = sums.map(|[off, light]| off / light);
+    println!("off by {seam:.3} of the light at the seam, {elsewhere:.3} elsewhere; {pixels:?} pixels");
+    assert!(pixels[0] > 200 && pixels[1] > 2000);
+    assert!(seam < 1.3 * elsewhere, "off by {seam:.3} of the light at the seam, {elsewhere:.3} elsewhere");
+}
+
+/// Arcs are nearer to the truth than polygons, from high over the plane to nearly edge on.
+#[test]
+fn arcs_are_nearer_to_the_truth_than_polygons() {
+    let size = [320, 180];
+    let with = |representation: &str| {
+        let mut config = GameConfig::default();
+        config.disk.representation = representation.into();
+        Disk::new(config.disk.clone(), &config)
+    };
+    let disks = [with("arcs"), with("polygons")];
+    let mut renderers = [renderer(size), renderer(size)];
+    for degrees in [30.0, 80.0, 87.0, 89.0] {
+        let camera = camera(27.0, degrees, 60f64.to_radians());
+        let truth = disk::picture(&disks[0].gas, &eye(&camera), size, 100.0, 3, 2);
+        let [arcs, polygons] = std::array::from_fn(|k| {
+            renderers[k].set_disk(Some(disks[k].clone()));
+            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+            let got: Vec<[f32; 3]> = renderers[k].picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
+            disk::compare(&got, &truth, size)
+        });
+        println!("{degrees}°: arcs {:.2} dB, polygons {:.2} dB", arcs.psnr, polygons.psnr);
+        assert!(arcs.psnr > polygons.psnr, "{degrees}°: arcs {:.2} dB, polygons {:.2} dB", arcs.psnr, polygons.psnr);
+    }
+}
+
+/// The third image is far thinner than a pixel, and yet has as much light as it should, to a factor of two: the mean is that of eight radii that share
+/// its width equally in the mean over the azimuths, of gas without streaks. (One radius for all of it gave five times too much.)
+#[test]
+fn the_third_image_has_its_light() {
+    let size = [160, 160];
+    let disk = a_disk();
+    let mut renderer = renderer(size);
+    let camera = camera(27.0, 80.0, 15f64.to_radians());
+    let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
+    let [third, second] =
+        [3, 2].map(|orders| drawn_and_exact(&mut renderer, &disk, camera, size, 100.0, orders).map(|picture| light(&picture)));
+    let [got, want] = [0, 1].map(|k| third[k] - second[k]);
+    println!("the third image adds {got:.2}, must add {want:.2}");
+    assert!((0.5..2.0).contains(&(got / want)), "the third image adds {got:.2}, must add {want:.2}");
+}
+
+/// Streaks finer than a pixel still count in its light, which is steep in the temperature: the whole picture is as bright as the exact one.
+#[test]
+fn a_small_picture_has_the_light_of_a_large_one() {
+    let size = [96, 54];
+    let disk = a_disk();
+    let mut renderer = renderer(size);
+    for degrees in [10.0, 60.0, 80.0] {
+        let [got, truth] = drawn_and_exact(&mut renderer, &disk, camera(27.0, degrees, 60f64.to_radians()), size, 100.0, 2)
+            .map(|picture| picture.iter().map(|p| f64::from(p[1])).sum::<f64>());
+        println!("{degrees}°: {:.3} of the light", got / truth);
+        assert!((0.9..1.1).contains(&(got / truth)), "{degrees}°: {:.3} of the light", got / truth);
+    }
 }

@@ -22,16 +22,27 @@ fn tent_below(x: f32) -> f32 {
     return select(0.5 * t * t, 1.0 - 0.5 * t * t, x > 0.0);
 }
 
+/// Places along a pixel that streaks are looked up at, at most: a thin image crowds the whole disk into few pixels, so that a pixel is long across the
+/// orbits; order 1 has that only near by, and not so much.
+const THIN_TAPS: u32 = 4u;
+const NEAR_TAPS: u32 = 2u;
+
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, 1.0 / (LONGEST * LONGEST)));
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, streaks_of(in, LONGEST)));
 }
 
 /// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, 1.0)) * coverage(in.seen.x, in.seen.y);
+    let at = streaks_of(in, f32(THIN_TAPS));
+    let along = along_of(at, THIN_TAPS);
+    var sum = vec4<f32>(0.0);
+    for (var k = 0u; k < along.taps; k++) {
+        sum += gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, streaks_along(at, along, k)));
+    }
+    return sum * (coverage(in.seen.x, in.seen.y) / f32(along.taps));
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -43,27 +54,30 @@ fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
     return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
 }
 
-/// Light paths between which the finest octaves fade, in r_s: beyond the second the passes from far take over, which do not have them.
-const FINE: vec2<f32> = vec2<f32>(1.5, 3.0);
-
-/// The pattern with its finest octaves, of which `share` is there.
-fn close_pattern(uv: vec2<f32>, level: f32, share: f32) -> f32 {
+/// The pattern with its finest octaves.
+fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
     // A texel that is smaller than a pixel is filtered as it is.
     let coarse = textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
     let fine = 8.0 * uv;
-    return coarse + 0.35 * share * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+    return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
 }
 
-/// From near: slant and the finest octaves in each pixel.
+/// From near: the slant in each pixel, streaks without a grain.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let path = in.seen.z;
-    let at = streaks_of(in, select(1.0 / (LONGEST * LONGEST), 1.0, in.seen.y < 1e5));
+    let most = select(NEAR_TAPS, THIN_TAPS, in.seen.y < 1e5);
+    let at = streaks_of(in, max(f32(most), LONGEST));
+    let along = along_of(at, most);
     let level = 0.5 * log2(max(at.square, 1e-12));
-    let fine = 1.0 - smoothstep(FINE.x, FINE.y, path);
-    let cooling = in.even.w * close_pattern(at.even, level, fine) + in.odd.w * close_pattern(at.odd, level, fine);
-    let depth = in.light.w * disk_slant(in.seen.w, path, near_half_height(in.slope.w));
-    return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);
+    let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
+    let unseen = unseen_of(in, unseen_variance(level));
+    var sum = vec4<f32>(0.0);
+    for (var k = 0u; k < along.taps; k++) {
+        let there = streaks_along(at, along, k);
+        let power = in.even.w * close_pattern(there.even, level) + in.odd.w * close_pattern(there.odd, level);
+        sum += gas_colour(in.light.rgb, in.slope.xyz, depth, Cooling(power, unseen));
+    }
+    return sum * (coverage(in.seen.x, in.seen.y) / f32(along.taps));
 }
 
 /// Half height of the disk at a radius of the pattern: thickness times that.

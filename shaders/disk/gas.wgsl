@@ -1,11 +1,11 @@
 // The gas in a pixel: streaks from the pattern, light from that of the vertices.
 
 @group(2) @binding(0) var<uniform> disk: DiskFrame;
-/// The pattern in 8 bits, (value + 3)/6: each texel holds itself and its next neighbours to the right, below and across, so that one
+/// The pattern with its finest octaves in 8 bits, (value + 4)/8: each texel holds itself and its next neighbours to the right, below and across, so that one
 /// fetch does for a bilinear sample.
 @group(2) @binding(1) var far_pattern: texture_2d<f32>;
 @group(2) @binding(2) var far_sampler: sampler;
-/// The pattern itself.
+/// The pattern without its finest octaves.
 @group(2) @binding(3) var near_pattern: texture_2d<f32>;
 @group(2) @binding(4) var near_sampler: sampler;
 
@@ -45,8 +45,8 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
         vec4<f32>(light.slope, exp2(4.0 * height)), vec4<f32>(thin, path, cosine));
 }
 
-/// A generation shows from this part of the other's share on: more than is left of one over a triangle in which it dies.
-const LEAST_SHARE: f32 = 0.003;
+/// A generation shows from this part of the other's share on: more than is left of one over a triangle in which it dies, 4 r_s of light path long.
+const LEAST_SHARE: f32 = 0.03;
 
 struct Streaks {
     even: vec2<f32>,
@@ -66,11 +66,13 @@ fn square_of(place: vec2<f32>, share: f32) -> f32 {
     return max(abs(a.x * b.y - a.y * b.x), max(dot(a, a), dot(b, b)) * share);
 }
 
-/// Where in the pattern a pixel is, in both generations, and how much of it it covers. `share` is the part of the square of the pixel's longest side that
-/// counts: a thin image shows the mean of all it holds.
-fn streaks_of(in: Gas, share: f32) -> Streaks {
-    let height = 0.25 * log2(in.slope.w);
+/// Where in the pattern a pixel is, in both generations, and how much of it it covers. A pixel that is more than `most` times as long as wide has
+/// texels of that part of its length.
+fn streaks_of(in: Gas, most: f32) -> Streaks {
+    // Neighbours outside the triangle may be anywhere; their places are part of the differences.
+    let height = 0.25 * log2(max(in.slope.w, 1.0));
     let rate = disk_rate(height);
+    let share = 1.0 / (most * most);
     var result: Streaks;
     result.even = in.even.xy + vec2<f32>(-rate * in.even.z, height);
     result.odd = in.odd.xy + vec2<f32>(-rate * in.odd.z, height);
@@ -84,7 +86,7 @@ fn streaks_of(in: Gas, share: f32) -> Streaks {
     return result;
 }
 
-/// The pattern from far, of a level, less 1/2 and over 6.
+/// The pattern from far, of a level, over 8.
 fn far_value(place: vec2<f32>, level: u32) -> f32 {
     let size = PATTERN_SIZE * bitcast<f32>((127u - level) << 23u);
     let texel = place * size - 0.5;
@@ -95,18 +97,72 @@ fn far_value(place: vec2<f32>, level: u32) -> f32 {
     return mix(row.x, row.y, t.y) - 0.5;
 }
 
-/// By which power of two the streaks of both generations cool the gas, from far: the finest octaves are smaller than a pixel.
-fn far_cooling(in: Gas, share: f32) -> f32 {
-    let at = streaks_of(in, share);
-    // log₂ of the side, rounded, from the exponent of its square.
-    let level = (bitcast<u32>(max(at.square, 1.0)) - (126u << 23u)) >> 24u;
-    return 6.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
+/// What streaks do to the gas in a pixel.
+struct Cooling {
+    /// The power of two by which they cool it.
+    power: f32,
+    /// The variance of ln T among what is finer than the pixel and so was not seen.
+    unseen: f32,
 }
 
-/// Light and opacity of gas that streaks cool by 2^−cooling: premultiplied. Its density is the fourth power of its temperature, and light goes as
-/// exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's.
-fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: f32) -> vec4<f32> {
-    let cooler = exp2(-cooling);
-    let alpha = 1.0 - exp2(-1.44269504 * depth * exp2(4.0 * cooling));
-    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler))) * alpha, alpha);
+/// The variance of what of the pattern is finer than texels of a level, so that it is not seen: 1 of the pattern and 0.35² of its finest octaves, the
+/// same eight times finer. A fit to the halvings of src/scene/disk/noise.rs, good to 0.03.
+fn unseen_variance(level: f32) -> f32 {
+    let t = exp2(5.77 - 1.4427 * level);
+    return 1.0 / (1.0 + t) + 0.1225 / (1.0 + 0.0498 * t);
+}
+
+/// The streaks of both generations from far.
+fn far_cooling(in: Gas, at: Streaks) -> Cooling {
+    // log₂ of the side, rounded, from the exponent of its square.
+    let level = (bitcast<u32>(max(at.square, 1.0)) - (126u << 23u)) >> 24u;
+    let power = 8.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
+    return Cooling(power, unseen_of(in, unseen_variance(f32(level))));
+}
+
+/// A pixel that is long in the pattern, looked up at several places along it.
+struct Along {
+    /// Its longest side, in both generations.
+    even: vec2<f32>,
+    odd: vec2<f32>,
+    /// At how many places: no more than one for each texel.
+    taps: u32,
+}
+
+fn along_of(at: Streaks, most: u32) -> Along {
+    let even = longest_side(at.even);
+    let odd = longest_side(at.odd);
+    let texels = sqrt(max(dot(even, even), dot(odd, odd))) * PATTERN_SIZE.x;
+    return Along(even, odd, u32(clamp(ceil(texels), 1.0, f32(most))));
+}
+
+fn longest_side(place: vec2<f32>) -> vec2<f32> {
+    let a = dpdx(place);
+    let b = dpdy(place);
+    return select(a, b, dot(b, b) > dot(a, a));
+}
+
+/// The streaks at the place `k` of those along a pixel.
+fn streaks_along(at: Streaks, along: Along, k: u32) -> Streaks {
+    let t = (f32(k) + 0.5) / f32(along.taps) - 0.5;
+    return Streaks(at.even + t * along.even, at.odd + t * along.odd, at.square);
+}
+
+/// The variance of ln T for that of the pattern, in units of log₂ in `even` and `odd`.
+fn unseen_of(in: Gas, variance: f32) -> f32 {
+    return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
+}
+
+/// Light and opacity of gas that streaks cool: premultiplied. Its density is the fourth power of its temperature, and light goes as
+/// exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's. Light is steep in t, so what streaks too fine to be
+/// seen add in the mean counts: exp(½v(s² − s)/(1 + sv)) for a variance v of ln t, and with the opacity, a(t), s² − s + 2s·a'/a + a''/a.
+fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling) -> vec4<f32> {
+    let cooler = exp2(-cooling.power);
+    let q = depth * exp2(4.0 * cooling.power);
+    let passed = exp2(-1.44269504 * q);
+    let alpha = 1.0 - passed;
+    let steep = 4.0 * q * passed / max(alpha, 1e-6);
+    let s = slope * cooler;
+    let mean = 0.72134752 * cooling.unseen * (s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q)) / (1.0 + s.g * cooling.unseen);
+    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, vec3<f32>(8.0))) * alpha, alpha);
 }

@@ -37,9 +37,40 @@ fn theta_between(a: f32, b: f32, t: f32) -> f32 {
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles. What is thinner is
+/// Half widths in pixels between which that ends: it moves the gas aside, and a wide image needs it no more, as the gas thins out towards its edges.
+const WIDE: vec2<f32> = vec2<f32>(1.5, 5.0);
+
+/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles. What is thinner is
 /// drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots.
 const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
+
+/// Circles whose mean a thin image shows; as in src/render/disk/view.rs.
+const THIN_SAMPLES: u32 = 8u;
+
+/// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
+const GREEN: f32 = 26160.0;
+
+/// The gas that is as bright as an image is in the mean over its width, where that is thin: all of it is seen by the same ray. x: ln of the temperature
+/// that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera, `observed` its frequency there.
+fn mean_gas(first: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
+    let n = frame.radial.xyz;
+    let energy = frequency - frame.side_b.w * dot(n, arriving);
+    let angular = cross(n * frame.radial.w, arriving);
+    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    var light = 0.0;
+    var stopped = 0.0;
+    for (var k = first; k < min(first + THIN_SAMPLES, arrayLength(&circles)); k++) {
+        let there = circles[k];
+        // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
+        let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
+        let temperature = exp(there.gas.z) * select(1.0, clamp(observed / found.x, 1e-3, 1e3), shifts);
+        let stops = 1.0 - exp(-there.gas.w / max(found.y, LEAST_COSINE));
+        light += stops * exp(-GREEN / temperature);
+        stopped += stops;
+    }
+    let own = max(stopped, 1e-6);
+    return vec2<f32>(log(GREEN / -log(clamp(light / own, 1e-37, 0.999))), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)));
+}
 
 /// The vertex of `row` at θ.
 fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
@@ -85,7 +116,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         let pixel = frame.size.z * camera_doppler_of(seen_at);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + disk.gas.w + SOFT;
+        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(WIDE.x, WIDE.y, half));
         let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
         thin = vec2<f32>(d, half);
         let moved = middle + d * pixel;
@@ -105,8 +136,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let along_orbit = disk.sideways.xyz * c - disk.towards.xyz * s;
     let tangent = (side * (c * disk.sideways.w) - n * reach) * turn;
     let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
-    let own = select(smoothstep(MEAN.x, MEAN.y, thin.y), 1.0, order == 1u);
-    let momentum = outward * (circle.motion.x * own) + along_orbit * mix(circle.place.w, circle.motion.y, own);
+    let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
     let gamma = sqrt(1.0 + dot(momentum, momentum));
     let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
     let m = frame.camera_from_rain;
@@ -117,8 +147,15 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
 
     let ln_g = log(g);
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
-    let slant = select(1.0, disk_slant(cosine, ray.delay, circle.motion.z), disk.room.y == 0u);
-    vertex.gas = vec4<f32>(turns, circle.motion.w, mix(circle.place.y, circle.gas.z, own) + ln_g, mix(circle.place.z, circle.gas.w, own) * slant);
+    let slant = disk_slant(cosine, ray.delay, circle.motion.z);
+    var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
+    if order > 1u && thin.y < MEAN.y {
+        let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+        let mean = mean_gas(circle.rows.w, arriving, ray.frequency, observed);
+        shown = mix(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y / max(slant, 1e-6)), shown, smoothstep(MEAN.x, MEAN.y, thin.y));
+    }
+    // Close by, the slant is worked out in each pixel.
+    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, disk.room.y != 0u));
     vertex.more = vec4<f32>(ln_g, cosine, thin);
     return vertex;
 }

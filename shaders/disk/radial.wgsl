@@ -25,12 +25,6 @@ fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2
     let k = -past;
     let n = frame.radial.xyz;
     let energy = length(past) - frame.side_b.w * dot(n, k);
-    let spin = cross(n * frame.radial.w, k) / r;
-    let beta = inverseSqrt(r);
-    let root = sqrt(max(energy * energy - (1.0 - 1.0 / r) * dot(spin, spin), 0.0));
-    let inward = (dot(spin, spin) - energy * energy) / max(beta * energy + root, 1e-9);
-    let radial = select(inward, (beta * energy + root) / max(1.0 - 1.0 / r, 1e-6), outward);
-    let gamma = sqrt(1.0 + gas.a.z * gas.a.z + gas.a.w * gas.a.w);
-    let emitted = max(gamma * (energy + beta * radial) - gas.a.z * radial - gas.a.w * spin.z, 1e-6);
-    return vec2<f32>(clamp(1.0 / emitted, 1e-3, 1e3), length(spin.xy) / emitted);
+    let found = disk_frequency(energy, cross(n * frame.radial.w, k), r, outward, gas.a.zw);
+    return vec2<f32>(clamp(1.0 / found.x, 1e-3, 1e3), found.y);
 }

@@ -4,9 +4,6 @@
 /// Most segments of an arc. Every halving divides δ by four.
 const MOST_SEGMENTS: u32 = 128u;
 
-/// What the error may be on circles within the disk, over what it may be at its edges: there it moves streaks by less than they are wide, here an outline.
-const WITHIN: f32 = 3.0;
-
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let arcs = disk.sizes.y;
@@ -31,8 +28,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     // Thin images are grown to lines: their chords are held closer, as their sag shows against their own width.
-    let rows = circles[row].rows;
-    let budget = disk.gas.z * select(0.5, 1.0, rows.x == 1u) * select(WITHIN, 1.0, row == rows.y || row == rows.z);
+    let budget = disk.gas.z * select(0.5, 1.0, circles[row].rows.x == 1u);
     var count = 1u;
     var left = error;
     while left > budget && count < MOST_SEGMENTS {

@@ -31,10 +31,10 @@ struct Circle {
     gas: vec4<f32>,
     /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
     motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, differenced in f64; of the gas that stands for the whole width where the image is thinner than a pixel, y: ln of the
-    /// temperature in K, z: optical depth, w: momentum along the rotation.
+    /// x: radius·√(1 − h²) − L, differenced in f64; y, z, w unused.
     place: vec4<f32>,
-    /// x: image order; y, z: innermost and outermost row of that order; w unused.
+    /// x: image order; y, z: innermost and outermost row of that order; w: for orders 2 and 3 the first of THIN_SAMPLES circles behind the rows, on radii
+    /// that share the width of that image equally.
     rows: vec4<u32>,
 }
 

@@ -1,6 +1,6 @@
 //! The chart `disk`: paper 2's two tables with the error of the picture beside each time, and speed against error.
 //!
-//! Table 1: each representation alone, seen from 80°. Table 2: one scripted chase through all situations, the same for every row. Who draws
+//! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same for every row. Who draws
 //! is handed in from above: the instruments know no renderer.
 
 use std::path::PathBuf;
@@ -16,6 +16,7 @@ use crate::spacetime::frames;
 
 use super::error::{PictureError, compare};
 use super::exact::{Eye, picture};
+use super::places::errors_by_place;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
@@ -79,7 +80,7 @@ const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
 /// What ratios are told against.
 const REFERENCE: &str = "arcs 4200";
 /// T of all frames, in r_s/c.
-const TIME: f64 = 100.0;
+pub(super) const TIME: f64 = 100.0;
 
 /// All ways, in the order of paper 2's tables, then arcs at other budgets.
 pub fn contestants(config: &GameConfig) -> Vec<Contestant> {
@@ -109,14 +110,15 @@ pub fn run(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Dra
     let contestants = contestants(config);
     let alone = request.output.sheet("disk-alone", || alone(request, &contestants, adapter, draw))?;
     let chase = request.output.sheet("disk-chase", || chase(request, &contestants, adapter, draw))?;
+    request.output.sheet("disk-places", || errors_by_place(request, &contestants, adapter, draw))?;
     let figure = figure(&alone, &chase);
     let mut files = figure.save(&request.output.folder, "disk")?.to_vec();
-    files.extend([request.output.csv("disk-alone"), request.output.csv("disk-chase")]);
+    files.extend(["disk-alone", "disk-chase", "disk-places"].map(|name| request.output.csv(name)));
     Ok(files)
 }
 
 /// A hovering eye that looks along `look`.
-fn eye(position: DVec3, look: DVec3) -> Eye {
+pub(super) fn eye(position: DVec3, look: DVec3) -> Eye {
     Eye {
         position,
         momentum: static_momentum(position).unwrap_or_default(),

@@ -3,6 +3,7 @@
 pub mod chart;
 pub mod error;
 pub mod exact;
+pub mod places;
 
 pub use error::{PictureError, compare};
 pub use exact::{Eye, picture};

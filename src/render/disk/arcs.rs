@@ -102,7 +102,7 @@ impl ArcPass {
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.close;
         let device = &gpu.device;
-        let mut replaced = self.circles.write(gpu, &view.circles);
+        let mut replaced = self.circles.write(gpu, &[&view.circles[..], &view.samples[..]].concat());
         replaced |= self.cuts.write(gpu, &view.cuts);
         replaced |= self.rings.write(gpu, &view.rings);
         replaced |= self.seen.reserve(device, u64::from(view.frame.room[0]) * size_of::<DiskVertex>() as u64);

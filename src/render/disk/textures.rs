@@ -1,19 +1,20 @@
 //! The pattern of the gas as textures.
 
 use crate::render::Gpu;
+use crate::scene::disk::DETAIL;
 use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH};
 
-/// The greatest value of the pattern, either way.
-const GREATEST: f32 = 3.0;
+/// The greatest value of the pattern with its finest octaves, either way: what is beyond, one texel of 10⁴, counts as that.
+const GREATEST: f32 = 4.0;
 
 /// The pattern with all its halvings, twice.
 #[derive(Debug)]
 pub struct Textures {
-    /// In 8 bits, (value + 3)/6: each texel with its next to the right, below and across, so that one fetch does for a bilinear sample.
+    /// With the finest octaves, in 8 bits, (value + 4)/8: each texel with its next to the right, below and across, so that one fetch does for a bilinear sample.
     pub far: wgpu::TextureView,
     /// Texel by texel, and one halving at a time.
     pub far_sampler: wgpu::Sampler,
-    /// In 16-bit floats, for close looks.
+    /// Without them, in 16-bit floats, for close looks.
     pub near: wgpu::TextureView,
     /// Bilinear, and one halving at a time: two are twice the work.
     pub near_sampler: wgpu::Sampler,
@@ -58,24 +59,38 @@ impl Textures {
 /// One level: width, height, values.
 type Level = (u32, u32, Vec<f32>);
 
-/// The lattice, halved round the hole: its cells are long that way, and the less memory, the more of it stays near the processor.
+/// The pattern with its finest octaves, halved round the hole: its cells are long that way, and the less memory, the more of it stays near the processor.
 fn narrower() -> Level {
-    (WIDTH as u32 / 2, HEIGHT as u32, LATTICE.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect())
+    let narrow = |values: &[f32]| -> Vec<f32> { values.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect() };
+    let (width, height) = (WIDTH / 2, HEIGHT);
+    // The finest octaves are the pattern again, so many times finer: a texel holds the mean of as many of theirs, both ways.
+    let finer = DETAIL.0 as usize;
+    let (mut w, mut h, mut detail) = (width as u32, height as u32, narrow(&LATTICE));
+    while w as usize > width / finer {
+        (w, h, detail) = halved(&(w, h, detail));
+    }
+    let values = narrow(&LATTICE);
+    let at = |x: usize, y: usize| values[y * width + x] + DETAIL.1 as f32 * detail[y % h as usize * w as usize + x % w as usize];
+    (width as u32, height as u32, (0..width * height).map(|k| at(k % width, k / width).clamp(-GREATEST, GREATEST)).collect())
 }
 
 /// A level, and halved again and again.
 fn halvings(finest: Level) -> Vec<Level> {
     let mut levels = vec![finest];
-    while let Some((width, height, values)) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
-        let (w, h) = (*width as usize, *height as usize);
-        let halved = (0..w * h / 4).map(|k| {
-            let (x, y) = (2 * (k % (w / 2)), 2 * (k / (w / 2)));
-            0.25 * (values[y * w + x] + values[y * w + x + 1] + values[(y + 1) * w + x] + values[(y + 1) * w + x + 1])
-        });
-        let next = (width / 2, height / 2, halved.collect());
-        levels.push(next);
+    while let Some(level) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
+        levels.push(halved(level));
     }
     levels
+}
+
+/// A level of half the width and height.
+fn halved((width, height, values): &Level) -> Level {
+    let (w, h) = (*width as usize, *height as usize);
+    let mean = (0..w * h / 4).map(|k| {
+        let (x, y) = (2 * (k % (w / 2)), 2 * (k / (w / 2)));
+        0.25 * (values[y * w + x] + values[y * w + x + 1] + values[(y + 1) * w + x] + values[(y + 1) * w + x + 1])
+    });
+    (width / 2, height / 2, mean.collect())
 }
 
 fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level], encode: &dyn Fn(&Level) -> Vec<u8>) -> wgpu::TextureView {

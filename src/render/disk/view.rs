@@ -17,25 +17,26 @@ use super::types::{Circle, DiskFrame};
 const LEAST_HEIGHT: f64 = 1e-5;
 /// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this
 /// across the orbit.
-const STRAIGHT: f64 = 0.8;
+const STRAIGHT: f64 = 0.4;
 /// And along it, where streaks are ten times as long.
 const STRAIGHT_ALONG: f64 = 8.0;
 /// The logarithm of light goes straight too, and the optical depth: as long as the light that comes of both is off by no more than this share of the
 /// brightest ring's.
-const STRAIGHT_LIGHT: f64 = 0.03;
+const STRAIGHT_LIGHT: f64 = 0.015;
 /// And what is stopped of light from behind by no more than this.
-const STRAIGHT_STOPPED: f64 = 0.05;
-/// Half widths in pixels between which a thin image goes over from one gas for all of its width to gas from each of its circles, as
+const STRAIGHT_STOPPED: f64 = 0.03;
+/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/place.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
+/// Circles whose mean a thin image shows, as in shaders/disk/place.wgsl.
+const THIN_SAMPLES: usize = 8;
 /// Azimuths at which that is tried, on one side, for both sides are alike.
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
 const LEAST_ARC: f64 = 128.0;
-/// Nearer to the disk than this, in r_s, its finest octaves are seen: their smallest cells are 0.006 r wide. They fade in from here on, as
-/// shaders/disk/draw.wgsl has it.
+/// Nearer to the disk than this, in r_s, the pattern is looked up without a grain and the slant in each pixel.
 const CLOSE: f64 = 3.0;
 /// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
 const DETOUR: f64 = 60.0;
@@ -47,6 +48,8 @@ pub struct DiskView {
     pub frame: DiskFrame,
     /// Rows of all orders.
     pub circles: Vec<Circle>,
+    /// Behind them in the same buffer: circles whose mean a thin image shows.
+    pub samples: Vec<Circle>,
     /// θ of the cuts, in rad.
     pub cuts: Vec<f32>,
     /// Rows on either side of each ring, and its order.
@@ -70,6 +73,7 @@ impl DiskView {
         let origin = towards.y.atan2(towards.x);
 
         let mut circles = Vec::new();
+        let mut samples = Vec::new();
         let mut rings = Vec::new();
         for order in 1..=3 {
             // The third is drawn unasked where it is wider than the pixel budget.
@@ -81,10 +85,16 @@ impl DiskView {
             let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
             let (rows, pairs) = rows(disk, camera, &seen, width, order);
             let last = first + rows.len() as u32 - 1;
-            let mean = if order == 1 { disk.gas.extent()[0] } else { mean_radius(&seen) };
-            circles.extend(rows.into_iter().map(|r| circle(disk, r, mean, level, l, [order, first, last, 0])));
+            let behind = samples.len() as u32;
+            if order > 1 {
+                samples.extend(equal_shares(&seen).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
+            }
+            circles.extend(rows.into_iter().map(|r| circle(disk, r, level, l, [order, first, last, behind])));
             rings.extend(pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
         }
+
+        let count = circles.len() as u32;
+        circles.iter_mut().for_each(|circle: &mut Circle| circle.rows[3] += count);
 
         // Streaks: time at the camera counted from the first generation that can be seen.
         let nearest = (l - end).max(0.0);
@@ -107,6 +117,7 @@ impl DiskView {
                 offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
             },
             circles,
+            samples,
             cuts: cuts.iter().map(|azimuth| (azimuth - origin) as f32).collect(),
             rings,
             close,
@@ -148,21 +159,25 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
     (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
 }
 
-/// The radius where the gas is as bright as the whole image of an order is in the mean over its width: what stands for it where it is thinner than
-/// a pixel. It is looked for outside the brightest circle, where most of the width is.
-fn mean_radius(seen: &[SeenCircle]) -> f64 {
-    let (mut light, mut width) = (0.0, 0.0);
+/// Radii that share the width of an image equally, in the mean over the azimuths.
+fn equal_shares(seen: &[SeenCircle]) -> [f64; THIN_SAMPLES] {
+    let mut before = vec![0.0];
     for pair in seen.windows(2) {
-        let [a, b] = [&pair[0], &pair[1]];
-        let angles = a.places.iter().zip(&b.places).map(|(a, b)| a.angle_to(*b).abs()).filter(|angle| angle.is_finite());
-        let across: f64 = angles.sum();
-        light += 0.5 * (a.shining() + b.shining()) * across;
-        width += across;
+        let shares = (0..AZIMUTHS).map(|k| {
+            let whole = seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs();
+            pair[0].places[k].angle_to(pair[1].places[k]).abs() / whole
+        });
+        // Where there is no ray, nothing is seen.
+        let share: f64 = shares.filter(|share| share.is_finite()).sum();
+        before.push(before[before.len() - 1] + share);
     }
-    let mean = light / width.max(1e-300);
-    let brightest = (0..seen.len()).fold(0, |best, k| if seen[k].shining() > seen[best].shining() { k } else { best });
-    let at = seen[brightest..].iter().find(|circle| circle.shining() <= mean).unwrap_or(&seen[seen.len() - 1]);
-    at.radius
+    let whole = before[before.len() - 1];
+    std::array::from_fn(|k| {
+        let wanted = whole * (k as f64 + 0.5) / THIN_SAMPLES as f64;
+        let i = before.partition_point(|&share| share <= wanted).clamp(1, seen.len() - 1);
+        let t = (wanted - before[i - 1]) / (before[i] - before[i - 1]).max(1e-300);
+        seen[i - 1].radius + t.clamp(0.0, 1.0) * (seen[i].radius - seen[i - 1].radius)
+    })
 }
 
 /// The width of the image of an order where it is widest, in pixels.
@@ -260,14 +275,14 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
 }
 
-fn circle(disk: &Disk, r: f64, mean: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
+fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
     let radial = &disk.gas.radial;
     let [outward, along] = radial.momentum(r);
     let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
     Circle {
         gas: [r as f32, radial.lag(r) as f32, radial.temperature(r).ln() as f32, radial.depth(r) as f32],
         motion: [outward as f32, along as f32, disk.gas.half_height(r) as f32, pattern as f32],
-        place: [(r * level - l) as f32, radial.temperature(mean).ln() as f32, radial.depth(mean) as f32, radial.momentum(mean)[1] as f32],
+        place: [(r * level - l) as f32, 0.0, 0.0, 0.0],
         rows,
     }
 }
