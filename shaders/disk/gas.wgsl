@@ -162,7 +162,8 @@ fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling) 
     let passed = exp2(-1.44269504 * q);
     let alpha = 1.0 - passed;
     let steep = 4.0 * q * passed / max(alpha, 1e-6);
-    let s = slope * cooler;
-    let mean = 0.72134752 * cooling.unseen * (s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q)) / (1.0 + s.g * cooling.unseen);
-    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, vec3<f32>(8.0))) * alpha, alpha);
+    // By the slope at green: one number does for all three.
+    let s = slope.g * cooler;
+    let mean = 0.72134752 * cooling.unseen * (s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q)) / (1.0 + s * cooling.unseen);
+    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, 8.0)) * alpha, alpha);
 }

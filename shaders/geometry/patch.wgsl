@@ -77,7 +77,7 @@ fn strictness(placement: Placement) -> f32 {
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 9.0;
 /// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
-const NARROW_LIMB_STRICTNESS: f32 = 64.0;
+const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
 fn limb_strictness(placement: Placement) -> f32 {
     return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);

@@ -50,7 +50,7 @@ const RED_PER_PAIR: f64 = 0.5;
 const TRIPLET_PER_PAIR: f64 = 0.55;
 /// O(¹S) per O₂⁺ that recombines (0.07 to 0.1), O₂⁺ taken as the share of ionised O₂.
 const RECOMBINATION: f64 = 0.08;
-/// O(¹S) per ionisation of O: direct excitation (crude).
+/// O(¹S) per ionisation of O: direct excitation (crude: no source gives it alone, and it makes most of the green of electrons below 1 keV).
 const DIRECT_GREEN: f64 = 0.05;
 /// Visible photons of the first positive bands per ion pair of N₂ (crude: Vallance Jones 1974 gives 1PG in 600–700 nm of half of 557.7 nm).
 const CRIMSON_PER_PAIR: f64 = 0.045;
