@@ -25,7 +25,7 @@ fn tent_below(x: f32) -> f32 {
 /// Places along a pixel that streaks are looked up at, at most, from far: a thin image crowds the whole disk into few pixels, so that a pixel is long
 /// across the orbits. From near, where a look-up is four fetches instead of two and the disk may fill the picture, there is one: with two and four of them
 /// the disk of `chase` took three times as long.
-const THIN_TAPS: u32 = 2u;
+const THIN_TAPS: u32 = 4u;
 
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
