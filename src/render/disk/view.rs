@@ -17,14 +17,14 @@ use super::types::{Circle, DiskFrame};
 const LEAST_HEIGHT: f64 = 1e-5;
 /// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this
 /// across the orbit.
-const STRAIGHT: f64 = 0.8;
+const STRAIGHT: f64 = 0.4;
 /// And along it, where streaks are ten times as long.
 const STRAIGHT_ALONG: f64 = 8.0;
 /// The logarithm of light goes straight too, and the optical depth: as long as the light that comes of both is off by no more than this share of the
 /// brightest ring's.
-const STRAIGHT_LIGHT: f64 = 0.03;
+const STRAIGHT_LIGHT: f64 = 0.015;
 /// And what is stopped of light from behind by no more than this.
-const STRAIGHT_STOPPED: f64 = 0.05;
+const STRAIGHT_STOPPED: f64 = 0.03;
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/place.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
