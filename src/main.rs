@@ -136,7 +136,8 @@ struct CompareArgs {
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
-    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it.
+    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it. `all` has a table of
+    /// its own, in its folder.
     #[arg(long, value_name = "FILE.csv")]
     table: Option<PathBuf>,
     /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md.
@@ -313,6 +314,9 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
         packet: lensrunner::reference::picture::DEFAULT_PACKET,
     };
     let (config, draw) = (args.config.as_deref(), &lensrunner::play::contestant::draw);
+    if args.scene == command::ALL && args.table.is_some() {
+        return fail(&"--table: not with --scene all, which writes verdict.csv in its folder", 2);
+    }
     let judged = if args.scene == command::ALL {
         command::run_all(&request, config, &args.output, draw)
     } else {

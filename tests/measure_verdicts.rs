@@ -58,7 +58,8 @@ fn a_verdict_takes_the_place_of_the_one_before() {
     let line = "| `ring` | 5 | 640 × 360, 9 | ball 1 | 0.250, 0.500 | 1 of 900 px, 0.100 % |  | within |";
     assert!(page.contains(line), "{page}");
     // A file of something else is left as it is.
-    assert!(other.unwrap_err().to_string().contains("size"));
+    let said = other.unwrap_err().to_string();
+    assert!(said.contains("size") && said.contains("verdict.csv"), "{said}");
 }
 
 #[test]

@@ -38,9 +38,12 @@ fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, f32(THIN_TAPS));
     let along = along_of(at, THIN_TAPS);
+    let level = far_level(at);
+    let unseen = unseen_of(in, unseen_variance(f32(level)));
     var sum = vec4<f32>(0.0);
     for (var k = 0u; k < along.taps; k++) {
-        sum += gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, streaks_along(at, along, k)));
+        let power = far_power(in, streaks_along(at, along, k), level);
+        sum += gas_colour(in.light.rgb, in.slope.xyz, in.light.w, Cooling(power, unseen));
     }
     return sum * (coverage(in.seen.x, in.seen.y) / f32(along.taps));
 }

@@ -112,12 +112,20 @@ fn unseen_variance(level: f32) -> f32 {
     return 1.0 / (1.0 + t) + 0.1225 / (1.0 + 0.0498 * t);
 }
 
+/// The level of the pattern that a pixel takes from far: log₂ of its side, rounded, from the exponent of its square.
+fn far_level(at: Streaks) -> u32 {
+    return (bitcast<u32>(max(at.square, 1.0)) - (126u << 23u)) >> 24u;
+}
+
+/// The power of two by which the streaks of both generations cool the gas, from far.
+fn far_power(in: Gas, at: Streaks, level: u32) -> f32 {
+    return 8.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
+}
+
 /// The streaks of both generations from far.
 fn far_cooling(in: Gas, at: Streaks) -> Cooling {
-    // log₂ of the side, rounded, from the exponent of its square.
-    let level = (bitcast<u32>(max(at.square, 1.0)) - (126u << 23u)) >> 24u;
-    let power = 8.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
-    return Cooling(power, unseen_of(in, unseen_variance(f32(level))));
+    let level = far_level(at);
+    return Cooling(far_power(in, at, level), unseen_of(in, unseen_variance(f32(level))));
 }
 
 /// A pixel that is long in the pattern, looked up at several places along it.

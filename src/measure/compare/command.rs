@@ -5,7 +5,7 @@ use std::path::Path;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
-use super::collect::{add, moments};
+use super::collect::{add, moments, open};
 use super::metrics::{Limits, compare};
 use super::report::{side_by_side, table};
 use crate::measure::chart::SheetError;
@@ -28,7 +28,7 @@ pub enum CompareError {
     /// The contestant has none: exit code 1.
     #[error("the renderer gave no picture: {0}")]
     Contestant(String),
-    /// The table of verdicts cannot be read or written: exit code 1.
+    /// The table of verdicts cannot be read or written (exit code 1), or is another table (2).
     #[error(transparent)]
     Sheet(#[from] SheetError),
 }
@@ -42,7 +42,11 @@ impl From<PictureFileError> for CompareError {
 impl CompareError {
     /// Whether the asker is at fault.
     pub fn is_input(&self) -> bool {
-        matches!(self, CompareError::Trace(error) if error.is_input())
+        match self {
+            CompareError::Trace(error) => error.is_input(),
+            CompareError::Sheet(error) => !matches!(error, SheetError::Io(..)),
+            _ => false,
+        }
     }
 }
 
@@ -71,6 +75,10 @@ pub fn run(
     collected: Option<&Path>,
     contestant: &Contestant,
 ) -> Result<Vec<String>, CompareError> {
+    // Before the work of which it would lose the result.
+    if let Some(csv) = collected {
+        open(csv)?;
+    }
     let side = request.check()?;
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
