@@ -2,6 +2,8 @@
 
 mod house;
 mod lensing_integrator;
+mod lensing_methods;
+mod lensing_slices;
 mod lensing_stability;
 mod lensing_tables;
 mod light_against_judge;

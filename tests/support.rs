@@ -1,8 +1,10 @@
 //! What several tests need.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use lensrunner::lensing::{Scheme, Table};
 use proptest::test_runner::{Config, RngSeed};
 
 /// Properties are tried on the same `cases` on every machine and every day: CI never turns red by chance.
@@ -34,4 +36,12 @@ impl Drop for Folder {
         // A folder left behind harms nobody.
         let _ = std::fs::remove_dir_all(&self.0);
     }
+}
+
+/// The committed table.
+pub fn table() -> &'static Table {
+    static TABLE: OnceLock<Table> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        Table::load(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tables/default.lut")), Scheme::Residual).expect("the committed table")
+    })
 }
