@@ -195,11 +195,12 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     };
     let adapter = gpu.adapter.name.clone();
     let mut bench = None;
-    finish_chart(run(&request, &config, &adapter, &mut |number, eye, time, picture| {
+    finish_chart(run(&request, &config, &adapter, &mut |number, view, picture| {
         let configs = || contestants(&config).into_iter().map(|contestant| contestant.config).collect();
         let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
+        let eye = &view.eye;
         let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
-        let frame = bench.frame(number, camera, time, picture).map_err(|error| error.to_string())?;
+        let frame = bench.frame(number, camera, view.time, view.sky, picture).map_err(|error| error.to_string())?;
         Ok(Shown { whole: frame.whole, processor: frame.processor, passes: frame.passes, picture: frame.picture })
     }))
 }

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lensrunner::measure::chart::{Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance};
+use lensrunner::measure::disk::script::{CROSSING, script};
 use lensrunner::measure::plot::{Axis, Bars, Figure, Guide, Line, Lines, Map, Panel, Point, Scatter, Series, pareto, tick_text};
 
 fn everything() -> Figure {
@@ -170,4 +171,32 @@ fn provenance_says_where_numbers_come_from() {
     assert_eq!(footer.len(), 2);
     assert!(footer[0].contains("adapter: llvmpipe") && footer[0].contains(&now.date), "{footer:?}");
     assert!(footer[1].starts_with("lensrunner"));
+}
+
+/// The scripted chase is one flight, and passes through every situation however few places of it are looked at.
+#[test]
+fn the_scripted_chase_passes_through_every_situation() {
+    for steps in [8, 12, 16, 25, 100] {
+        let stops: Vec<_> = (0..steps).map(|step| script((f64::from(step) + 0.5) / f64::from(steps), 3.0)).collect();
+        for name in ["from far", "inside the inner edge", "skimming", "crossing", "below"] {
+            assert!(stops.iter().any(|stop| stop.2 == name), "{steps} places and none {name}");
+        }
+        for (eye, _, name) in &stops {
+            let (r, z) = (eye.position.length(), eye.position.z);
+            assert_eq!(*name == "inside the inner edge", r < 3.0, "{name} at r = {r}");
+            assert_eq!(*name == "crossing", r > 3.0 && z.abs() <= CROSSING, "{name} at z = {z}");
+        }
+    }
+    let mut last: Option<(glam::DVec3, glam::DQuat, f64)> = None;
+    let mut nearest = f64::INFINITY;
+    for step in 0..=4000 {
+        let (eye, time, _) = script(f64::from(step) / 4000.0, 3.0);
+        nearest = nearest.min(eye.position.length());
+        if let Some((position, attitude, before)) = last {
+            assert!(time > before && eye.position.distance(position) < 0.03, "a jump at {step}: {position} to {}", eye.position);
+            assert!(eye.attitude.angle_between(attitude) < 0.02, "the look jumps at {step}");
+        }
+        last = Some((eye.position, eye.attitude, time));
+    }
+    assert!(nearest < 2.0, "never nearer than {nearest}");
 }

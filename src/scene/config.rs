@@ -54,16 +54,21 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
             }
         }
     }
-    together(&config).map_err(|(keys, message)| {
+    check_together(&config, document.get_ref()).map_err(|fault| complain(file, text, fault))?;
+    Ok(config)
+}
+
+/// What [`together`] says, at the line in `document` of one of the keys that clash.
+pub(super) fn check_together(config: &GameConfig, document: &DeTable<'_>) -> Result<(), Fault> {
+    together(config).map_err(|(keys, message)| {
         // The other of the two may be a default, which has no line.
         let span = keys.iter().find_map(|key| {
             let (section, key) = key.split_once('.')?;
-            let DeValue::Table(table) = document.get_ref().get(section)?.get_ref() else { return None };
+            let DeValue::Table(table) = document.get(section)?.get_ref() else { return None };
             table.get(key).map(|value| value.span())
         });
-        complain(file, text, Fault { span: span.unwrap_or(0..0), message })
-    })?;
-    Ok(config)
+        Fault { span: span.unwrap_or(0..0), message }
+    })
 }
 
 /// What single ranges cannot say: a lower end above its upper one, a key for two things. The keys that clash, and what is wrong.

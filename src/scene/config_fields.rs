@@ -153,7 +153,7 @@ config! {
         doppler: bool = true, Switch, "", "frequency shift of all light";
         beaming: bool = true, Switch, "", "brightness change that goes with the shift";
         lensing: bool = true, Switch, "", "bending of light; off draws flat space";
-        light_delay: bool = true, Switch, "", "moving things are seen at their emission time";
+        light_delay: bool = true, Switch, "", "ships are seen at their emission time (the gas of the disk always is)";
         exposure_min: f64 = -12.0, number(-30.0, 30.0), "stops", "darkest exposure the eye adapts to";
         exposure_max: f64 = 3.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
@@ -171,8 +171,8 @@ config! {
     /// The accretion disk.
     disk: Disk {
         representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
-        inner: f64 = 3.0, number(1.05, 50.0), "r_s", "inner edge; 3 is the last stable orbit";
-        outer: f64 = 12.0, number(2.0, 200.0), "r_s", "outer edge";
+        inner: f64 = 3.0, number(3.0, 50.0), "r_s", "inner edge of the orbits; from 3, the last stable one, gas goes on falling in";
+        outer: f64 = 12.0, number(3.1, 200.0), "r_s", "outer edge";
         accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
         efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
@@ -181,7 +181,7 @@ config! {
         error_budget: f64 = 0.0003, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
         width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
-        thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius";
+        thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius, seen from within the disk";
         exposure_key: f64 = 0.8, number(0.01, 8.0), "", "light that what shines is brought to where there is a disk; 1 is white";
         opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";

@@ -121,7 +121,9 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
         return Ok(DiskKeys(Vec::new()));
     };
     let mut checked = GameConfig::default();
-    config::apply_table(&mut checked, "disk", table).map_err(|fault| complain(file, text, fault))?;
+    config::apply_table(&mut checked, "disk", table)
+        .and_then(|()| config::check_together(&checked, document.get_ref()))
+        .map_err(|fault| complain(file, text, fault))?;
     let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
     Ok(DiskKeys(
         config::settings()

@@ -1,7 +1,7 @@
 //! The chart `disk`: paper 2's two tables with the error of the picture beside each time, and speed against error.
 //!
-//! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same for every row. Who draws
-//! is handed in from above: the instruments know no renderer.
+//! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
+//! for every row (`chase.rs`). Who draws is handed in from above: the instruments know no renderer.
 
 use std::path::PathBuf;
 
@@ -14,6 +14,7 @@ use crate::scene::camera::static_momentum;
 use crate::scene::disk::Gas;
 use crate::spacetime::frames;
 
+use super::chase::{chase, summary};
 use super::error::{PictureError, compare};
 use super::exact::{Eye, picture};
 use super::places::errors_by_place;
@@ -57,9 +58,26 @@ pub struct Shown {
     pub picture: Vec<[f32; 3]>,
 }
 
-/// Draws a frame of a contestant (by its number; None: without a disk) for an eye at a time T; with a size it brings the picture back, drawn at that
-/// size.
-pub type Draw<'a> = dyn FnMut(Option<usize>, &Eye, f64, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
+impl Shown {
+    /// The time of a pass in ms; 0 if it is not there.
+    pub(super) fn pass(&self, label: &str) -> f64 {
+        self.passes.iter().filter(|(name, _)| name == label).map(|(_, time)| time).sum()
+    }
+}
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// From where.
+    pub eye: Eye,
+    /// T, in r_s/c.
+    pub time: f64,
+    /// Whether stars and the Milky Way stand behind the disk, as the configuration has them; black else.
+    pub sky: bool,
+}
+
+/// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that size.
+pub type Draw<'a> = dyn FnMut(Option<usize>, &View, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
 
 /// Why there is no chart.
 #[derive(Debug, thiserror::Error)]
@@ -76,10 +94,10 @@ pub enum ChartError {
 }
 
 /// Passes that are the disk's own.
-const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
+pub(super) const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
 /// What ratios are told against.
 const REFERENCE: &str = "arcs 4200";
-/// T of all frames, in r_s/c.
+/// T of all frames but the chase's, in r_s/c.
 pub(super) const TIME: f64 = 100.0;
 
 /// All ways, in the order of paper 2's tables, then arcs at other budgets.
@@ -111,9 +129,11 @@ pub fn run(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Dra
     let alone = request.output.sheet("disk-alone", || alone(request, &contestants, adapter, draw))?;
     let chase = request.output.sheet("disk-chase", || chase(request, &contestants, adapter, draw))?;
     request.output.sheet("disk-places", || errors_by_place(request, &contestants, adapter, draw))?;
-    let figure = figure(&alone, &chase);
+    let summary = summary(&chase);
+    summary.save(&request.output.csv("disk-summary"))?;
+    let figure = figure(&alone, &chase, &summary);
     let mut files = figure.save(&request.output.folder, "disk")?.to_vec();
-    files.extend(["disk-alone", "disk-chase", "disk-places"].map(|name| request.output.csv(name)));
+    files.extend(["disk-alone", "disk-chase", "disk-summary", "disk-places"].map(|name| request.output.csv(name)));
     Ok(files)
 }
 
@@ -135,7 +155,7 @@ fn portrait() -> Eye {
 
 /// What the disk costs: the passes that are its own by timestamps. A software adapter draws on the processor, where other programs run as well and
 /// passes overlap: there it is the processor time of the frame less that of a frame without a disk.
-fn own(shown: &Shown, without: &Shown) -> f64 {
+pub(super) fn own(shown: &Shown, without: &Shown) -> f64 {
     match (shown.processor, without.processor) {
         (Some(with), Some(without)) => with - without,
         _ => passes(shown),
@@ -143,40 +163,32 @@ fn own(shown: &Shown, without: &Shown) -> f64 {
 }
 
 fn passes(shown: &Shown) -> f64 {
-    shown.passes.iter().filter(|(label, _)| DISK_PASSES.contains(&label.as_str())).map(|(_, time)| time).sum()
+    DISK_PASSES.iter().map(|label| shown.pass(label)).sum()
 }
 
-fn median(values: &mut [f64]) -> f64 {
+/// The middle one; NaN of none.
+pub(super) fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&[
-        "contestant",
-        "family",
-        "disk_ms",
-        "passes_ms",
-        "frame_ms",
-        "against_arcs_4200",
-        "psnr_db",
-        "flip",
-        "mean_difference",
-    ]);
+    let mut sheet =
+        Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
     sheet.notes = Provenance::now(adapter).notes();
-    let eye = portrait();
+    let view = View { eye: portrait(), time: TIME, sky: false };
     let base = &contestants[0].config;
-    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &eye, request.error_size, TIME, 3, 6);
+    let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
-        let shown = draw(Some(number), &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;
+        let shown = draw(Some(number), &view, Some(request.error_size)).map_err(ChartError::Draw)?;
         errors.push(compare(&shown.picture, &truth, request.error_size));
     }
     let mut times = vec![[const { Vec::new() }; 3]; contestants.len()];
     for _ in 0..request.rounds {
-        let without = timed(None, &eye, draw)?;
+        let without = timed(None, &view, draw)?;
         for (number, [own_times, pass_times, whole]) in times.iter_mut().enumerate() {
-            let shown = timed(Some(number), &eye, draw)?;
+            let shown = timed(Some(number), &view, draw)?;
             own_times.push(own(&shown, &without));
             pass_times.push(passes(&shown));
             whole.push(shown.whole);
@@ -203,8 +215,8 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
 }
 
 /// A frame: the mean of two, after two that make targets and whose timestamps are another's.
-fn timed(number: Option<usize>, eye: &Eye, draw: &mut Draw) -> Result<Shown, ChartError> {
-    let mut frame = || draw(number, eye, TIME, None).map_err(ChartError::Draw);
+pub(super) fn timed(number: Option<usize>, view: &View, draw: &mut Draw) -> Result<Shown, ChartError> {
+    let mut frame = || draw(number, view, None).map_err(ChartError::Draw);
     frame()?;
     frame()?;
     let (first, second) = (frame()?, frame()?);
@@ -215,59 +227,7 @@ fn timed(number: Option<usize>, eye: &Eye, draw: &mut Draw) -> Result<Shown, Cha
     })
 }
 
-/// The scripted chase at a share from 0 to 1 of its way, and what it passes through: from far, in through the inner edge, out over the disk, down through
-/// it, and away below.
-pub fn script(share: f64) -> (Eye, &'static str) {
-    let legs: [(&str, [DVec3; 2]); 5] = [
-        ("from far", [DVec3::new(0.0, -26.0, 6.0), DVec3::new(2.0, -12.0, 3.0)]),
-        ("inside the inner edge", [DVec3::new(2.0, -12.0, 3.0), DVec3::new(1.2, -2.0, 0.35)]),
-        ("skimming", [DVec3::new(3.5, -2.0, 0.3), DVec3::new(8.0, 5.0, 0.3)]),
-        ("crossing", [DVec3::new(8.0, 5.0, 0.3), DVec3::new(8.5, 6.0, -0.3)]),
-        ("below", [DVec3::new(8.5, 6.0, -0.3), DVec3::new(14.0, 14.0, -6.0)]),
-    ];
-    let place = share.clamp(0.0, 1.0) * legs.len() as f64;
-    let leg = (place as usize).min(legs.len() - 1);
-    let (name, [from, to]) = legs[leg];
-    let position = from + (to - from) * (place - leg as f64);
-    // Towards the hole from far; along the orbit, past it, from near.
-    let inward = -position.normalize();
-    let along = DVec3::Z.cross(position).normalize();
-    let look = match leg {
-        0 => inward,
-        1 => inward + along * 0.3,
-        2 | 3 => along + inward * 0.7,
-        _ => inward,
-    };
-    (eye(position, look), name)
-}
-
-fn chase(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["contestant", "family", "step", "situation", "frame_ms", "disk_ms", "arcs_ms", "mesh_ms", "draw_ms"]);
-    sheet.notes = Provenance::now(adapter).notes();
-    let steps = request.steps.max(2);
-    for step in 0..steps {
-        let (eye, situation) = script((step as f64 + 0.5) / steps as f64);
-        let without = timed(None, &eye, draw)?;
-        for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3) {
-            let shown = timed(Some(number), &eye, draw)?;
-            let pass = |label: &str| shown.passes.iter().find(|(name, _)| name == label).map_or(0.0, |(_, time)| *time);
-            sheet.push([
-                contestant.name.clone(),
-                contestant.family.to_string(),
-                step.to_string(),
-                situation.to_owned(),
-                format!("{:.3}", shown.processor.unwrap_or(shown.whole)),
-                format!("{:.3}", own(&shown, &without)),
-                format!("{:.3}", pass(DISK_PASSES[0])),
-                format!("{:.3}", pass(DISK_PASSES[1])),
-                format!("{:.3}", pass(DISK_PASSES[2])),
-            ]);
-        }
-    }
-    Ok(sheet)
-}
-
-fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
+fn figure(alone: &Sheet, chase: &Sheet, summary: &Sheet) -> Figure {
     let families = ["arcs", "polygons", "sprites", "arcs 4 200, other Δ"].map(str::to_owned).to_vec();
     let points = alone.rows.iter().map(|row| Point {
         x: alone.number(row, "disk_ms"),
@@ -286,17 +246,14 @@ fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
         pareto: true,
         ..Scatter::default()
     };
-    let names: Vec<String> = alone.rows.iter().take(8).map(|row| alone.text(row, "contestant").to_owned()).collect();
-    let frames = |name: &str| -> Vec<f64> {
-        chase.rows.iter().filter(|row| chase.text(row, "contestant") == name).map(|row| chase.number(row, "frame_ms")).collect()
-    };
-    let mean: Vec<Option<f64>> = names.iter().map(|name| Some(1e3 / mean_of(&frames(name)))).collect();
-    let worst: Vec<Option<f64>> = names.iter().map(|name| Some(1e3 / frames(name).into_iter().fold(0.0, f64::max))).collect();
+    let names: Vec<String> = summary.rows.iter().map(|row| summary.text(row, "contestant").to_owned()).collect();
+    let fps = |column: &str| -> Vec<Option<f64>> { summary.rows.iter().map(|row| Some(1e3 / summary.number(row, column))).collect() };
+    let [mean_fps, worst_fps] = ["mean_ms", "worst_ms"].map(fps);
     let bars = Bars {
         title: "The scripted chase, whole frames".into(),
         y: Axis::linear("frames per second"),
         groups: names.iter().map(|name| name.replacen(' ', "\n", 1)).collect(),
-        series: vec![Series { name: "mean".into(), values: mean }, Series { name: "worst".into(), values: worst }],
+        series: vec![Series { name: "mean".into(), values: mean_fps }, Series { name: "worst".into(), values: worst_fps }],
         values: true,
         ..Bars::default()
     };
@@ -311,17 +268,17 @@ fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
         dots: true,
         ..Line::default()
     });
-    let mut turns = Vec::new();
-    let mut before = String::new();
+    // A guide ends each situation: its label stands on the left of it.
+    let mut turns: Vec<Guide> = Vec::new();
     for row in &chase.rows {
-        let situation = chase.text(row, "situation");
-        if situation != before {
-            before = situation.to_owned();
-            turns.push(Guide { at: chase.number(row, "step") - 0.5, label: before.clone() });
+        let (end, situation) = (chase.number(row, "step") + 0.5, chase.text(row, "situation"));
+        match turns.last_mut().filter(|last| last.label == situation) {
+            Some(last) => last.at = end,
+            None => turns.push(Guide { at: end, label: situation.to_owned() }),
         }
     }
     let course = Lines {
-        title: "Passes of the disk along the chase".into(),
+        title: "The disk along the chase".into(),
         x: Axis::linear("step"),
         y: Axis::log("ms"),
         lines: lines.to_vec(),
@@ -336,8 +293,4 @@ fn figure(alone: &Sheet, chase: &Sheet) -> Figure {
         size: [1500, 1100],
         footer: Provenance::footer(&alone.notes),
     }
-}
-
-fn mean_of(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }

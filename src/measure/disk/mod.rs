@@ -1,9 +1,11 @@
 //! The disk measured: an exact picture of the gas, and how far a drawn one is from it.
 
 pub mod chart;
+mod chase;
 pub mod error;
 pub mod exact;
 pub mod places;
+pub mod script;
 
 pub use error::{PictureError, compare};
 pub use exact::{Eye, picture};

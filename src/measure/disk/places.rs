@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::measure::chart::{Provenance, Sheet};
 use crate::scene::disk::Gas;
 
-use super::chart::{ChartError, Contestant, Draw, Request, TIME, eye};
+use super::chart::{ChartError, Contestant, Draw, Request, TIME, View, eye};
 use super::error::compare;
 use super::exact::{Eye, picture};
 
@@ -43,7 +43,7 @@ pub fn errors_by_place(request: &Request, contestants: &[Contestant], adapter: &
     for (place, eye) in seats() {
         let truth = picture(&gas, &eye, request.error_size, TIME, 3, SAMPLES);
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family < 2) {
-            let shown = draw(Some(number), &eye, TIME, Some(request.error_size)).map_err(ChartError::Draw)?;
+            let shown = draw(Some(number), &View { eye, time: TIME, sky: false }, Some(request.error_size)).map_err(ChartError::Draw)?;
             let error = compare(&shown.picture, &truth, request.error_size);
             sheet.push([
                 contestant.name.clone(),

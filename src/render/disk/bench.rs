@@ -60,9 +60,16 @@ impl Bench {
         Bench { gpu, size, configs, renderers, output }
     }
 
-    /// Draws a frame by configuration `number`, the disk alone before black; None draws no disk at all. With a size it brings linear light back,
-    /// drawn at that size.
-    pub fn frame(&mut self, number: Option<usize>, camera: Camera, time: f64, picture: Option<[u32; 2]>) -> Result<Frame, PictureError> {
+    /// Draws a frame by configuration `number`, the disk alone before black or before the configuration's sky; None draws no disk at all. With a size it
+    /// brings linear light back, drawn at that size.
+    pub fn frame(
+        &mut self,
+        number: Option<usize>,
+        camera: Camera,
+        time: f64,
+        sky: bool,
+        picture: Option<[u32; 2]>,
+    ) -> Result<Frame, PictureError> {
         // Without a disk any of them will do; the last is the cheapest to bring its disk back.
         let config = &self.configs[number.unwrap_or(self.configs.len() - 1)];
         let held = self.renderers.iter_mut().find(|held| held.representation == config.disk.representation);
@@ -72,8 +79,8 @@ impl Bench {
             renderer.set_disk(number.map(|_| Disk::new(config.disk.clone(), config)));
         }
         let mut settings = settings(config);
-        settings.stars = false;
-        settings.milky_way = false;
+        settings.stars &= sky;
+        settings.milky_way &= sky;
         let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
         if let Some(size) = picture {
             renderer.resize(size);
