@@ -525,3 +525,41 @@ fn a_small_picture_has_the_light_of_a_large_one() {
         assert!((0.9..1.1).contains(&(got / truth)), "{degrees}°: {:.3} of the light", got / truth);
     }
 }
+
+/// Where there is no room for all arcs, what is drawn is whole: no triangle of an earlier frame, none that points nowhere; and it is counted.
+#[test]
+fn a_full_disk_is_drawn_coarser_and_says_so() {
+    // Wide, so that neither rings nor cuts are drawn together; low, so that little is shaded.
+    let mut renderer = renderer([4096, 8]);
+    drawn(&mut renderer, &a_disk(), camera(27.0, 80.0, 1.0));
+    let mut config = GameConfig::default();
+    config.disk.arcs = 50_000;
+    config.disk.width = 0.02;
+    config.disk.error_budget = 1e-5;
+    let disk = Disk::new(config.disk.clone(), &config);
+    let picture = |renderer: &mut Renderer, disk: &Disk| {
+        renderer.set_disk(Some(disk.clone()));
+        let input = FrameInput { camera: camera(4.0, 85.0, 1.5), time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+        renderer.picture(&input, false).unwrap()
+    };
+    let full = picture(&mut renderer, &disk);
+    let counters = renderer.disk_counters().unwrap().unwrap();
+    assert!(counters.coarse > 0, "{counters:?}");
+    assert!(counters.complaint().unwrap().contains("disk.error_budget"));
+    let passes = renderer.disk().unwrap().arcs();
+    let bytes = readback::buffer(&GPU, passes.seen()).unwrap();
+    let room = (bytes.len() / size_of::<DiskVertex>()) as u32;
+    let bytes = readback::buffer(&GPU, passes.indices()).unwrap();
+    let indices: &[u32] = bytemuck::cast_slice(&bytes);
+    assert!(indices.iter().all(|&index| index < room));
+    // The same again: nothing depends on what lay in the buffers.
+    let again = picture(&mut renderer, &disk);
+    let mean = |p: &readback::Picture| p.linear.iter().map(|p| f64::from(p[1])).sum::<f64>() / p.linear.len() as f64;
+    let plain = mean(&picture(&mut renderer, &a_disk()));
+    assert!(
+        (mean(&full) / plain - 1.0).abs() < 0.05 && (mean(&again) / plain - 1.0).abs() < 0.05,
+        "{} {} {plain}",
+        mean(&full),
+        mean(&again)
+    );
+}

@@ -18,7 +18,8 @@ fn before_mesh() {
 @compute @workgroup_size(1)
 fn before_draw() {
     for (var order = 0u; order < 3u; order++) {
-        arguments.draws[2u * order] = vec4<u32>(atomicLoad(&disk_counters.indices[order]), 1u, disk.regions[order], 0u);
+        let count = min(atomicLoad(&disk_counters.indices[order]), disk.regions[order + 1u] - disk.regions[order]);
+        arguments.draws[2u * order] = vec4<u32>(count, 1u, disk.regions[order], 0u);
         arguments.draws[2u * order + 1u] = vec4<u32>(0u);
     }
 }

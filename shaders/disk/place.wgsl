@@ -126,6 +126,9 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     var vertex: DiskVertex;
     let apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
     if !valid || !finite_vector(apparent) {
+        if valid {
+            atomicAdd(&disk_counters.caught, 1u);
+        }
         vertex.apparent = vec4<f32>(0.0);
         return vertex;
     }

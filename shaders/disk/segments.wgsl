@@ -40,8 +40,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         extra = atomicAdd(&disk_counters.vertices, count - 1u);
         let grid = disk.sizes.x * disk.sizes.z;
         if grid + extra + count - 1u > disk.room.x {
-            // Given back: the arc is drawn by its middle.
-            atomicSub(&disk_counters.vertices, count - 1u);
+            // No room: the arc is drawn by its middle. Nothing is given back, as another thread may have asked since.
             atomicAdd(&disk_counters.coarse, 1u);
             count = 2u;
         } else {

@@ -28,7 +28,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let end = select(select(disk.regions.w, disk.regions.z, order == 2u), disk.regions.y, order == 1u);
     var slot = begin + atomicAdd(&disk_counters.indices[order - 1u], 3u * total);
     if slot + 3u * total > end {
-        atomicSub(&disk_counters.indices[order - 1u], 3u * total);
+        // No room. What is left of it becomes triangles of nothing: the draw goes to the end.
+        for (; slot < end; slot++) {
+            disk_indices[slot] = 0u;
+        }
         atomicAdd(&disk_counters.coarse, 1u);
         return;
     }

@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, ComboBox, DragValue, RichText, Slider, TextEdit, Ui};
 
+use crate::render::disk::types::DiskCounters;
 use crate::render::plugin::SharedRenderer;
 use crate::render::types::Counters;
 use crate::scene::GameConfig;
@@ -48,7 +49,7 @@ pub fn draw(
     renderer: Option<Res<SharedRenderer>>,
     real: Res<Time<Real>>,
     mut times: Local<FrameTimes>,
-    mut counted: Local<(f64, Option<Counters>)>,
+    mut counted: Local<(f64, Option<Counters>, Option<DiskCounters>)>,
 ) -> Result {
     times.push(real.delta_secs_f64() * 1e3);
     if !player.overlay {
@@ -60,15 +61,20 @@ pub fn draw(
         let mut renderer = renderer.lock();
         passes = renderer.timing().latest().to_vec();
         if real.elapsed_secs_f64() >= counted.0 {
-            *counted = (real.elapsed_secs_f64() + COUNTER_PERIOD, renderer.counters().ok());
+            let disk = renderer.disk_counters().ok().flatten().filter(|counters| counters.arcs > 0);
+            *counted = (real.elapsed_secs_f64() + COUNTER_PERIOD, renderer.counters().ok(), disk);
         }
     }
-    let counters = counted.1;
+    let (_, counters, disk) = *counted;
     let mut config = session.config.clone();
     egui::Window::new("Lensrunner").default_pos([16.0, 180.0]).default_width(430.0).default_height(480.0).vscroll(true).show(
         context,
         |ui| {
-            costs(ui, &times, &passes, counters.as_ref());
+            costs(ui, &times, &passes);
+            counts(ui, counters.map(|c| (c.complaint(), c.to_string())));
+            if let Some(disk) = disk {
+                counts(ui, Some((disk.complaint(), disk.to_string())));
+            }
             ui.separator();
             for section in config::section_names() {
                 egui::CollapsingHeader::new(section).default_open(section == "render").show(ui, |ui| {
@@ -85,7 +91,7 @@ pub fn draw(
     Ok(())
 }
 
-fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)], counters: Option<&Counters>) {
+fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)]) {
     if let Some((mean, worst)) = times.mean_and_worst() {
         let line = format!("frame {mean:.1} ms mean, {worst:.1} ms worst of {WINDOW}   ({:.0} a second)", 1e3 / mean.max(1e-6));
         ui.label(RichText::new(line).strong());
@@ -103,12 +109,16 @@ fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)], counte
             ui.end_row();
         }
     });
+}
+
+/// What is amiss in some counters, and the counts.
+fn counts(ui: &mut Ui, counters: Option<(Option<String>, String)>) {
     match counters {
-        Some(counters) => {
-            if let Some(complaint) = counters.complaint() {
+        Some((complaint, counts)) => {
+            if let Some(complaint) = complaint {
                 ui.colored_label(egui::Color32::ORANGE, complaint);
             }
-            ui.label(counters.to_string());
+            ui.label(counts);
         }
         None => _ = ui.label("no counters"),
     }

@@ -19,14 +19,14 @@ const fn stop(share: f64, position: [f64; 3], aside: f64) -> Stop {
     Stop { share, position, aside }
 }
 
-/// From far, in through the inner edge, out over the disk, slowly down through it, and away below. Time inside the edge and in the plane is more than
+/// Within the inner edge the hole fills what lies inwards: there the look goes along the orbit. From far, in through the inner edge, out over the disk, slowly down through it, and away below. Time inside the edge and in the plane is more than
 /// an eighth of the whole each, so that eight places along the way miss neither.
 const WAY: [Stop; 9] = [
     stop(0.0, [0.0, -26.0, 6.0], 0.0),
     stop(0.25, [2.0, -12.0, 3.0], 0.0),
-    stop(0.4, [1.4, -2.55, 0.6], 0.25),
-    stop(0.47, [1.5, -1.2, 0.35], 0.25),
-    stop(0.55, [2.6, -1.4, 0.3], 0.3),
+    stop(0.4, [1.4, -2.55, 0.6], 0.7),
+    stop(0.47, [1.5, -1.2, 0.35], 0.8),
+    stop(0.55, [2.6, -1.4, 0.3], 0.7),
     stop(0.715, [8.0, 5.0, 0.25], 0.6),
     stop(0.73, [8.1, 5.2, 0.02], 0.6),
     stop(0.86, [8.4, 5.8, -0.02], 0.6),

@@ -53,6 +53,24 @@ pub struct DiskCounters {
     pub stage: u32,
 }
 
+impl DiskCounters {
+    /// What a person should know of these counts, in words; None if all is well.
+    pub fn complaint(&self) -> Option<String> {
+        let coarse =
+            (self.coarse > 0).then(|| format!("{} arcs of the disk are drawn coarser than asked: raise disk.error_budget", self.coarse));
+        let caught = (self.caught > 0).then(|| format!("{} places of the disk were not finite and are left out", self.caught));
+        let parts: Vec<String> = coarse.into_iter().chain(caught).collect();
+        (!parts.is_empty()).then(|| parts.join("; "))
+    }
+}
+
+impl std::fmt::Display for DiskCounters {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let [first, second, third] = self.indices.map(|indices| indices / 3);
+        write!(f, "disk: {} arcs over all orders; {first}, {second} and {third} triangles by order", self.arcs)
+    }
+}
+
 /// Bytes of `DiskArguments` in WGSL.
 pub const ARGUMENTS_BYTES: u64 = 112;
 /// Offset of the draw of order 1; each order takes [`ARGUMENTS_DRAW_STEP`].
