@@ -108,12 +108,8 @@ impl DiskPasses {
         let slots = [Slot::Uniform, Slot::Texture, Slot::Texture, Slot::Sampler];
         let gas_layout = layout(&gpu.device, "gas", ShaderStages::VERTEX_FRAGMENT, &slots);
         let frame = buffer(&gpu.device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM);
-        let resources = [
-            frame.as_entire_binding(),
-            TextureView(&textures.far),
-            TextureView(&textures.near),
-            Sampler(&textures.near_sampler),
-        ];
+        let resources =
+            [frame.as_entire_binding(), TextureView(&textures.far), TextureView(&textures.near), Sampler(&textures.near_sampler)];
         let gas_group = bind(&gpu.device, "gas", &gas_layout, &resources);
         let arcs = ArcPass::new(gpu, frame_layout, &gas_layout);
         let representation = Representation::Arcs;
