@@ -33,19 +33,24 @@ fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
     return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, streaks_of(in, LONGEST)));
 }
 
-/// Orders 2 and 3, from far.
+/// Orders 2 and 3, from far. What is seen along a pixel has one colour, by its mean and its variance, as what is not seen at all.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, f32(THIN_TAPS));
     let along = along_of(at, THIN_TAPS);
     let level = far_level(at);
     let unseen = unseen_of(in, unseen_variance(f32(level)));
-    var sum = vec4<f32>(0.0);
+    var sum = 0.0;
+    var squares = 0.0;
     for (var k = 0u; k < along.taps; k++) {
         let power = far_power(in, streaks_along(at, along, k), level);
-        sum += gas_colour(in.light.rgb, in.slope.xyz, in.light.w, Cooling(power, unseen));
+        sum += power;
+        squares += power * power;
     }
-    return sum * (coverage(in.seen.x, in.seen.y) / f32(along.taps));
+    let share = 1.0 / f32(along.taps);
+    let mean = sum * share;
+    let cooling = Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, cooling) * coverage(in.seen.x, in.seen.y);
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -68,7 +73,8 @@ fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
 /// From near: the slant in each pixel, streaks without a grain.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in, select(LONGEST, 1.0, in.seen.y < 1e5));
+    // A thin image crowds the disk into few pixels; wide ones are seen as order 1 is.
+    let at = streaks_of(in, mix(1.0, LONGEST, smoothstep(1.5, 5.0, in.seen.y)));
     let level = 0.5 * log2(max(at.square, 1e-12));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
     let power = in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level);

@@ -2,15 +2,16 @@
 
 @group(2) @binding(0) var<uniform> disk: DiskFrame;
 /// The pattern with its finest octaves in 8 bits, (value + 4)/8: each texel holds itself and its next neighbours to the right, below and across, so that one
-/// fetch does for a bilinear sample.
+/// fetch does for a bilinear sample. It is fetched and not sampled: software drivers then work out no more than the address.
 @group(2) @binding(1) var far_pattern: texture_2d<f32>;
-@group(2) @binding(2) var far_sampler: sampler;
 /// The pattern without its finest octaves.
-@group(2) @binding(3) var near_pattern: texture_2d<f32>;
-@group(2) @binding(4) var near_sampler: sampler;
+@group(2) @binding(2) var near_pattern: texture_2d<f32>;
+@group(2) @binding(3) var near_sampler: sampler;
 
 /// Texels of the pattern, as src/scene/disk/noise.rs has it.
 const PATTERN_SIZE: vec2<f32> = vec2<f32>(512.0, 512.0);
+/// The same along one side: a power of two, so that a place is brought back into the pattern by a mask.
+const PATTERN_SIDE: i32 = 512;
 
 /// What a pixel needs to know. Two generations of streaks are seen at a time, an even and an odd one; by turns each is the younger. So both go smoothly
 /// over a triangle, but for the moment when one dies and the next but one is born, and then its share is nothing. All that is the same for a whole frame
@@ -30,6 +31,9 @@ struct Gas {
     @location(4) seen: vec4<f32>,
 }
 
+/// Least light whose logarithm is taken. Streaks multiply it by up to 10¹⁰ where the gas is so cold that light is steep.
+const LEAST_LIGHT: f32 = 1e-30;
+
 /// For a vertex that is seen at `position`: `turns` and `height` in the pattern, at a light path, of an optical depth.
 fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, light: GasLight, thin: vec2<f32>, cosine: f32) -> Gas {
     let time = disk.renewal.x - path * disk.renewal.y;
@@ -41,7 +45,7 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
     let young = vec4<f32>(place, age, shares.x);
     let old = vec4<f32>(place - disk.offset.zw, age + disk.renewal.z, shares.y);
     let is_even = fract(0.5 * number) < 0.25;
-    return Gas(position, select(old, young, is_even), select(young, old, is_even), vec4<f32>(log2(max(light.rgb, vec3<f32>(1e-9))), depth),
+    return Gas(position, select(old, young, is_even), select(young, old, is_even), vec4<f32>(log2(max(light.rgb, vec3<f32>(LEAST_LIGHT))), depth),
         vec4<f32>(light.slope, exp2(4.0 * height)), vec4<f32>(thin, path, cosine));
 }
 
@@ -92,7 +96,7 @@ fn far_value(place: vec2<f32>, level: u32) -> f32 {
     let texel = place * size - 0.5;
     let whole = floor(texel);
     let t = texel - whole;
-    let v = textureSampleLevel(far_pattern, far_sampler, (whole + 0.5) / PATTERN_SIZE * bitcast<f32>((127u + level) << 23u), f32(level));
+    let v = textureLoad(far_pattern, vec2<i32>(whole) & vec2<i32>((PATTERN_SIDE >> level) - 1), i32(level));
     let row = mix(v.xz, v.yw, vec2<f32>(t.x));
     return mix(row.x, row.y, t.y) - 0.5;
 }
@@ -106,10 +110,10 @@ struct Cooling {
 }
 
 /// The variance of what of the pattern is finer than texels of a level, so that it is not seen: 1 of the pattern and 0.35² of its finest octaves, the
-/// same eight times finer. A fit to the halvings of src/scene/disk/noise.rs, good to 0.03.
+/// same eight times finer. A fit to the halvings of src/scene/disk/noise.rs, good to 0.08.
 fn unseen_variance(level: f32) -> f32 {
-    let t = exp2(5.77 - 1.4427 * level);
-    return 1.0 / (1.0 + t) + 0.1225 / (1.0 + 0.0498 * t);
+    let t = clamp(0.125 * level, 0.0, 1.0);
+    return 0.05 * clamp(1.0 + 0.33 * level, 0.0, 1.0) + 1.0725 * (t * t * (3.0 - 2.0 * t));
 }
 
 /// The level of the pattern that a pixel takes from far: log₂ of its side, rounded, from the exponent of its square.
@@ -166,12 +170,13 @@ fn unseen_of(in: Gas, variance: f32) -> f32 {
 /// seen add in the mean counts: exp(½v(s² − s)/(1 + sv)) for a variance v of ln t, and with the opacity, a(t), s² − s + 2s·a'/a + a''/a.
 fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling) -> vec4<f32> {
     let cooler = exp2(-cooling.power);
-    let q = depth * exp2(4.0 * cooling.power);
+    let square = cooler * cooler;
+    let q = depth / (square * square);
     let passed = exp2(-1.44269504 * q);
     let alpha = 1.0 - passed;
     let steep = 4.0 * q * passed / max(alpha, 1e-6);
-    // By the slope at green: one number does for all three.
-    let s = slope.g * cooler;
-    let mean = 0.72134752 * cooling.unseen * (s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q)) / (1.0 + s * cooling.unseen);
-    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, 8.0)) * alpha, alpha);
+    let s = slope * cooler;
+    let added = s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q);
+    let mean = 0.72134752 * cooling.unseen * added / (1.0 + cooling.unseen * s);
+    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, vec3<f32>(8.0))) * alpha, alpha);
 }

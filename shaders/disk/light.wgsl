@@ -14,16 +14,19 @@ fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
     let shifted = ln_temperature + ln_g;
     let shown = select(ln_temperature, shifted, doppler);
     let rgb = blackbody_rgb(exp(shown));
+    // The temperature that brightness follows, and with it the slope: another than that of the colour where one of both is switched off.
+    let felt = select(ln_temperature, shifted, beaming);
     var gain = disk.sprites.y;
+    var glow = rgb;
     if (doppler != beaming) & (ln_g != 0.0) {
-        let bright = luminance(blackbody_rgb(exp(select(ln_temperature, shifted, beaming))));
-        gain *= bright / max(luminance(rgb), 1e-30);
+        glow = blackbody_rgb(exp(felt));
+        gain *= luminance(glow) / max(luminance(rgb), 1e-30);
     }
     // Over a tenth of T: where light falls off fast, the mean slope over what streaks do to the temperature.
-    let above = blackbody_rgb(exp(shown + 0.1));
+    let above = blackbody_rgb(exp(felt + 0.1));
     // Cold gas is black, whatever its slope: 45 is that of blue light at 700 K. By Wien's law slopes are as the inverse wavelengths of the channels;
     // the table's blue, held above zero where there is hardly any, would be steeper.
-    let steep = min(log(max(above, vec3<f32>(1e-30)) / max(rgb, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
+    let steep = min(log(max(above, vec3<f32>(1e-30)) / max(glow, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
     let slope = min(steep, steep.x * vec3<f32>(1.0, 1.12, 1.33));
     return GasLight(min(rgb * gain, vec3<f32>(6e4)), slope);
 }

@@ -12,8 +12,6 @@ const GREATEST: f32 = 4.0;
 pub struct Textures {
     /// With the finest octaves, in 8 bits, (value + 4)/8: each texel with its next to the right, below and across, so that one fetch does for a bilinear sample.
     pub far: wgpu::TextureView,
-    /// Texel by texel, and one halving at a time.
-    pub far_sampler: wgpu::Sampler,
     /// Without them, in 16-bit floats, for close looks.
     pub near: wgpu::TextureView,
     /// Bilinear, and one halving at a time: two are twice the work.
@@ -36,22 +34,19 @@ impl Textures {
                 .collect()
         };
         let halves = |level: &Level| level.2.iter().flat_map(|&value| half::f16::from_f32(value).to_le_bytes()).collect();
-        let sampler = |label, filter| {
-            gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-                label: Some(label),
-                address_mode_u: wgpu::AddressMode::Repeat,
-                address_mode_v: wgpu::AddressMode::Repeat,
-                mag_filter: filter,
-                min_filter: filter,
-                mipmap_filter: wgpu::MipmapFilterMode::Nearest,
-                ..Default::default()
-            })
-        };
+        let near_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("gas from near"),
+            address_mode_u: wgpu::AddressMode::Repeat,
+            address_mode_v: wgpu::AddressMode::Repeat,
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Nearest,
+            ..Default::default()
+        });
         Textures {
             far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &halvings(narrower()), &bytes),
-            far_sampler: sampler("gas from far", wgpu::FilterMode::Nearest),
             near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
-            near_sampler: sampler("gas from near", wgpu::FilterMode::Linear),
+            near_sampler,
         }
     }
 }

@@ -17,14 +17,14 @@ use super::types::{Circle, DiskFrame};
 const LEAST_HEIGHT: f64 = 1e-5;
 /// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this
 /// across the orbit.
-const STRAIGHT: f64 = 0.4;
+const STRAIGHT: f64 = 0.1;
 /// And along it, where streaks are ten times as long.
-const STRAIGHT_ALONG: f64 = 8.0;
+const STRAIGHT_ALONG: f64 = 4.0;
 /// The logarithm of light goes straight too, and the optical depth: as long as the light that comes of both is off by no more than this share of the
-/// brightest ring's.
-const STRAIGHT_LIGHT: f64 = 0.015;
+/// brightest ring's. What is left of that by [`straighten`] is less than half.
+const STRAIGHT_LIGHT: f64 = 0.06;
 /// And what is stopped of light from behind by no more than this.
-const STRAIGHT_STOPPED: f64 = 0.03;
+const STRAIGHT_STOPPED: f64 = 0.1;
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/place.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
@@ -34,6 +34,10 @@ const THIN_SAMPLES: usize = 8;
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
+/// Points between two circles at which heat and depth are fitted.
+const FIT_POINTS: u32 = 8;
+/// The weight of dark gas in the fit of heat, over that of the brightest.
+const LEAST_WEIGHT: f64 = 1e-4;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
 const LEAST_ARC: f64 = 128.0;
 /// Nearer to the disk than this, in r_s, the pattern is looked up without a grain and the slant in each pixel.
@@ -89,7 +93,11 @@ impl DiskView {
             if order > 1 {
                 samples.extend(equal_shares(&seen).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
             }
-            circles.extend(rows.into_iter().map(|r| circle(disk, r, level, l, [order, first, last, behind])));
+            let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
+            if disk.config.gap <= 0.0 {
+                straighten(disk, &rows, &mut own);
+            }
+            circles.extend(own);
             rings.extend(pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
         }
 
@@ -157,6 +165,53 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
     }
     let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
     (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
+}
+
+/// Sets heat and depth of circles at `radii` so that what goes straight between them is off by as little as can be in the mean, and not by nothing on
+/// each of them: with the same circles the light is twice as near to that of the gas.
+fn straighten(disk: &Disk, radii: &[f64], circles: &mut [Circle]) {
+    let radial = &disk.gas.radial;
+    let light = |r: f64| (-GREEN / radial.temperature(r)).exp() * radial.depth(r).min(1.0);
+    let brightest = radii.iter().map(|&r| light(r)).fold(1e-300, f64::max);
+    // The logarithm of light goes straight, which by Wien's law is −1/T.
+    let heat = straight_fit(radii, |r| -1.0 / radial.temperature(r), |r| (light(r) / brightest).powi(2) + LEAST_WEIGHT);
+    let depth = straight_fit(radii, |r| radial.depth(r), |_| 1.0);
+    for ((circle, heat), depth) in circles.iter_mut().zip(heat).zip(depth) {
+        if heat < 0.0 {
+            circle.gas[2] = (-1.0 / heat).ln() as f32;
+        }
+        circle.gas[3] = depth.max(0.0) as f32;
+    }
+}
+
+/// The values at the places `at`, which grow, between which straight lines come closest to `wanted`: least squares by `weight`.
+fn straight_fit(at: &[f64], wanted: impl Fn(f64) -> f64, weight: impl Fn(f64) -> f64) -> Vec<f64> {
+    let n = at.len();
+    // Each point weighs upon its two neighbours alone: the equations are tridiagonal.
+    let (mut middle, mut beside, mut right) = (vec![1e-300; n], vec![0.0; n], vec![0.0; n]);
+    for k in 1..n {
+        for i in 0..FIT_POINTS {
+            let t = (f64::from(i) + 0.5) / f64::from(FIT_POINTS);
+            let r = at[k - 1] + t * (at[k] - at[k - 1]);
+            let (value, w) = (wanted(r), weight(r) * (at[k] - at[k - 1]));
+            middle[k - 1] += w * (1.0 - t) * (1.0 - t);
+            middle[k] += w * t * t;
+            beside[k] += w * t * (1.0 - t);
+            right[k - 1] += w * (1.0 - t) * value;
+            right[k] += w * t * value;
+        }
+    }
+    for k in 1..n {
+        let share = beside[k] / middle[k - 1];
+        middle[k] -= share * beside[k];
+        right[k] -= share * right[k - 1];
+    }
+    let mut values = vec![0.0; n];
+    for k in (0..n).rev() {
+        let next = if k + 1 < n { beside[k + 1] * values[k + 1] } else { 0.0 };
+        values[k] = (right[k] - next) / middle[k];
+    }
+    values
 }
 
 /// Radii that share the width of an image equally, in the mean over the azimuths.
