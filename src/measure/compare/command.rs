@@ -7,6 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::Frame;
 use super::collect::{add, moments, open};
 use super::metrics::{Limits, compare};
+use super::narrow;
 use super::report::{side_by_side, table};
 use crate::measure::chart::SheetError;
 use crate::measure::flip::flip;
@@ -92,11 +93,15 @@ pub fn run(
         bar.set_style(style);
     }
     let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
+    let mut judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
+    let probe = case.probe(request.tolerance);
+    if side < narrow::SIDE {
+        narrow::see_again(&mut judge, &frame, &probe);
+    }
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    let verdict = compare(&judge, &frame, &case.probe(request.tolerance), &names, &difference);
+    let verdict = compare(&judge, &frame, &probe, &names, &difference);
     // Colours of surfaces follow from where their points are; what else differs there are steps along edges, of a ray a pixel in the game.
     let flip = (request.samples >= COLOUR_SAMPLES && case.assembly.objects.is_empty()).then(|| colour_limit(&judge));
     let limits = Limits { orders: case.config.render.orders, flip, ..Limits::default() };

@@ -142,7 +142,7 @@ impl Verdict {
 /// each pixel.
 pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
-    let grid = Grid { width, height };
+    let grid = Grid::of(judge.size);
     let thin = thin_images(judge, frame);
     let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
@@ -283,14 +283,25 @@ impl Tally {
     }
 }
 
-struct Grid {
+/// The pixels of a picture.
+pub(super) struct Grid {
     width: usize,
     height: usize,
 }
 
 impl Grid {
+    pub(super) fn of(size: [u32; 2]) -> Grid {
+        let [width, height] = size.map(|side| side as usize);
+        Grid { width, height }
+    }
+
+    /// Column and row: the upper left corner, in pixels.
+    pub(super) fn place(&self, i: usize) -> [f64; 2] {
+        [(i % self.width) as f64, (i / self.width) as f64]
+    }
+
     /// The pixel and those around it that exist.
-    fn around(&self, i: usize) -> Vec<usize> {
+    pub(super) fn around(&self, i: usize) -> Vec<usize> {
         let (x, y) = (i % self.width, i / self.width);
         let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
         (y.saturating_sub(1)..=(y + 1).min(self.height - 1)).flat_map(|y| columns.clone().map(move |x| y * self.width + x)).collect()
