@@ -40,7 +40,8 @@ pub fn see_again(judge: &mut Picture, frame: &Frame, probe: &dyn Probe) {
 fn narrow_images(judge: &Picture, frame: &Frame, grid: &Grid) -> BTreeSet<(u32, u32)> {
     let key = |i: usize| (judge.layers[i].object, judge.layers[i].order);
     let wide: BTreeSet<_> = (0..judge.layers.len()).filter(|&i| grid.around(i).iter().all(|&j| key(j) == key(i))).map(key).collect();
-    let all = judge.layers.iter().map(|layer| (layer.object, layer.order)).chain(frame.shown.iter().map(|shown| (shown.object, shown.order)));
+    let all =
+        judge.layers.iter().map(|layer| (layer.object, layer.order)).chain(frame.shown.iter().map(|shown| (shown.object, shown.order)));
     let by_coverage = frame.shown.iter().filter(|shown| shown.coverage < 1.0).map(|shown| (shown.object, shown.order));
     all.filter(|image| !wide.contains(image)).chain(by_coverage).filter(|image| image.0 > 0).collect()
 }
