@@ -10,6 +10,8 @@ mod light_against_judge;
 mod measure_aurora;
 mod measure_charts;
 mod measure_compare;
+mod measure_displacement;
+mod measure_narrow;
 mod measure_project;
 mod measure_projection;
 mod measure_published;

@@ -67,7 +67,9 @@ fn a_picture_of_nothing_solid_has_a_row() {
     let rows = rows(&request(0.0), &verdict(0), &Limits::default(), &[], "abc");
     assert!(rows.len() == 1 && rows[0].len() == COLUMNS.len() && rows[0][4].is_empty());
     let sheet = Sheet { rows, ..Sheet::new(&COLUMNS) };
-    assert!(markdown(&sheet).contains("| nothing solid |  |  |  | within | abc |"));
+    assert!(
+        markdown(&sheet).contains("| nothing solid |  |  |  | not judged: nothing solid is seen; colour needs 16 rays a pixel | abc |")
+    );
 }
 
 #[test]

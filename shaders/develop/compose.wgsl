@@ -16,5 +16,6 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         discard;
     }
     let part = covered(sum.a, textureLoad(signed_source, vec2<i32>(position.xy), 0).r);
-    return vec4<f32>(sum.rgb * (part / sum.a), part);
+    // Triangles that fold over are taken off again, which rounding may overdo.
+    return vec4<f32>(max(sum.rgb, vec3<f32>(0.0)) * (part / sum.a), part);
 }

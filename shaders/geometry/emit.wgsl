@@ -1,11 +1,12 @@
 // How a stage hands over: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is held inside its buffer.
 
-/// Height of a triangle on the screen over its longest side, in pixels. In a thin image it decides how the triangle is drawn: at least
-/// `render.min_width`, as it is; less, grown to that, with the covered part as alpha, so that narrow images are lines and not dots.
+/// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. In a thin image it decides how the
+/// triangle is drawn: at least `render.min_width`, as it is; less, grown to that, with the covered part as alpha, so that narrow images are lines and
+/// not dots.
 fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
     let a = p1 - p0;
     let b = p2 - p0;
-    let area = abs(a.x * b.y - a.y * b.x);
+    let area = a.x * b.y - a.y * b.x;
     let longest = sqrt(max(dot(a, a), max(dot(b, b), dot(b - a, b - a))));
     return area / max(longest, 1e-6);
 }
@@ -26,8 +27,11 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, len
 
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
 /// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
-/// `outward_normal`.
-fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>) -> bool {
+/// `outward_normal`, `turn` its `turn_on_screen`.
+///
+/// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
+/// with the sense in which the corners run, and over all triangles what was covered twice cancels.
+fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32) -> bool {
     if (placement.triangles.w & PLACEMENT_THIN) == 0u {
         return false;
     }
@@ -41,7 +45,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
     let p0 = pixels(c0);
     let p1 = pixels(c1);
     let p2 = pixels(c2);
-    let height = height_on_screen(p0, p1, p2);
+    let turned = height_on_screen(p0, p1, p2);
+    let height = abs(turned);
     if height >= frame.side_a.w {
         return false;
     }
@@ -61,7 +66,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return true;
     }
     direction = direction / along;
-    let coverage = height * min(along, frame.side_a.w) / (frame.side_a.w * frame.side_a.w);
+    let sense = select(1.0, sign(turned) * turn, turn != 0.0);
+    let coverage = sense * height * min(along, frame.side_a.w) / (frame.side_a.w * frame.side_a.w);
     let slot = atomicAdd(&counters.thin, 3u);
     if slot + 3u > frame.capacity.w {
         atomicSub(&counters.thin, 3u);
@@ -76,8 +82,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>) {
-    if emit_thin(i0, i1, i2, placement, outward) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32) {
+    if emit_thin(i0, i1, i2, placement, outward, turn) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
@@ -212,7 +218,7 @@ fn hand_over(queue: u32) {
             let placement = placement_at(piece.what.x);
             let triangle = model_triangles[piece.what.y];
             let corners = triangle.vertices.xyz + vec3<u32>(placement.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz));
+            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz), turn_on_screen(placement, triangle));
         }
     }
 }

@@ -137,6 +137,13 @@ fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f3
     return at_rest(placement, cross(a, b), offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
 }
 
+/// The sense in which the corners of a triangle run on the screen, +1 counterclockwise, where it shows its outer side; 0 where no side is outside.
+/// Light that has passed the axis once shows what it left mirrored: even orders.
+fn turn_on_screen(placement: Placement, triangle: ModelTriangle) -> f32 {
+    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u) * select(1.0, -1.0, placement.ids.x == 2u);
+    return select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+}
+
 /// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times
 /// longer there.
 fn at_rest(placement: Placement, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {

@@ -34,6 +34,15 @@ pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(
         .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
 }
 
+/// Whether the file can be written, asked before the work that it is for; a file that is there keeps what it holds.
+pub fn check_writable(path: &Path) -> Result<(), PictureFileError> {
+    make_folder(path)?;
+    let fault = |error: std::io::Error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() };
+    let is_new = !path.exists();
+    std::fs::OpenOptions::new().append(true).create(true).open(path).map_err(fault)?;
+    if is_new { std::fs::remove_file(path).map_err(fault) } else { Ok(()) }
+}
+
 /// Makes the folder of a file, where there is none yet.
 fn make_folder(path: &Path) -> Result<(), PictureFileError> {
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))

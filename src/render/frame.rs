@@ -137,7 +137,7 @@ impl Default for Settings {
             vertex_budget: 600_000,
             min_width: 1.0,
             thin_below: 1.0,
-            coarse_below: 6.0,
+            coarse_below: 0.0,
             least_width: 0.05,
             doppler: true,
             beaming: true,

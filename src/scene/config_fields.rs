@@ -148,7 +148,7 @@ config! {
         vertex_budget: u32 = 600_000u32, integer(1_000, 2_000_000), "vertices", "room for tessellated vertices in a frame";
         min_width: f64 = 1.0, number(0.0, 4.0), "pixels", "thinner triangles of thin images are drawn this wide, with their coverage as alpha; 0 turns that off";
         thin_below: f64 = 1.0, number(0.0, 100.0), "pixels", "images narrower than this are thin ones";
-        coarse_below: f64 = 6.0, number(0.0, 100.0), "pixels", "images narrower than this show a coarse stand-in";
+        coarse_below: f64 = 0.0, number(0.0, 100.0), "pixels", "images narrower than this show a coarse stand-in, which is off by more than the error budget";
         least_width: f64 = 0.05, number(0.0, 10.0), "pixels", "images of order 2 and 3 narrower than this are left out";
         doppler: bool = true, Switch, "", "frequency shift of all light";
         beaming: bool = true, Switch, "", "brightness change that goes with the shift";

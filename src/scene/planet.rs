@@ -22,7 +22,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
@@ -93,16 +93,35 @@ impl Planet {
     }
 
     /// The same of fewer triangles, for images narrower than so many pixels, the coarsest first; `model` is the full one, whose material they share.
+    ///
+    /// They are as large as it is to the eye: a convex body's outline covers a quarter of its surface in the mean over all directions (Cauchy 1832), so
+    /// they get its surface. Their corners then stand out as far as their sides cut in, and of an outline two to three times less is wrong than if
+    /// the corners lay on the globe.
     pub fn stand_ins(&self, model: &Model) -> Vec<(f64, Model)> {
         let material = model.materials.first().cloned().unwrap_or_default();
-        STAND_INS.into_iter().map(|(below, triangles)| (below, shapes::uv_sphere(triangles, material.clone()))).collect()
+        let stand_in = |triangles| {
+            let mut globe = shapes::uv_sphere(triangles, material.clone());
+            let scale = (surface(model) / surface(&globe)).sqrt() as f32;
+            globe.vertices.iter_mut().for_each(|vertex| vertex.position = vertex.position.map(|x| x * scale));
+            globe
+        };
+        STAND_INS.into_iter().map(|(below, triangles)| (below, stand_in(triangles))).collect()
     }
+}
+
+/// The area of a model's triangles, in its unit squared.
+fn surface(model: &Model) -> f64 {
+    let area = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| DVec3::from(model.vertices[i as usize].position.map(f64::from)));
+        0.5 * (b - a).cross(c - a).length()
+    };
+    model.triangles.iter().map(area).sum()
 }
 
 /// Triangles of the planet: their chords leave the sphere by a ten-thousandth of its radius.
 const TRIANGLES: u32 = 16_000;
-/// Triangles that do for images narrower than so many pixels: m stacks of triangles leave the outline by 1 − cos(π/2m) of its radius, here a fifth of a pixel.
-const STAND_INS: [(f64, u32); 2] = [(55.0, 600), (220.0, 2500)];
+/// Triangles that do for images narrower than so many pixels.
+const STAND_INS: [(f64, u32); 2] = [(12.0, 1200), (220.0, 4500)];
 
 /// `[planet]` as the file has it, before any check.
 #[derive(Debug, Clone, Deserialize)]

@@ -4,12 +4,13 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use super::metrics::{Limits, Verdict};
+use super::report::{BEYOND, said};
 use crate::measure::chart::{Provenance, Sheet, SheetError};
 use crate::measure::trace::Request;
 use crate::scene;
 
-/// The columns. T in r_s/c; displacements in pixels; `percent` of an image's pixels and its rim; thin areas in pixels; `verdict` is `within`
-/// or all that is beyond the limits, and holds for the whole picture, as do wrong orders, holes and lit pixels.
+/// The columns. T in r_s/c; displacements in pixels; `percent` of an image's pixels and its rim; thin areas in pixels; `verdict` is `within`,
+/// that nothing was judged, or all that is beyond the limits, and holds for the whole picture, as do wrong orders, holes and lit pixels.
 pub const COLUMNS: [&str; 23] = [
     "scene",
     "at",
@@ -78,7 +79,10 @@ pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
 pub fn rows(request: &Request, verdict: &Verdict, limits: &Limits, faults: &[String], commit: &str) -> Vec<Vec<String>> {
     let [width, height] = request.size;
     let before = [request.scene.clone(), request.at.to_string(), format!("{width}x{height}"), request.samples.to_string()];
-    let said = if faults.is_empty() { "within".to_owned() } else { faults.join("; ").replace(',', ";") };
+    let said = match said(verdict, limits, faults) {
+        BEYOND => faults.join("; ").replace(',', ";"),
+        other => other.to_owned(),
+    };
     let command =
         format!("lensrunner compare --scene {} --at {} --size {width}x{height} --samples {}", request.scene, request.at, request.samples);
     let counts = [verdict.wrong_order, verdict.holes, verdict.lit].map(|count| count.to_string());

@@ -7,10 +7,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::Frame;
 use super::collect::{add, moments, open};
 use super::metrics::{Limits, compare};
+use super::narrow;
 use super::report::{side_by_side, table};
 use crate::measure::chart::SheetError;
 use crate::measure::flip::flip;
-use crate::measure::picture_file::{PictureFileError, write_png};
+use crate::measure::picture_file::{PictureFileError, check_writable, write_png};
 use crate::measure::trace::{Case, Request, TraceError};
 use crate::reference::picture::{Picture, Quality};
 use crate::scene;
@@ -53,15 +54,25 @@ impl CompareError {
 /// The name that stands for every scene of the project.
 pub const ALL: &str = "all";
 
-/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts.
-/// Gives what goes beyond the limits.
+/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts. Scenes
+/// without anything solid get the rays that colours need. Gives what goes beyond the limits, and what could not be judged.
 pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
     let mut faults = Vec::new();
     for (scene, at) in moments() {
         let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
         println!("{scene}, T = {at}:");
-        let request = Request { scene, at, ..request.clone() };
-        faults.extend(run(&request, config, &output.join(name), Some(&output.join("verdict.csv")), contestant)?);
+        let solid = scene::load(&scene).map_or(true, |scene| !(scene.ships.is_empty() && scene.props.is_empty() && scene.planet.is_none()));
+        let samples = if solid { request.samples } else { request.samples.max(COLOUR_SAMPLES) };
+        let request = Request { scene, at, samples, ..request.clone() };
+        match run(&request, config, &output.join(name), Some(&output.join("verdict.csv")), contestant) {
+            Ok(found) => faults.extend(found),
+            // What the asker did wrong is wrong everywhere; the other scenes can be judged without this one.
+            Err(error) if error.is_input() => return Err(error),
+            Err(error) => {
+                println!("no verdict: {error}");
+                faults.push(format!("{}, T = {at}: no verdict: {error}", request.scene));
+            }
+        }
     }
     Ok(faults)
 }
@@ -83,6 +94,7 @@ pub fn run(
     if output.extension().and_then(|extension| extension.to_str()) != Some("png") {
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
     }
+    check_writable(output)?;
     let config = scene::config::find(config).map_err(TraceError::from)?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
     let case = Case::new(scene, config, request.at, request.size);
@@ -92,14 +104,19 @@ pub fn run(
         bar.set_style(style);
     }
     let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
+    let mut judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
+    let probe = case.probe(request.tolerance);
+    if side < narrow::SIDE {
+        narrow::see_again(&mut judge, &frame, &probe);
+    }
     let difference = difference(&judge, &frame);
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    let verdict = compare(&judge, &frame, &case.probe(request.tolerance), &names, &difference);
+    let verdict = compare(&judge, &frame, &probe, &names, &difference);
     // Colours of surfaces follow from where their points are; what else differs there are steps along edges, of a ray a pixel in the game.
-    let flip = (request.samples >= COLOUR_SAMPLES && case.assembly.objects.is_empty()).then(|| colour_limit(&judge));
-    let limits = Limits { orders: case.config.render.orders, flip, ..Limits::default() };
+    let limits = Limits { orders: case.config.render.orders, ..Limits::default() };
+    let nothing_solid = !verdict.is_judged(&limits);
+    let limits = Limits { flip: (request.samples >= COLOUR_SAMPLES && nothing_solid).then(|| colour_limit(&judge)), ..limits };
     let faults = verdict.faults(&limits);
     print!("{}", table(&verdict, &limits, &faults));
     let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
@@ -113,7 +130,8 @@ pub fn run(
 /// From this many rays a pixel on the judge's colours are judged by: with fewer its own streaks are rough.
 const COLOUR_SAMPLES: u32 = 16;
 
-/// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel, which every surface point may be displaced by.
+/// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel along its rows, which every surface point may be
+/// displaced by, as linear filtering moves it: each pixel the mean of itself and its left neighbour, so what is as fine as a pixel also grows softer.
 pub fn colour_limit(judge: &Picture) -> f64 {
     let width = judge.size[0] as usize;
     let moved: Vec<[f32; 3]> = (0..judge.light.len())

@@ -60,7 +60,8 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<O
                 return there;
             }
             // Where one part of a body stands before another its map tears. The point is looked for from both sides of the tear.
-            let sides = (0..8).map(|k| centre + DVec2::from_angle(std::f64::consts::FRAC_PI_4 * f64::from(k)) * 0.75);
+            let around = |k: u32| DVec2::from_angle(std::f64::consts::FRAC_PI_4 * f64::from(k));
+            let sides = SIDES_AT.into_iter().flat_map(|distance| (0..8).map(move |k| centre + around(k) * distance));
             let found = sides.filter_map(|start| {
                 let point = probe.at(start.x, start.y).filter(|p| (p.object, p.order) == (here.object, here.order))?;
                 match measure(probe, point, start, centre, wanted)? {
@@ -76,6 +77,8 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<O
 
 /// From this many pixels on a displacement is measured from several starts.
 const DOUBTFUL: f64 = 0.5;
+/// How far from the pixel's centre those are, in pixels. Parts of a body may be narrower than a pixel.
+const SIDES_AT: [f64; 3] = [0.25, 0.5, 0.75];
 /// Steps of Newton: the map is smooth but for the edges of triangles, where its slope jumps.
 const STEPS: usize = 12;
 /// The longest step, in pixels: beyond it the slope says little.

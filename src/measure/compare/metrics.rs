@@ -92,6 +92,11 @@ impl Default for Limits {
 }
 
 impl Verdict {
+    /// Whether there is anything to judge: an image of something solid, or colours that the judge knows.
+    pub fn is_judged(&self, limits: &Limits) -> bool {
+        limits.flip.is_some() || self.groups.iter().any(|group| group.order <= limits.orders)
+    }
+
     /// What goes beyond the limits, in words; nothing if the picture is right.
     pub fn faults(&self, limits: &Limits) -> Vec<String> {
         let mut faults = Vec::new();
@@ -111,11 +116,17 @@ impl Verdict {
                 faults.push(format!("{who}: {} pixels differ, allowed {:.1}", group.mismatched, allowed.max(1.0)));
             }
         }
-        // Where several thin images cover a pixel a contestant cannot tell how much each does, and the nearest stands for all.
+        let allowed = |touched: usize| 0.5 * limits.thin * (touched.max(1) as f64).sqrt();
         let drawn = self.groups.iter().filter(|group| group.order <= limits.orders);
+        for group in drawn.clone() {
+            let ([judge, shown], allowed) = (group.thin, allowed(group.touched));
+            if (judge - shown).abs() > allowed {
+                let who = format!("{} order {}", group.name, group.order);
+                faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1} (give or take {allowed:.1})"));
+            }
+        }
         let [judge, shown] = drawn.clone().fold([0.0; 2], |sum, group| [sum[0] + group.thin[0], sum[1] + group.thin[1]]);
-        let touched: usize = drawn.map(|group| group.touched).sum();
-        let allowed = 0.5 * limits.thin * (touched.max(1) as f64).sqrt();
+        let allowed = allowed(drawn.map(|group| group.touched).sum());
         if (judge - shown).abs() > allowed {
             faults.push(format!("thin images cover {shown:.1} px together, not {judge:.1} (give or take {allowed:.1})"));
         }
@@ -142,7 +153,7 @@ impl Verdict {
 /// each pixel.
 pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
-    let grid = Grid { width, height };
+    let grid = Grid::of(judge.size);
     let thin = thin_images(judge, frame);
     let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
@@ -188,7 +199,9 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
             }
         }
         if shown.object > 0 && is_thin(shown.object, shown.order) {
-            tallies.entry((name(shown.object), shown.order)).or_default().thin[1] += f64::from(shown.coverage);
+            for ((object, order), part) in thin_parts(&judge.shares[i], (shown.object, shown.order), &is_thin) {
+                tallies.entry((name(object), order)).or_default().thin[1] += f64::from(shown.coverage) * part;
+            }
         }
         if layer.object > 0 && !is_thin(layer.object, layer.order) {
             let tally = tallies.entry((name(layer.object), layer.order)).or_default();
@@ -217,6 +230,18 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
     let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
     Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced }
+}
+
+/// Whose the coverage is that a contestant shows in a pixel. Where several thin images cover one it knows their common area alone, and names the
+/// nearest: it counts for each as the judge sees them there. Each image with its part, of 1 in all.
+fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<((u32, u32), f64)> {
+    let there: Vec<_> =
+        shares.iter().filter(|share| is_thin(share.0, share.1)).map(|share| ((share.0, share.1), f64::from(share.2))).collect();
+    if !there.iter().any(|(image, _)| *image == shown) {
+        return vec![(shown, 1.0)];
+    }
+    let sum: f64 = there.iter().map(|(_, share)| share).sum();
+    there.into_iter().map(|(image, share)| (image, share / sum)).collect()
 }
 
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
@@ -262,7 +287,8 @@ impl Tally {
         let count = d.len();
         let displacement = Displacement {
             pixels: count,
-            mean: d.iter().map(|d| d.0).sum::<f64>() / count.max(1) as f64,
+            // The sum of nothing is −0.
+            mean: (d.iter().map(|d| d.0).sum::<f64>() + 0.0) / count.max(1) as f64,
             most: d.get((count * 99 / 100).min(count.saturating_sub(1))).map_or(0.0, |d| d.0),
             max: d.last().map_or(0.0, |d| d.0),
             worst: d.last().map_or([0; 2], |d| [(d.1 % width) as u32, (d.1 / width) as u32]),
@@ -283,14 +309,25 @@ impl Tally {
     }
 }
 
-struct Grid {
+/// The pixels of a picture.
+pub(super) struct Grid {
     width: usize,
     height: usize,
 }
 
 impl Grid {
+    pub(super) fn of(size: [u32; 2]) -> Grid {
+        let [width, height] = size.map(|side| side as usize);
+        Grid { width, height }
+    }
+
+    /// Column and row: the upper left corner, in pixels.
+    pub(super) fn place(&self, i: usize) -> [f64; 2] {
+        [(i % self.width) as f64, (i / self.width) as f64]
+    }
+
     /// The pixel and those around it that exist.
-    fn around(&self, i: usize) -> Vec<usize> {
+    pub(super) fn around(&self, i: usize) -> Vec<usize> {
         let (x, y) = (i % self.width, i / self.width);
         let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
         (y.saturating_sub(1)..=(y + 1).min(self.height - 1)).flat_map(|y| columns.clone().map(move |x| y * self.width + x)).collect()

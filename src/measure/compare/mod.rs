@@ -2,6 +2,7 @@
 //!
 //! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
 //! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
+//! - [`narrow`]: images narrower than a pixel, seen with more rays.
 //! - [`report`]: the numbers as text, the pictures side by side.
 //! - [`collect`]: verdicts of many scenes in one table.
 //! - [`command`]: `lensrunner compare`.
@@ -10,6 +11,7 @@ pub mod collect;
 pub mod command;
 pub mod displacement;
 pub mod metrics;
+pub mod narrow;
 pub mod report;
 
 use crate::measure::trace::Case;

@@ -46,10 +46,30 @@ pub fn table(verdict: &Verdict, limits: &Limits, faults: &[String]) -> String {
     for fault in faults {
         let _ = writeln!(text, "beyond the limit: {fault}");
     }
-    if faults.is_empty() {
-        let _ = writeln!(text, "within the limits");
-    }
+    let _ = match said(verdict, limits, faults) {
+        WITHIN => writeln!(text, "within the limits"),
+        NOT_JUDGED => writeln!(text, "{NOT_JUDGED}"),
+        _ => Ok(()),
+    };
     text
+}
+
+/// Nothing is beyond the limits.
+pub const WITHIN: &str = "within";
+/// There was nothing to hold to them.
+pub const NOT_JUDGED: &str = "not judged: nothing solid is seen; colour needs 16 rays a pixel";
+/// Something is.
+pub const BEYOND: &str = "beyond";
+
+/// One of [`WITHIN`], [`NOT_JUDGED`] and [`BEYOND`].
+pub fn said(verdict: &Verdict, limits: &Limits, faults: &[String]) -> &'static str {
+    if !faults.is_empty() {
+        BEYOND
+    } else if verdict.is_judged(limits) {
+        WITHIN
+    } else {
+        NOT_JUDGED
+    }
 }
 
 /// In a row: the contestant's picture, the judge's, and from black over red and yellow to white the ꟻLIP of each pixel (white: 1) and its
