@@ -34,6 +34,15 @@ pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(
         .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
 }
 
+/// Whether a picture can be written there: opens the file as it will be, without harm to what it holds.
+pub fn writable(path: &Path) -> Result<(), PictureFileError> {
+    make_folder(path)?;
+    let error = |error: std::io::Error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() };
+    let is_new = !path.exists();
+    std::fs::OpenOptions::new().append(true).create(true).open(path).map_err(error)?;
+    if is_new { std::fs::remove_file(path).map_err(error) } else { Ok(()) }
+}
+
 /// Makes the folder of a file, where there is none yet.
 fn make_folder(path: &Path) -> Result<(), PictureFileError> {
     std::fs::create_dir_all(path.parent().unwrap_or(Path::new("")))
