@@ -53,7 +53,8 @@ impl Scope {
                 break;
             }
             let strays = STEP * r.max(reach);
-            delay += strays / fastest_since(r);
+            // At r = 0, where nothing real is, the bound has no end.
+            delay += (strays / fastest_since(r)).max(1e-4);
             let before = std::mem::replace(&mut r, at(delay));
             // Between the two it may be nearer and farther by half of what it strays at most.
             let [near, far] = [before.min(r) - 0.5 * strays - reach, before.max(r) + 0.5 * strays + reach];
