@@ -93,7 +93,7 @@ struct TraceArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
-    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
     /// Rays along each side of a packet, 1 to 8: neighbours are followed together until they diverge. The picture is the same.
     #[arg(long, value_name = "N", default_value_t = lensrunner::reference::picture::DEFAULT_PACKET)]
@@ -125,13 +125,13 @@ struct CompareArgs {
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
     /// The time T, in r_s/c.
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// The judge's rays a pixel: a square number, 1 to 256.
     #[arg(long, value_name = "N", default_value_t = 9)]
     samples: u32,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
-    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE)]
+    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]

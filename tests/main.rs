@@ -20,6 +20,7 @@ mod measure_verdicts;
 mod reference_bvh_build;
 mod reference_bvh_rays;
 mod reference_bvh_robust;
+mod reference_judge;
 mod reference_oracles;
 mod reference_picture;
 mod reference_trace;

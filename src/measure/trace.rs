@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::compare::displacement::{Point, Probe};
-use super::picture_file::{Channel, PictureFileError, write_exr, write_png};
+use super::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
@@ -141,8 +141,16 @@ impl Case {
             Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
         for history in &mut histories {
-            // Light from as far beyond the hole as the ship is before it, and some turns around.
-            history.reach_back(time - 100.0 - 2.0 * (camera.position.length() + history.at(time).position.length()));
+            // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest light
+            // that the judge looks for.
+            let mut back = 120.0 + 2.0 * camera.position.length();
+            loop {
+                history.reach_back(time - back);
+                if back > 1e5 || history.at(time - back).position.length() + 120.0 + 2.0 * camera.position.length() < back {
+                    break;
+                }
+                back *= 1.5;
+            }
         }
         let assembly = scene.assemble(&config);
         Case { scene, config, assembly, time, histories, camera }
@@ -278,6 +286,11 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
     }
     let config = scene::config::find(config)?;
     let scene = scene::load(&request.scene)?;
+    // A place that cannot be written to is said before the work too.
+    check_writable(output)?;
+    if request.at > 100.0 {
+        eprintln!("playing to T = {}", request.at);
+    }
     let case = Case::new(scene, config, request.at, request.size);
     for warning in &case.assembly.warnings {
         eprintln!("warning: {warning}");

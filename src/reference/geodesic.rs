@@ -2,7 +2,7 @@
 //!
 //! H = |p| − β n·p, β = r^{-1/2}, so forwards in T: dx/dT = p/|p| − βn, dp/dT = (β/r)[p − (3/2)(n·p)n]. Light moves in a plane
 //! through the hole, so two components are enough. The parameter is the delay τ = T_camera − T: dx/dτ is bounded by 1 + β, is
-//! smooth at r = 1, and a ray that clings to the horizon approaches it as e^{−τ}, which needs no special care.
+//! smooth at r = 1, and a ray that clings to the horizon approaches it as e^{−τ/2}, which needs no special care.
 //!
 //! Method: Taylor series of order chosen from the tolerance, coefficients by the recurrences of automatic differentiation, step
 //! from the last two coefficients (À. Jorba and M. Zou, "A software package for the numerical integration of ODEs by means of

@@ -15,12 +15,14 @@ pub struct Stop {
     pub delay: f64,
     /// Stop when a captured ray has come this close to r = 1 (r_s).
     pub horizon_gap: f64,
+    /// But not before this delay (r_s/c): until then it may meet what crossed the horizon.
+    pub clings_until: f64,
 }
 
 impl Default for Stop {
     /// Follows every ray until it is clear of the hole or within 1e-6 of the horizon.
     fn default() -> Self {
-        Stop { radius: 100.0, swept: f64::INFINITY, delay: f64::INFINITY, horizon_gap: 1e-6 }
+        Stop { radius: 100.0, swept: f64::INFINITY, delay: f64::INFINITY, horizon_gap: 1e-6, clings_until: 0.0 }
     }
 }
 
@@ -218,7 +220,10 @@ impl Follower {
         let outwards = self.state.radial_rate() > 0.0;
         if self.swept >= self.stop.swept || self.delay >= self.stop.delay {
             self.end = Some(End::Limit);
-        } else if (self.doomed || is_captured(r, outwards)) && (r - 1.0).abs() <= self.stop.horizon_gap {
+        } else if (self.doomed || is_captured(r, outwards))
+            && (r - 1.0).abs() <= self.stop.horizon_gap
+            && self.delay >= self.stop.clings_until
+        {
             self.end = Some(End::Captured);
         } else if is_escaping(r, outwards) && r >= self.stop.radius {
             self.end = Some(End::Escaped);

@@ -54,7 +54,8 @@ pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, branch: Branch, toleranc
         return radial(r, camera, branch, tolerance);
     }
     // Only a ray that has come close to the horizon below half the target's height is given up: nearer ones lead the search.
-    let stop = Stop { radius: 2.0 * r.max(1.0), swept, delay: f64::INFINITY, horizon_gap: (0.5 * (r - 1.0).abs()).max(1e-12) };
+    let stop =
+        Stop { radius: 2.0 * r.max(1.0), swept, delay: f64::INFINITY, horizon_gap: (0.5 * (r - 1.0).abs()).max(1e-12), clings_until: 0.0 };
     search(camera, branch, |cotangent| {
         let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.end {

@@ -1,10 +1,10 @@
 //! What a pixel shows: the dense ray against triangles, the curve itself intersected.
 //!
-//! Brute force over the triangles for now, and triangles at rest.
+//! Brute force over triangles at rest, their planes looked for by dense samples: what tests hold `picture` against.
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::geodesic::{Segment, root};
+use super::geodesic::Segment;
 use super::ray::{End, Ray, Stop, sky_radius};
 
 /// A pinhole camera on a ship.
@@ -146,7 +146,7 @@ fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(super::ray::RaySa
         if segment.position(0.0).distance(centre_in_plane) > size + segment.reach() {
             continue;
         }
-        for elapsed in crossings(segment, a, c).into_iter().flatten() {
+        for elapsed in crossings(segment, a, c) {
             let sample = ray.sample(i, elapsed);
             if sample.delay >= until {
                 return None;
@@ -159,29 +159,40 @@ fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(super::ray::RaySa
     None
 }
 
-/// Where a segment crosses the line a·x = c, in order. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and turns by less than half
-/// a turn in one segment, so there are at most two crossings, one on each side of the place where it runs parallel to the line.
-fn crossings(segment: &Segment, a: DVec2, c: f64) -> [Option<f64>; 2] {
+/// Where a segment crosses the line a·x = c, in order: by its height above the line at many points, so that no case is left out by reasoning.
+fn crossings(segment: &Segment, a: DVec2, c: f64) -> Vec<f64> {
+    const SAMPLES: usize = 48;
     let height = |s: f64| a.dot(segment.position(s)) - c;
-    let rate = |s: f64| a.dot(segment.velocity(s));
-    let end = segment.length;
-    let (h0, h1) = (height(0.0), height(end));
-    if h0 == 0.0 && h1 == 0.0 {
-        return [None; 2];
+    let mut samples: Vec<(f64, f64)> = (0..=SAMPLES).map(|k| segment.length * k as f64 / SAMPLES as f64).map(|s| (s, height(s))).collect();
+    if samples.iter().all(|sample| sample.1 == 0.0) {
+        // The ray runs in the plane of the triangle: it sees no surface.
+        return Vec::new();
     }
-    if h0 * h1 <= 0.0 {
-        return [Some(segment.cross_line(a, c, 0.0, end)), None];
+    // Where the height is least between two samples it may dip below the line: one more sample there.
+    let dips: Vec<f64> = samples
+        .windows(3)
+        .filter(|w| w[1].1.abs() <= w[0].1.abs() && w[1].1.abs() <= w[2].1.abs() && w[0].1 * w[2].1 > 0.0)
+        .map(|w| least(w[0].0, w[2].0, |s| height(s) * w[0].1.signum()))
+        .collect();
+    samples.extend(dips.into_iter().map(|s| (s, height(s))));
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut found: Vec<f64> = samples.iter().filter(|sample| sample.1 == 0.0).map(|sample| sample.0).collect();
+    found.extend(samples.windows(2).filter(|w| w[0].1 * w[1].1 < 0.0).map(|w| segment.cross_line(a, c, w[0].0, w[1].0)));
+    found.sort_by(f64::total_cmp);
+    found
+}
+
+/// Where f is least between a and b, by thirds, well enough to tell its sign.
+fn least(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..60 {
+        let (left, right) = (a + (b - a) / 3.0, b - (b - a) / 3.0);
+        if f(left) < f(right) {
+            b = right;
+        } else {
+            a = left;
+        }
     }
-    // Both ends on one side: only a segment that first approaches the line and then recedes can touch it in between.
-    if h0 * rate(0.0) >= 0.0 || h1 * rate(end) <= 0.0 {
-        return [None; 2];
-    }
-    let step = 1e-3 * end;
-    let middle = root(0.0, end, |s| (rate(s), (rate(s + step) - rate(s - step)) / (2.0 * step)));
-    if h0 * height(middle) > 0.0 {
-        return [None; 2];
-    }
-    [Some(segment.cross_line(a, c, 0.0, middle)), Some(segment.cross_line(a, c, middle, end))]
+    0.5 * (a + b)
 }
 
 /// The weights of the corners at a point of the triangle's plane, or None outside.

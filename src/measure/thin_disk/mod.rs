@@ -187,7 +187,7 @@ fn measure(pixels: usize) -> Sheet {
             }
             Err(reason) => {
                 eprintln!("Gyoto: {reason}");
-                note = format!("{note} ({reason})");
+                note = if reason == note { reason } else { format!("{note} ({reason})") };
                 break;
             }
         }

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
-use super::sweep::{fastest, is_short};
+use super::span::Scope;
+use super::sweep::{fastest, fastest_since, is_short};
 use super::tree::Chord;
 use super::world::{Flying, Motion, World, Worldline};
 use crate::reference::geodesic::{Segment, State, root};
@@ -115,21 +116,23 @@ impl World<'_> {
     pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
         let near = Near::all(self);
-        let radius = self.radius.max(sky_radius(position.length()));
+        let scope = self.scope(position.length());
+        let radius = scope.radius.max(sky_radius(position.length()));
         if !self.hole {
             let state = State { position: DVec2::new(position.length(), 0.0), momentum: -in_plane };
             let segment = Segment::straight(0.0, state, position.length() + radius);
             let direction = axes[0] * in_plane.x + axes[1] * in_plane.y;
             let swept = in_plane.y.atan2(in_plane.x);
-            return match self.meet(&segment, axes, 0.0, &near, cross) {
+            return match self.meet(&segment, axes, 0.0, &near, &scope, cross) {
                 Some(hit) => Seen::Hit(hit),
                 None => Seen::Sky { direction, swept, energy: 1.0 },
             };
         }
-        let mut follower = Follower::new(position.length(), in_plane, tolerance, Stop { radius, ..Stop::default() });
+        let mut follower =
+            Follower::new(position.length(), in_plane, tolerance, Stop { radius, clings_until: scope.clings_until, ..Stop::default() });
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
-            if let Some(hit) = self.meet(&segment, axes, swept, &near, cross) {
+            if let Some(hit) = self.meet(&segment, axes, swept, &near, &scope, cross) {
                 return Seen::Hit(hit);
             }
             swept = follower.swept;
@@ -144,6 +147,7 @@ impl World<'_> {
         axes: [DVec3; 2],
         swept: f64,
         near: &Near,
+        scope: &Scope,
         cross: &mut dyn FnMut(Crossing),
     ) -> Option<Hit> {
         let bend = segment.bend();
@@ -161,6 +165,9 @@ impl World<'_> {
             let mut met = None;
             self.meet_held(&piece, &ends, grow, near.held.as_deref(), &mut met);
             for &number in &near.flying {
+                if !scope.allows(number, segment.start + piece.from, segment.start + to) {
+                    continue;
+                }
                 let flying = &self.flying[number as usize];
                 let [a, b] = ends.places.map(|place| piece.embed(place));
                 let chord = Chord::new(a, b, DVec3::splat(grow));
@@ -221,15 +228,17 @@ impl World<'_> {
         let middle = piece.from + half;
         let light = piece.segment.at(middle).position;
         let centre = line.at(self.time - piece.segment.start - middle).position;
-        let (r_light, r_body) = (light.length(), centre.length());
-        let straying = half * (fastest(r_light) + fastest(r_body));
-        let short = is_short(half, r_light) && is_short(half, r_body);
+        // Neither light nor body, followed backwards, comes nearer to the hole than it is at the late end of the piece, or than r = 1.
+        let speed = |r: f64, late: &dyn Fn() -> f64| if is_short(half, r) { fastest(r) } else { fastest_since(late()) };
+        let light_speed = if self.hole { speed(light.length(), &|| piece.segment.position(piece.from).length()) } else { 1.0 };
+        let body_speed = speed(centre.length(), &|| line.at(self.time - piece.segment.start - piece.from).position.length());
+        let straying = half * (light_speed + body_speed);
         let apart = piece.embed(light).distance(centre);
         // A length is never longer on the slice than at rest.
-        if (short || !self.hole && straying < apart) && apart > flying.reach + straying {
+        if apart > flying.reach + straying {
             return;
         }
-        if (!short || straying > 0.5 * flying.reach) && half > 1e-9 * (1.0 + piece.segment.start) {
+        if straying > 0.5 * flying.reach && half > 1e-9 * (1.0 + piece.segment.start) {
             let first = Piece { to: middle, ..*piece };
             self.meet_flying(&first, flying, line, met);
             if met.is_none_or(|met| met.elapsed > middle) {
@@ -240,6 +249,12 @@ impl World<'_> {
         self.cross_flying(piece, flying, line, met);
     }
 
+    /// How exactly a place on a piece is known in the axes of a body, in r_s: a few ulp of the distance from the hole and of the clocks.
+    fn rounding(&self, piece: &Piece, elapsed: f64) -> f64 {
+        let delay = piece.segment.start + elapsed;
+        8.0 * f64::EPSILON * (1.0 + piece.segment.position(elapsed).length() + self.time.abs() + delay)
+    }
+
     /// The piece in the body's rest frame, against its tree.
     fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>) {
         let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.place(elapsed));
@@ -248,7 +263,8 @@ impl World<'_> {
         let points = [0, 1, 2, 3, 4].map(|k| body(at(k)));
         // The sagitta, measured at a quarter, a half and three quarters, and doubled: the body's history has no closed form to bound it by.
         let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
-        let grow = 2.0 * off.into_iter().fold(0.0, f64::max) + 1e-9 * flying.reach;
+        let rounding = self.rounding(piece, piece.from);
+        let grow = 2.0 * off.into_iter().fold(0.0, f64::max) + 1e-9 * flying.reach + rounding;
         let model = &self.models[self.things[flying.thing as usize].model];
         flying.tree.along(points[0], points[4], grow, 1.0, |item, until| {
             let corners = model.triangles[item as usize].map(|i| flying.vertices[i as usize]);
@@ -263,7 +279,7 @@ impl World<'_> {
                 if met.is_some_and(|met| met.elapsed < elapsed) {
                     break;
                 }
-                if let Some(barycentrics) = weights(corners, normal, body(elapsed)) {
+                if let Some(barycentrics) = weights(corners, normal, body(elapsed), rounding) {
                     Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
                     // A later crossing of this triangle is of no interest. The tree's own bound stays loose by the sagitta.
                     return ((elapsed - piece.from) / span).min(until);
@@ -330,34 +346,43 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
     let height = |s: f64| a.dot(segment.position(s)) - c;
     let (from, to) = (piece.from, piece.to);
     let [h0, h1] = ends.places.map(|place| a.dot(place) - c);
-    let try_at = |elapsed: f64| weights(corners, normal, piece.place(elapsed)).map(|weights| (elapsed, weights));
-    if h0 == 0.0 && h1 == 0.0 {
+    let rounding = 8.0 * f64::EPSILON * ends.places[0].length().max(ends.places[1].length());
+    let try_at = |elapsed: f64| weights(corners, normal, piece.place(elapsed), rounding).map(|weights| (elapsed, weights));
+    if a == DVec2::ZERO || h0 == 0.0 && h1 == 0.0 && height(0.5 * (from + to)) == 0.0 {
         // The ray runs in the plane of the triangle: it sees no surface.
         return None;
     }
-    if h0 * h1 <= 0.0 {
+    if h0 * h1 < 0.0 {
         return try_at(segment.cross_line(a, c, from, to));
     }
-    // Both ends on one side: only a piece that first nears the line and then leaves it can touch it in between.
+    let at_start = || (h0 == 0.0).then(|| try_at(from)).flatten();
+    let at_end = || (h1 == 0.0).then(|| try_at(to)).flatten();
+    // Both ends on one side, or on the line: in between it is crossed only where the way to or from the line turns round.
     let [rate0, rate1] = ends.rates(piece).map(|rate| a.dot(rate));
-    if h0 * rate0 >= 0.0 || h1 * rate1 <= 0.0 {
-        return None;
+    if rate0 * rate1 >= 0.0 || h0 * rate0 > 0.0 || h1 * rate1 < 0.0 {
+        return at_start().or_else(at_end);
     }
     let middle = root(from, to, |s| (a.dot(segment.velocity(s)), a.dot(segment.acceleration(s))));
-    if h0 * height(middle) > 0.0 {
-        return None;
-    }
-    try_at(segment.cross_line(a, c, from, middle)).or_else(|| try_at(segment.cross_line(a, c, middle, to)))
+    let turned = height(middle);
+    let between = |across: bool, from: f64, to: f64| across.then(|| try_at(segment.cross_line(a, c, from, to))).flatten();
+    at_start()
+        .or_else(|| between(h0 * turned < 0.0 || h0 != 0.0 && turned == 0.0, from, middle))
+        .or_else(|| between(turned * h1 < 0.0, middle, to))
+        .or_else(at_end)
 }
 
-/// The weights of the corners at a point of the triangle's plane, or None outside.
-fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3) -> Option<[f64; 3]> {
+/// The weights of the corners at a point of the triangle's plane that is known to `rounding` (r_s), or None outside.
+fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> Option<[f64; 3]> {
     let area = normal.length_squared();
     let [a, b, c] = corners.map(|v| v - point);
     let weights = [b.cross(c), c.cross(a), a.cross(b)].map(|part| part.dot(normal) / area);
-    // Rounding of the point, a few ulp of its distance from the hole, weighs the more the smaller the triangle is.
-    let slack = SLACK.max(8.0 * f64::EPSILON * point.length() / area.sqrt().sqrt());
-    weights.iter().all(|&w| w >= -slack).then_some(weights)
+    // Rounding weighs the more the lower the triangle is: its least height is twice the area over the longest edge.
+    if weights.iter().any(|&w| w < -SLACK) {
+        let longest = (corners[1] - corners[0]).length().max((corners[2] - corners[1]).length()).max((corners[0] - corners[2]).length());
+        let slack = rounding * longest / area.sqrt();
+        return weights.iter().all(|&w| w >= -slack).then_some(weights);
+    }
+    Some(weights)
 }
 
 /// A root of f between two points with values of opposite signs: regula falsi with the weight of the end that stays halved (Illinois).

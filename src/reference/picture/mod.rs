@@ -3,7 +3,7 @@
 //! - [`world`]: the things of a scene, with worldlines handed in from above.
 //! - [`tree`]: boxes over triangles, asked along pieces of a curve.
 //! - `find`: what one look direction shows; `packet`: the same for neighbours together.
-//! - `sweep`: where flying bodies may be at which delay.
+//! - `sweep`: where flying bodies may be at which delay; `span`: at which delays a camera may see them at all.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`develop`]: linear light to a picture for the eye.
 
@@ -13,6 +13,7 @@ mod find;
 mod packet;
 pub mod shade;
 pub mod sky;
+mod span;
 mod sweep;
 pub mod texture;
 pub mod tree;
@@ -66,7 +67,7 @@ pub const DEFAULT_PACKET: u32 = 8;
 pub struct Layer {
     /// The number of the thing, from 1.
     pub object: u32,
-    /// The triangle of its model.
+    /// The triangle of its model, from 0: `object` alone tells whether there is one.
     pub triangle: u32,
     /// Weights of the triangle's corners.
     pub barycentrics: [f32; 3],

@@ -11,6 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
 use super::find::{Near, Seen, beyond, growth, pieces};
+use super::span::Scope;
 use super::tree::Chord;
 use super::world::World;
 use crate::reference::ray::{Follower, Stop, orbit_plane, sky_radius};
@@ -59,13 +60,15 @@ impl World<'_> {
             let alone = |(i, &look): (usize, &DVec3)| self.look_through(position, look, tolerance, &mut |crossing| cross(i, crossing));
             return looks.iter().enumerate().map(alone).collect();
         }
-        let stop = Stop { radius: self.radius.max(sky_radius(position.length())), ..Stop::default() };
+        let scope = self.scope(position.length());
+        let radius = scope.radius.max(sky_radius(position.length()));
+        let stop = Stop { radius, clings_until: scope.clings_until, ..Stop::default() };
         let walk = |&look: &DVec3| {
             let (axes, in_plane) = orbit_plane(position, look);
             let follower = Follower::new(position.length(), in_plane, tolerance, stop);
             Walk { follower, axes, seen: None, stride: Stride::default() }
         };
-        let mut march = March { world: self, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
+        let mut march = March { world: self, scope: &scope, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
         let everything = Near::all(self);
         let mut packets: Vec<Range<usize>> = std::iter::once(0..looks.len()).collect();
         while march.step() {
@@ -83,6 +86,7 @@ impl World<'_> {
 
 struct March<'a> {
     world: &'a World<'a>,
+    scope: &'a Scope,
     walks: Vec<Walk>,
     steps: Vec<Segments>,
     tolerance: f64,
@@ -137,7 +141,7 @@ impl March<'_> {
         if count <= 1 {
             return self.meet_each(packet, near, |_| true);
         }
-        let near = Sheaf::around(self.strides(&packet)).near(self.world, near);
+        let near = Sheaf::around(self.strides(&packet)).near(self.world, self.scope, near);
         if near.held.as_ref().is_some_and(|leaves| leaves.is_empty()) && near.flying.is_empty() {
             self.meet_each(packet, &near, |stride| stride.crosses);
         } else if count <= FEW {
@@ -154,7 +158,7 @@ impl March<'_> {
             if seen.is_none() && asked(stride) {
                 let segment = self.steps[stride.slot / LANES].lane(stride.slot % LANES);
                 let mut cross = |crossing| (self.cross)(ray, crossing);
-                *seen = self.world.meet(&segment, *axes, stride.swept, near, &mut cross).map(Seen::Hit);
+                *seen = self.world.meet(&segment, *axes, stride.swept, near, self.scope, &mut cross).map(Seen::Hit);
             }
         }
     }
@@ -234,7 +238,7 @@ impl Sheaf {
     }
 
     /// What of `outer` the rays may meet.
-    fn near(&self, world: &World, outer: &Near) -> Near {
+    fn near(&self, world: &World, scope: &Scope, outer: &Near) -> Near {
         let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
         let tree = &world.held.tree;
         let held = match &outer.held {
@@ -248,7 +252,10 @@ impl Sheaf {
             }
         };
         let touched = |number: &&u32| {
-            (0..PIECES).any(|k| world.flying[**number as usize].sweep.touches(&chords[k], self.times[k][0], self.times[k + 1][1]))
+            (0..PIECES).any(|k| {
+                let [from, to] = [self.times[k][0], self.times[k + 1][1]];
+                scope.allows(**number, from, to) && world.flying[**number as usize].sweep.touches(&chords[k], from, to)
+            })
         };
         Near { held, flying: outer.flying.iter().filter(touched).copied().collect() }
     }

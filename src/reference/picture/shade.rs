@@ -64,7 +64,7 @@ impl World<'_> {
             uv,
             normal: (attitude * normal).normalize_or(DVec3::Z).as_vec3(),
             leaving: leaving.normalize_or(DVec3::Z).as_vec3(),
-            g: (blue / emitted).clamp(1e-3, 1e3),
+            g: blue / emitted,
             material: model.triangle_materials[hit.triangle],
         }
     }
@@ -72,8 +72,8 @@ impl World<'_> {
 
 /// γβ outward: the rain-frame momentum of an observer at rest at `position`, who must be outside r = 1.
 fn held_momentum(position: DVec3) -> DVec3 {
-    // As the game's renderer, which keeps clear of the infinity at r = 1.
-    let r = position.length().max(1.0005);
+    // Rounding must not take it to r = 1 or below, where nothing is held.
+    let r = position.length().max(1.0 + 1e-12);
     position * (river_speed(r) / (r * (1.0 - 1.0 / r).sqrt()))
 }
 
@@ -93,7 +93,8 @@ pub fn shaded(surface: &Surface, thing: &Thing, material: &Material, texel: Opti
     let rim = (1.0 - n.dot(leaving).max(0.0)).powi(5);
     let reflected = irradiance(&thing.light, mirrored.lerp(n, roughness * roughness).normalize_or(n));
     colour += (fresnel + (Vec3::ONE - fresnel) * rim * (1.0 - roughness)) * reflected * gloss(&thing.light, mirrored, roughness);
-    shifted_colour(colour, surface.g as f32, shift).min(Vec3::splat(BRIGHTEST))
+    // As the game's renderer, which draws no redder and no bluer light.
+    shifted_colour(colour, surface.g.clamp(1e-3, 1e3) as f32, shift).min(Vec3::splat(BRIGHTEST))
 }
 
 /// The level of detail at which a texture is read, from the change of (u, v) from one sample to the next, across and down.

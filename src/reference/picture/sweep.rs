@@ -47,10 +47,17 @@ impl Sweep {
         let centre = line.at(time - from - half).position;
         let strays = half * fastest(centre.length());
         let sure = is_short(half, centre.length());
+        // Inside the horizon r only falls with T: at the late end it is least.
+        let late = if sure { f64::INFINITY } else { line.at(time - from).position.length() };
+        let (sure, strays) = if late < 1.0 { (true, half * fastest_since(late)) } else { (sure, strays) };
         if sure && strays <= SHARE * reach || half <= SHORTEST {
             // A length is never longer on the slice than at rest.
             let grow = DVec3::splat(if sure { strays + reach } else { f64::INFINITY });
-            self.nodes[index].bounds = Bounds { min: (centre - grow).to_array(), max: (centre + grow).to_array() };
+            let (min, max) = (centre - grow, centre + grow);
+            // Where nothing is known the body may be anywhere.
+            let known = min.is_finite() && max.is_finite();
+            let [min, max] = if known { [min, max] } else { [DVec3::NEG_INFINITY, DVec3::INFINITY] };
+            self.nodes[index].bounds = Bounds { min: min.to_array(), max: max.to_array() };
             return;
         }
         let first = self.nodes.len();
@@ -83,6 +90,11 @@ impl Sweep {
 /// Nothing outruns light: |dx/dT| ≤ 1 + β, of which this is a bound while r stays above 0.4 of what it is here (1/√0.4 < 1.6).
 pub(super) fn fastest(r: f64) -> f64 {
     1.0 + 1.6 / r.sqrt()
+}
+
+/// The same bound at every earlier time, of what is at r (r_s): inside the horizon r only falls with T, and what is outside now never was inside.
+pub(super) fn fastest_since(r: f64) -> f64 {
+    1.0 + 1.0 / r.min(1.0).sqrt()
 }
 
 /// Whether r stays above 0.4 of itself for a delay of `half` to either side.

@@ -1,7 +1,10 @@
 //! What the judge looks at: a scene's things with their models, places and worldlines.
 
+use std::sync::{Arc, Mutex};
+
 use glam::{DMat3, DQuat, DVec3};
 
+use super::span::Scope;
 use super::sweep::Sweep;
 use super::tree::Tree;
 use crate::scene::lighting::Surroundings;
@@ -83,8 +86,10 @@ pub struct World<'a> {
     pub hole: bool,
     pub(super) held: Held,
     pub(super) flying: Vec<Flying>,
-    /// Beyond this radius nothing is, at any time that matters, in r_s.
-    pub(super) radius: f64,
+    /// Beyond this radius nothing is held, in r_s.
+    pub(super) held_radius: f64,
+    /// What light to the latest camera may meet where.
+    pub(super) scope: Mutex<Option<Arc<Scope>>>,
 }
 
 /// All triangles that are held in place, together.
@@ -116,7 +121,6 @@ impl<'a> World<'a> {
     pub fn new(models: &'a [Model], things: Vec<Thing<'a>>, time: f64, hole: bool) -> World<'a> {
         let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: Tree::new(&[], &[]) };
         let mut flying = Vec::new();
-        let mut radius = 0.0;
         for (index, thing) in things.iter().enumerate() {
             let model = &models[thing.model];
             let corners = model.vertices.iter().map(|v| DVec3::from(v.position.map(f64::from)) * thing.scale);
@@ -133,14 +137,13 @@ impl<'a> World<'a> {
                     let tree = Tree::new(&vertices, &model.triangles);
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
                     let far = line.at(time).position.length();
-                    radius = f64::max(radius, 2.0 * far + reach);
                     let sweep = Sweep::new(line, time, OLDEST + 2.0 * far, reach);
                     flying.push(Flying { thing: index as u32, vertices, tree, reach, sweep });
                 }
             }
         }
         held.tree = Tree::new(&held.vertices, &held.triangles);
-        let radius = held.vertices.iter().map(|v| v.length()).fold(radius, f64::max);
-        World { models, things, time, hole, held, flying, radius }
+        let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
+        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None) }
     }
 }
