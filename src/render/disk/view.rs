@@ -15,16 +15,23 @@ use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
-/// Between two circles the place in the gas goes straight on the screen; rings are drawn together as long as that is off by no more pixels than this
-/// across the orbit.
-const STRAIGHT: f64 = 0.1;
-/// And along it, where streaks are ten times as long.
-const STRAIGHT_ALONG: f64 = 4.0;
-/// The logarithm of light goes straight too, and the optical depth: as long as the light that comes of both is off by no more than this share of the
-/// brightest ring's. What is left of that by [`straighten`] is less than half.
-const STRAIGHT_LIGHT: f64 = 0.06;
-/// And what is stopped of light from behind by no more than this.
-const STRAIGHT_STOPPED: f64 = 0.1;
+/// How far off what goes straight between two circles may be; rings are drawn together as long as it is off by no more.
+#[derive(Clone, Copy, Debug)]
+struct Straight {
+    /// The place in the gas across the orbit, in pixels.
+    across: f64,
+    /// And along it, where streaks are ten times as long.
+    along: f64,
+    /// The logarithm of light goes straight too, and the optical depth: the light that comes of both, over that of the brightest ring.
+    light: f64,
+    /// And what is stopped of light from behind.
+    stopped: f64,
+}
+
+/// From far: what is left of the light's error by [`straighten`] is less than half.
+const FROM_FAR: Straight = Straight { across: 0.1, along: 4.0, light: 0.06, stopped: 0.1 };
+/// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
+const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, stopped: 0.03 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/place.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
@@ -75,6 +82,7 @@ impl DiskView {
         let upwards = DVec3::Z * level - towards * n.z;
         let [_, end] = disk.gas.extent();
         let origin = towards.y.atan2(towards.x);
+        let close = camera.position.z.abs() < CLOSE && l < end + CLOSE;
 
         let mut circles = Vec::new();
         let mut samples = Vec::new();
@@ -87,14 +95,14 @@ impl DiskView {
             }
             let first = circles.len() as u32;
             let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
-            let (rows, pairs) = rows(disk, camera, &seen, width, order);
+            let (rows, pairs) = rows(disk, camera, &seen, width, order, if close { FROM_NEAR } else { FROM_FAR });
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
                 samples.extend(equal_shares(&seen).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
-            if disk.config.gap <= 0.0 {
+            if disk.config.gap <= 0.0 && !close {
                 straighten(disk, &rows, &mut own);
             }
             circles.extend(own);
@@ -110,7 +118,6 @@ impl DiskView {
         let [x, y] = disk.gas.offset(base as i64);
         let cuts = chosen_cuts(disk, camera, width);
         let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
-        let close = camera.position.z.abs() < CLOSE && l < end + CLOSE;
         DiskView {
             frame: DiskFrame {
                 towards: row(towards, height),
@@ -134,13 +141,14 @@ impl DiskView {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> (Vec<f64>, Vec<[u32; 2]>) {
+fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32, within: Straight) -> (Vec<f64>, Vec<[u32; 2]>) {
     let circles = &disk.arcs.circles;
     if disk.config.gap > 0.0 {
         return (circles.clone(), disk.arcs.rings.clone());
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
+    let within = Straight { light: within.light * brightest, ..within };
     // Optical depths along a ray over those straight through: seen face on, and from where the camera is.
     let height = camera.position.z.abs() / camera.radius();
     let slants = [1.0, 1.0 / height.max(LEAST_COSINE)];
@@ -153,7 +161,7 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
             let m = (a * (n - k) + b * k) / n;
-            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, brightest, slants, &own)
+            m == a || m == b || seen[m].is_between(&seen[a], &seen[b], pixel, within, slants, &own)
         })
     };
     let mut chosen = vec![0];
@@ -286,8 +294,8 @@ impl SeenCircle {
         self.light * self.depth.min(1.0)
     }
 
-    /// Whether this circle looks as it should where one draws straight on from `a` to `b`.
-    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, brightest: f64, slants: [f64; 2], own: &[f64; AZIMUTHS]) -> bool {
+    /// Whether this circle looks as it should where one draws straight on from `a` to `b`; the light that may be missing is an absolute one here.
+    fn is_between(&self, a: &SeenCircle, b: &SeenCircle, pixel: f64, within: Straight, slants: [f64; 2], own: &[f64; AZIMUTHS]) -> bool {
         (0..AZIMUTHS).all(|k| {
             let [here, start, end] = [self.places[k], a.places[k], b.places[k]];
             // Where the straight line is seen in this circle's direction.
@@ -306,11 +314,11 @@ impl SeenCircle {
             let stopped = |depth: f64, slant: f64| 1.0 - (-slant * depth).exp();
             t > 0.0
                 && t < 1.0
-                && off(self.pattern, a.pattern, b.pattern) * across < STRAIGHT
-                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < STRAIGHT_ALONG
+                && off(self.pattern, a.pattern, b.pattern) * across < within.across
+                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along
                 && slants.into_iter().all(|slant| {
-                    (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < STRAIGHT_LIGHT * brightest
-                        && (stopped(depth, slant) - stopped(self.depth, slant)).abs() * shown < STRAIGHT_STOPPED
+                    (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < within.light
+                        && (stopped(depth, slant) - stopped(self.depth, slant)).abs() * shown < within.stopped
                 })
         })
     }
