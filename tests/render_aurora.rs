@@ -6,15 +6,18 @@ use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, 
 use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
-use lensrunner::render::aurora::{RAYS_PERIOD, fall_table, planet_history, veil};
+use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, fall_table, planet_history, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
+use lensrunner::render::placements::against_static;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::render::{Renderer, layout, readback};
 use lensrunner::scene::aurora::dipole::on_field_line;
+use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::aurora::random;
+use lensrunner::scene::aurora::{air, quantiles};
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::light::{self, Branch, Order};
 use std::sync::Arc;
@@ -41,6 +44,65 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
         let number = (random::hash(row[3].to_bits()) >> 8) as f32 / 16_777_216.0;
         assert_eq!(got[3], number, "{row:?}");
     }
+}
+
+/// What [`Pass::AuroraWalk`] reads of the settings: energies, and the rest nought.
+fn energies(accelerated: f32, thermal: f32) -> wgpu::Buffer {
+    let settings = AuroraSettings { electrons: [accelerated, thermal, 0.8, 1.0], ..AuroraSettings::default() };
+    let buffer = layout::buffer(&GPU.device, "settings", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
+    GPU.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&settings));
+    buffer
+}
+
+#[test]
+fn electrons_of_the_shader_fall_as_those_of_the_physics() {
+    let (accelerated, thermal) = (4.0, 1.5);
+    let settings = energies(accelerated, thermal);
+    let falls = layout::storage(&GPU, "falls", &fall_table());
+    let body = "var streak: Streak; streak.key = hash(id.x); let fall = fall_of(streak, row.x); \
+                twin_out[2u * id.x] = vec4<f32>(fall, height_of(fall.x, GREEN, row.y), height_of(fall.x, RED, row.y)); \
+                let k = hash(id.x); twin_out[2u * id.x + 1u] = vec4<f32>(unit(hash(k + 3u)), unit(hash(k + 4u)), unit(hash(k + 5u)), unit(hash(k + 6u)));";
+    let rows: Vec<[f32; 4]> = (0..600).map(|k| [0.02 * (k % 250) as f32, (k % 11) as f32 / 10.0, 0.0, 0.0]).collect();
+    let got = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(0, &settings), (4, &falls)], &rows, 2);
+    for (row, got) in rows.iter().zip(got.chunks(2)) {
+        let ([index, energy, green, red], random) = (got[0], got[1].map(f64::from));
+        // Brighter parts are harder: the potential goes as the square root of the flux, between a twentieth and four times its mean.
+        let spectrum =
+            Spectrum { accelerated: f64::from(accelerated) * f64::from(row[0]).clamp(0.05, 4.0).sqrt(), thermal: f64::from(thermal) };
+        let want = spectrum.energy(1.0 - random[0], 1.0 - random[2], random[1]);
+        // 1 − u is a multiple of 2⁻²⁴, and its logarithm is known to 1e-5 of the thermal energy at the worst.
+        assert!((f64::from(energy) / want - 1.0).abs() < 1e-4, "{row:?}: {energy} keV on the GPU, {want} in Rust");
+        let reach = fall::slope(random[3]) * fall::range(want);
+        let last = (quantiles::ROWS - 1) as f64;
+        let along = (reach / quantiles::reach(0)).ln() / (quantiles::reach(quantiles::ROWS - 1) / quantiles::reach(0)).ln();
+        let place = along.clamp(0.0, 1.0) * last;
+        // 1e-4 of the reach is a thousandth of a row.
+        assert!((f64::from(index) - place).abs() < 2e-3, "{row:?}: row {index} on the GPU, {place} in Rust");
+        for (height, line, range) in [(green, 0, quantiles::HEIGHTS[0]), (red, 2, quantiles::HEIGHTS[2])] {
+            let want = height_by_integral(reach.clamp(quantiles::reach(0), quantiles::reach(quantiles::ROWS - 1)), line, row[1]);
+            let want = want.clamp(range[1], range[0]);
+            // Between 96 rows and 32 parts heights are linear: a kilometre or two where the light is, ten in the thin tail above it.
+            let allowed = if row[1] < 0.05 { 30.0 } else { 0.02 * want + 1.0 };
+            assert!((f64::from(height) - want).abs() < allowed, "{row:?}, line {line}: {height} km on the GPU, {want} by the integral");
+        }
+    }
+}
+
+/// The height (km) above which `part` of a line's light is made by electrons of this reach, by a plain sum.
+fn height_by_integral(reach: f64, line: usize, part: f32) -> f64 {
+    let levels = || (0..4200).map(|k| 500.0 - 0.1 * f64::from(k));
+    let made = |z: f64| {
+        (fall::share_left(air::overhead(z), reach) - fall::share_left(air::overhead(z - 0.1), reach)) * lines::photons(z - 0.05)[line]
+    };
+    let total: f64 = levels().map(made).sum();
+    let mut sum = 0.0;
+    for z in levels() {
+        sum += made(z);
+        if sum >= f64::from(part) * total && sum > 0.0 {
+            return z - 0.05;
+        }
+    }
+    80.0
 }
 
 #[test]
@@ -83,7 +145,7 @@ fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
 fn the_clock_of_the_rays_starts_again_without_a_jump() {
     let rows: Vec<[f32; 4]> = (0..400).map(|k| [0.37 * k as f32, 0.0, 0.0, 0.0]).collect();
     let body = "twin_out[id.x] = vec4<f32>(rays(row.x, 0.0), rays(row.x, 102400.0), rays(row.x, -3.0), rays(row.x, 102397.0));";
-    for (row, got) in rows.iter().zip(run(Pass::AuroraProject, body, [&[], &[]], &rows, 1)) {
+    for (row, got) in rows.iter().zip(run(Pass::AuroraEnds, body, [&[], &[]], &rows, 1)) {
         // Late in the day a number of f32 is a hundredth of a second.
         assert!((got[0] - got[1]).abs() < 0.03 && (got[2] - got[3]).abs() < 0.03, "{row:?}: {got:?}");
     }
@@ -302,4 +364,112 @@ fn the_disk_dims_an_aurora_behind_it() {
         // The disk lets a tenth through where it is seen face on.
         assert!(if behind { (0.0..0.5).contains(&share) } else { (share - 1.0).abs() < 0.1 }, "{share} of the light is left");
     }
+}
+
+#[test]
+fn the_pyramid_changes_no_picture() {
+    let size = [192, 108];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    for name in ["aurora-below", "aurora-orbit"] {
+        let scene = scene::load(name).unwrap();
+        let mut config = GameConfig::default();
+        // Points so wide that they go to coarse levels, and outlines of the planet among them.
+        (config.aurora.streaks, config.aurora.radius) = (1500, if name == "aurora-orbit" { 50.0 } else { 12.0 });
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings(&config));
+        (frame.settings.stars, frame.settings.milky_way, frame.settings.bloom) = (false, false, 0.0);
+        let got = renderer.picture(&frame, false).unwrap();
+        let levels = renderer.aurora_splats().unwrap().unwrap();
+        let coarse: u32 = levels[1..].iter().sum();
+        assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
+        frame.aurora.as_mut().unwrap().settings.electrons[3] = 1.0;
+        let want = renderer.picture(&frame, false).unwrap();
+        assert_eq!(renderer.aurora_splats().unwrap().unwrap().len(), 1);
+        let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
+        let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
+        let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
+        // As the experiment's: 2 % of the root mean square. Light is kept to what lies beyond three standard deviations.
+        assert!((off / all).sqrt() < 0.02, "{name}: off by {}", (off / all).sqrt());
+        let ratio = total(&got) / total(&want);
+        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio} of the light");
+        // No light where the planet hides it, not a pixel further than before.
+        let most = want.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
+        let worst = got.linear.iter().zip(&want.linear).map(|(p, q)| (p[1] - q[1]).abs()).fold(0.0, f32::max);
+        assert!(worst < 0.06 * most, "{name}: a pixel is off by {worst} of {most}");
+    }
+}
+
+#[test]
+fn a_watched_aurora_goes_on_without_a_burst() {
+    let (scene, config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &scene, &config).watched();
+    // The camera goes with the planet.
+    let mut light = |stage: &Stage, config: &GameConfig, time: f64| {
+        let frame = aurora_alone(stage, stage.camera(time, &[]), size, time, config);
+        let nodes = frame.aurora.as_ref().unwrap().nodes.clone();
+        (nodes, total(&renderer.picture(&frame, false).unwrap()))
+    };
+    // Ten frames, twelve days of the planet out of sight, ten more: curtains and their brightness go on where they were.
+    let gap = 12.0 * scene.planet.unwrap().day;
+    let times = (0..10).map(|k| 0.05 * f64::from(k)).chain((0..10).map(|k| gap + 0.05 * f64::from(k)));
+    let steps: Vec<_> = times.map(|time| light(&stage, &config, time)).collect();
+    for pair in steps.windows(2) {
+        // Other rays pass in the meantime; the planet turns a little.
+        let ratio = pair[1].1 / pair[0].1;
+        assert!((0.6..1.6).contains(&ratio), "{ratio} times as much light from one frame to the next");
+        // No row is older than four steps of half a second: the row that was the newest is among the first three.
+        let row = pair[0].0.len() / 128;
+        let kept = (0..3).any(|k| pair[1].0[k * row..(k + 1) * row] == pair[0].0[..row]);
+        assert!(kept, "the curtains have moved by more than two rows in a frame");
+    }
+    // Keys of brightness, walk and pace leave the curtains as they are, and another seed does not.
+    let before = light(&stage, &config, gap + 1.0).0;
+    let mut other = config.clone();
+    (other.aurora.brightness, other.aurora.pace, other.aurora.walk) = (0.02, 9.0, "linear".into());
+    stage.change_aurora(&other.aurora);
+    let row = before.len() / 128;
+    let after = light(&stage, &other, gap + 1.0).0;
+    assert!((0..2).any(|k| after[k * row..(k + 1) * row] == before[..row]), "another pace makes no other curtains");
+    other.aurora.seed += 1;
+    stage.change_aurora(&other.aurora);
+    assert!(light(&stage, &other, gap + 1.0).0[..row] != before[..row]);
+    other.aurora.enabled = false;
+    stage.change_aurora(&other.aurora);
+    assert!(aurora_alone(&stage, stage.camera(gap + 1.0, &[]), size, gap + 1.0, &other).aurora.is_none());
+}
+
+#[test]
+fn lines_shift_as_the_settings_ask() {
+    let (scene, mut config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    // The red line's X over Y falls as it becomes greener.
+    let mut hue = |lensing: bool, light_delay: bool| {
+        (config.render.lensing, config.render.light_delay) = (lensing, light_delay);
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let camera = stage.camera(0.0, &[]);
+        let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
+        let red = frame.aurora.unwrap().colours[0][Line::Red as usize];
+        (camera, f64::from(red[0] / red[1]))
+    };
+    let expected = |g: f64| {
+        let [x, y, _] = lines::kilorayleigh_xyz(g)[Line::Red as usize];
+        x / y
+    };
+    // Straight light, at once: g = γₑ(1 − n·vₑ)⁻¹ … of special relativity, with the speeds against what hovers there.
+    let (camera, flat) = hue(false, false);
+    let planet = scene.planet.unwrap().state(0.0).unwrap();
+    let speed = |position: DVec3, momentum: DVec3| {
+        let p = against_static(position, momentum);
+        p / (1.0 + p.length_squared()).sqrt()
+    };
+    let n = (camera.position - planet.position).normalize();
+    let doppler = |v: DVec3| (1.0 - v.dot(n)) / (1.0 - v.length_squared()).sqrt();
+    let g = doppler(speed(camera.position, camera.momentum)) / doppler(speed(planet.position, planet.momentum));
+    assert!((flat / expected(g) - 1.0).abs() < 1e-3, "{flat} in the frame, {} for g = {g}", expected(g));
+    // With the hole its field's part comes in, and with the delay another moment.
+    let (_, bent) = hue(true, true);
+    assert!((bent - flat).abs() > 1e-5, "{bent} and {flat}");
 }

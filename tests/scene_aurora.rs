@@ -10,6 +10,7 @@ use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::aurora::motion::{Motion, Plan, STEP};
 use lensrunner::scene::aurora::poisson::Poisson;
 use lensrunner::scene::aurora::random::uniform;
+use lensrunner::scene::blackbody::xyz_to_rgb;
 use std::f64::consts::PI;
 
 /// Heights of the test's profiles, km.
@@ -119,12 +120,12 @@ fn lines_have_their_colours() {
         let got = xyz[line as usize][1];
         assert!((got / want - 1.0).abs() < relative, "{line:?}: {got} cd/m² per kR");
     }
-    let rgb = xyz.map(lines::rgb);
+    let rgb = xyz.map(xyz_to_rgb);
     assert!(rgb[0][1] > 4.0 * rgb[0][0].abs(), "green {:?}", rgb[0]);
     assert!(rgb[1][2] > 4.0 * rgb[1][0].abs(), "blue {:?}", rgb[1]);
     assert!(rgb[2][0] > 8.0 * rgb[2][1].abs(), "red {:?}", rgb[2]);
     // Red light from a source that comes towards the camera is seen greener.
-    let shifted = lines::rgb(lines::kilorayleigh_xyz(1.12)[2]);
+    let shifted = xyz_to_rgb(lines::kilorayleigh_xyz(1.12)[2]);
     assert!(shifted[1] > shifted[0]);
 }
 

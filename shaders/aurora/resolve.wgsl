@@ -1,6 +1,8 @@
 // Last pass of the aurora: the spectrum becomes a colour, and is added to the picture.
 
 @group(1) @binding(0) var accumulated: texture_2d<f32>;
+/// The next coarser level of the pyramid, with all that is in those coarser still.
+@group(1) @binding(2) var coarse: texture_2d<f32>;
 /// CIE XYZ of a kilorayleigh of each line, seen with this image's Doppler shift, in the unit of the picture's luminance.
 @group(1) @binding(1) var<uniform> line_colours: array<vec4<f32>, 4>;
 
@@ -12,7 +14,8 @@ fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
 
 @fragment
 fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let lines = textureLoad(accumulated, vec2<i32>(position.xy), 0);
+    let pixel = vec2<i32>(position.xy);
+    let lines = textureLoad(accumulated, pixel, 0) + enlarged(coarse, pixel);
     if !(lines.x + lines.y + lines.z + lines.w > 0.0) {
         discard;
     }

@@ -1,13 +1,22 @@
-// Third pass of the aurora: luminous points added up as Gaussians, tabulated, in kR of each of the four lines. Depth is that of the point.
+// Fourth pass of the aurora: luminous points added up as Gaussians, tabulated, in kR of each of the four lines; each in its level of the pyramid. Depth is that
+// of the point.
 
-@group(1) @binding(0) var<storage, read> splats: array<Splat>;
-/// exp(−x/2) for x = r²/σ² from 0 to 9, 256 entries.
-@group(1) @binding(1) var<storage, read> gaussian: array<f32>;
+/// exp(−x/2) for x = r²/σ² from 0 to 9, 256 entries, the last of them 0.
+@group(1) @binding(0) var gaussian: texture_2d<f32>;
+@group(1) @binding(1) var<uniform> level: Level;
 
+/// As in streaks.wgsl.
 struct Splat {
+    @location(0) place: vec4<f32>,
+    @location(1) axes: vec4<f32>,
+    @location(2) lines: vec4<f32>,
+}
+
+struct Level {
+    /// From NDC of the screen to those of the level with its margin: xy times, zw plus.
     place: vec4<f32>,
-    axes: vec4<f32>,
-    lines: vec4<f32>,
+    /// xy: NDC per pixel of the level.
+    pixel: vec4<f32>,
 }
 
 struct Spot {
@@ -17,21 +26,16 @@ struct Spot {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32) -> Spot {
-    let splat = splats[instance];
-    let corners = array<vec2<f32>, 6>(vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, -1.0), vec2<f32>(1.0, 1.0),
-        vec2<f32>(-1.0, -1.0), vec2<f32>(1.0, 1.0), vec2<f32>(-1.0, 1.0));
-    // Three standard deviations.
-    let corner = corners[i] * 3.0;
+fn vertex(@builtin(vertex_index) i: u32, splat: Splat) -> Spot {
+    // A triangle round three standard deviations.
+    let corner = select(vec2<f32>(select(-5.196152, 5.196152, i == 1u), -3.0), vec2<f32>(0.0, 6.0), i == 2u);
     let pixels = splat.axes.xy * corner.x + splat.axes.zw * corner.y;
-    return Spot(vec4<f32>(splat.place.xy + pixels * 2.0 / frame.size.xy, splat.place.z, 1.0), corner, splat.lines * splat.place.w);
+    let place = splat.place.xy * level.place.xy + level.place.zw + pixels * level.pixel.xy;
+    return Spot(vec4<f32>(place, splat.place.z, 1.0), corner, splat.lines * splat.place.w);
 }
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    let x = dot(in.place, in.place);
-    if x >= 9.0 {
-        discard;
-    }
-    return in.light * gaussian[u32(x * (255.0 / 9.0) + 0.5)];
+    let entry = min(u32(dot(in.place, in.place) * (255.0 / 9.0) + 0.5), 255u);
+    return in.light * textureLoad(gaussian, vec2<u32>(entry, 0u), 0).x;
 }

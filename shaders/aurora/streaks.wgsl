@@ -4,11 +4,11 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: splats of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: rows of the history, y: segments, z: room for splats of one placement, w: AURORA_*.
+    /// x: rows of the history, y: segments, z: room for splats of one placement in the finest level, an eighth of it in each of the others, w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
-    /// x: accelerated, y: thermal energy in keV, z: spread of a luminous point in km, w unused.
+    /// x: accelerated, y: thermal energy in keV, z: spread of a luminous point in km, w: levels of the pyramid that are in use.
     electrons: vec4<f32>,
 };
 
@@ -25,6 +25,16 @@ struct Segment {
     light: vec4<f32>,
 }
 
+/// A place amid a part of a curtain, at the height of an end of chords, as the camera sees it.
+struct Reference {
+    /// Apparent place, camera axes, in r_s; w: 1 where there is one.
+    apparent: vec4<f32>,
+    /// Change of it for a km in two directions across the field and in one along it (across_field); w: x, y and z of the place itself.
+    east: vec4<f32>,
+    north: vec4<f32>,
+    up: vec4<f32>,
+}
+
 /// One end of a chord as the camera sees it.
 struct ChordEnd {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
@@ -38,7 +48,7 @@ struct ChordEnd {
 struct Splat {
     /// x, y: centre in NDC, z: depth, w: kR in its middle.
     place: vec4<f32>,
-    /// Two half axes of its ellipse, pixels (x right, y up), one standard deviation.
+    /// Two half axes of its ellipse, pixels of its level (x right, y up), one standard deviation.
     axes: vec4<f32>,
     /// Share of each line.
     lines: vec4<f32>,
@@ -60,7 +70,14 @@ struct SplatDraw {
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
 @group(1) @binding(6) var<storage, read_write> splats: array<Splat>;
+/// By placement and level.
 @group(1) @binding(7) var<storage, read_write> splat_draws: array<SplatDraw>;
+@group(1) @binding(8) var<storage, read_write> references: array<Reference>;
+/// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.
+@group(1) @binding(9) var ranges: texture_2d<f32>;
+
+/// Levels of the pyramid, each of half the size of the one before.
+const PYRAMID: u32 = 7u;
 
 const ROWS: u32 = 96u;
 const PARTS: u32 = 32u;
@@ -104,6 +121,17 @@ fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
     let range = height_range(kind);
     let left = clamp((height - range.y) / (range.x - range.y), 0.0, 1.0);
     return min(u32((1.0 - select(left, sqrt(left), kind == RED)) * f32(count)), count - 1u);
+}
+
+/// Ends of chords at which a part of a curtain is projected: first those of green and prompt light, then those of red.
+fn reference_room() -> u32 {
+    return 3u * aurora.counts.y + 2u;
+}
+
+/// The first of them for a part, in the north or in the south, in one placement.
+fn first_reference(segment: u32, south: bool, placement: u32) -> u32 {
+    let poles = select(1u, 2u, (aurora.history.w & AURORA_BOTH_POLES) != 0u);
+    return ((placement * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
 }
 
 struct Streak {
@@ -202,4 +230,32 @@ fn on_field_line(place: vec2<f32>, height: f32) -> vec3<f32> {
     let radius = max(PLANET_RADIUS + height, 0.0);
     let sine = min(sin(colatitude) * sqrt(radius / reference), 1.0);
     return vec3<f32>(along * sine, sqrt(1.0 - sine * sine)) * radius;
+}
+
+/// The same in the north or in the south.
+fn at_height(place: vec2<f32>, height: f32, south: bool) -> vec3<f32> {
+    let body = on_field_line(place, height);
+    return vec3<f32>(body.xy, select(body.z, -body.z, south));
+}
+
+/// Unit vectors east, north and up along the dipole's field at a place, columns.
+fn across_field(body: vec3<f32>) -> mat3x3<f32> {
+    let n = body / max(length(body), 1.0);
+    let up = normalize(n * (3.0 * n.z) - vec3<f32>(0.0, 0.0, 1.0));
+    let east = normalize(cross(vec3<f32>(0.0, 0.0, 1.0), n) + vec3<f32>(1e-6, 0.0, 0.0));
+    return mat3x3<f32>(east, cross(up, east), up);
+}
+
+/// A node's place and flux `age` seconds ago; before the oldest row it stays there.
+fn node_at(node: u32, age: f32) -> vec4<f32> {
+    let x = clamp(age / aurora.clock.x, 0.0, f32(aurora.history.x - 1u));
+    let row = min(u32(x), aurora.history.x - 2u);
+    let newer = nodes[row * aurora.counts.w + node];
+    let older = nodes[(row + 1u) * aurora.counts.w + node];
+    return mix(newer, older, x - f32(row));
+}
+
+/// The place amid a part of a curtain `age` seconds ago.
+fn middle_of(segment: Segment, age: f32) -> vec2<f32> {
+    return 0.5 * (node_at(segment.range.y, age).xy + node_at(segment.range.y + segment.range.w, age).xy);
 }

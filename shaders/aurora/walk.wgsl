@@ -1,4 +1,4 @@
-// Second pass of the aurora: the walk on the screen. One thread per streak and image order steps through equal parts of its light; between the
+// Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through equal parts of its light; between the
 // ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Paper 3 steps linearly on the
 // screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
@@ -17,6 +17,63 @@ fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
     return focal * (v.xy + c.xy * (v.z * inverse)) * inverse;
 }
 
+/// Splats whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more.
+const NARROW: f32 = 2.0;
+/// Sizes of the tiles whose depths are known: 8 pixels, 16, and so on.
+const TILES: u32 = 6u;
+const LEAST_TILE: u32 = 8u;
+
+/// The least and the greatest depth of what is drawn in a box of pixels (left, top, right, bottom) on the screen, at least.
+fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
+    let inside = vec4<u32>(clamp(pixels, vec4<f32>(0.0), frame.size.xyxy - 1.0));
+    let side = max(inside.z - inside.x, inside.w - inside.y);
+    // Tiles as wide as the box, as far as there are: it touches two of them a side.
+    let size = min(firstLeadingBit(max(side, LEAST_TILE) / LEAST_TILE) + 1u, TILES - 1u);
+    let tile = inside >> vec4<u32>(size + firstTrailingBit(LEAST_TILE));
+    var range = vec2<f32>(1.0, 0.0);
+    for (var y = tile.y; y <= tile.w; y++) {
+        for (var x = tile.x; x <= tile.z; x++) {
+            let part = textureLoad(ranges, vec2<u32>(x, y), size).xy;
+            range = vec2<f32>(min(range.x, part.x), max(range.y, part.y));
+        }
+    }
+    return range;
+}
+
+/// Km around the ends of a streak that its splats may reach, beside their spread: the longest stretch goes half its length beyond them.
+const BEYOND: f32 = 30.0;
+
+/// Whether nothing of a streak can be seen: all its ends are beyond one edge of the screen, or behind what is drawn there.
+fn unseen(first: u32, count: u32) -> bool {
+    let reach_km = 3.0 * aurora.electrons.z + BEYOND;
+    // Beyond the right, the upper, the left and the lower edge.
+    var beyond = vec4<bool>(true);
+    var near = false;
+    var around = vec4<f32>(1e9, 1e9, -1e9, -1e9);
+    var nearest = 0.0;
+    for (var k = 0u; k <= count; k++) {
+        let end = chords[first + k];
+        let reach = reach_km * max(length(end.east.xyz), length(end.north.xyz));
+        let clip = clip_position(end.apparent.xyz);
+        // Distances from the four planes through the camera and the screen's edges, at least.
+        let over = vec4<f32>(clip.xy, -clip.xy) - clip.w - reach * (frame.projection.xyxy + 1.0);
+        beyond &= over > vec4<f32>(0.0);
+        near |= !(clip.w > 2.0 * reach + frame.projection.z);
+        let w = max(clip.w - reach, 1e-9);
+        let pixel = (vec2<f32>(0.5, -0.5) * clip.xy / clip.w + 0.5) * frame.size.xy;
+        let pixels = reach * (frame.projection.xy + 1.0) / w * 0.5 * frame.size.xy;
+        around = vec4<f32>(min(around.xy, pixel - pixels), max(around.zw, pixel + pixels));
+        nearest = max(nearest, frame.projection.z / w);
+    }
+    if any(beyond) {
+        return true;
+    }
+    if near {
+        return false;
+    }
+    return nearest < depths_in(around).x;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = id.x;
@@ -26,6 +83,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let streak = streak_of(index);
     let chord_count = chords_of(streak.kind);
     let first = (id.y * aurora.counts.x + index) * chord_room();
+    if unseen(first, chord_count) {
+        return;
+    }
     let segment = segments[streak.segment];
     // How hard its electrons are, by the flux when those of the middle came down.
     let fall = fall_of(streak, chords[first + chord_count / 2u].north.w);
@@ -117,17 +177,45 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             direction = normalize(select(v, u, dot(u, u) > dot(v, v)));
         }
         let clip = clip_position(c);
-        let ndc = clip.xy / clip.w;
-        let margin = 1.0 + 6.0 * major / min(frame.size.x, frame.size.y);
-        if !all(abs(ndc) < vec2<f32>(margin)) {
+        let place = clip.xyz / clip.w;
+        let pixel = (vec2<f32>(0.5, -0.5) * place.xy + 0.5) * frame.size.xy;
+        let axes = vec4<f32>(direction * major, vec2<f32>(-direction.y, direction.x) * minor);
+        // The level at which it is one to two pixels narrow.
+        let coarsest = max(u32(aurora.electrons.w), 1u) - 1u;
+        var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
+        // Light reaches three standard deviations, and two pixels of its level further where that is enlarged.
+        let reach = 3.0 * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + select(1.0, 2.0 * f32(1u << level), level > 0u);
+        let around = vec4<f32>(pixel - reach, pixel + reach);
+        if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
             continue;
         }
-        let slot = atomicAdd(&splat_draws[id.y].instances, 1u);
-        if slot >= aurora.history.z {
-            atomicSub(&splat_draws[id.y].instances, 1u);
+        if level > 0u {
+            let range = depths_in(around);
+            // Behind all that is there (depth is reversed); and what an outline crosses is tested pixel by pixel.
+            if place.z < range.x {
+                continue;
+            }
+            level = select(0u, level, place.z >= range.y);
+        }
+        // Where a coarse level is full, the finest takes over.
+        var slot = atomicAdd(&splat_draws[id.y * PYRAMID + level].instances, 1u);
+        let coarse_room = aurora.history.z / 8u;
+        if (level > 0u) & (slot >= coarse_room) {
+            atomicSub(&splat_draws[id.y * PYRAMID + level].instances, 1u);
+            level = 0u;
+            slot = atomicAdd(&splat_draws[id.y * PYRAMID].instances, 1u);
+        }
+        if (level == 0u) & (slot >= aurora.history.z) {
+            atomicSub(&splat_draws[id.y * PYRAMID].instances, 1u);
             return;
         }
-        splats[id.y * aurora.history.z + slot] = Splat(vec4<f32>(ndc, clip.z / clip.w, peak),
-            vec4<f32>(direction * major, vec2<f32>(-direction.y, direction.x) * minor), lines);
+        // Enlarging widens it, so it is added narrower by that.
+        let size = 1.0 / f32(1u << level);
+        let widening = 0.25 * (1.0 - size * size);
+        let wide = size * vec2<f32>(major, minor);
+        let narrower = sqrt(wide * wide - widening);
+        let shrink = narrower / wide;
+        let first_of_level = id.y * (aurora.history.z + coarsest * coarse_room) + select(0u, aurora.history.z + (level - 1u) * coarse_room, level > 0u);
+        splats[first_of_level + slot] = Splat(vec4<f32>(place, peak / (shrink.x * shrink.y)), axes * size * shrink.xxyy, lines);
     }
 }

@@ -14,7 +14,7 @@ use crate::reference::picture::sky::{Background, stars};
 use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
-use crate::scene::planet::Planet;
+use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::{History, Moment};
 
@@ -180,6 +180,13 @@ impl Case {
         World::new(&self.assembly.models, things.collect(), self.time, self.config.render.lensing)
     }
 
+    /// What the judge leaves out of the scene, in words; None if that is nothing.
+    pub fn left_out(&self) -> Option<&'static str> {
+        let shines = |planet: &Planet| planet.aurora != AuroraShape::None;
+        let has_aurora = self.config.aurora.enabled && self.scene.planet.as_ref().is_some_and(shines);
+        has_aurora.then_some("the planet's aurora is left out: the judge knows surfaces, disk and sky")
+    }
+
     /// How light changes on its way.
     pub fn shift(&self) -> Shift {
         Shift { doppler: self.config.render.doppler, beaming: self.config.render.beaming }
@@ -294,6 +301,9 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
     let case = Case::new(scene, config, request.at, request.size);
     for warning in &case.assembly.warnings {
         eprintln!("warning: {warning}");
+    }
+    if let Some(what) = case.left_out() {
+        eprintln!("note: {what}");
     }
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(request.threads)

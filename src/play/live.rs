@@ -70,8 +70,7 @@ fn reload(
 
 /// Whether the models and the disk of the scene are to be made again.
 fn restage(before: &GameConfig, now: &GameConfig) -> bool {
-    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width || before.aurora != now.aurora
-    {
+    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
         return true;
     }
     before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient
@@ -99,8 +98,12 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     if before.as_ref().is_some_and(|before| restage(before, config))
         && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()
     {
-        let stage = Stage::new(&mut renderer.lock(), &session.scene, config);
+        let stage = Stage::new(&mut renderer.lock(), &session.scene, config).watched();
         world.insert_resource(Staged(stage));
+    } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora)
+        && let Some(staged) = world.get_resource::<Staged>()
+    {
+        staged.0.change_aurora(&config.aurora);
     }
     *before = Some(session.config);
     debug_assert!(world.get_resource::<Clock>().is_some());

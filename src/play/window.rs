@@ -100,7 +100,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
 fn stage_scene(world: &mut World) {
     let Some(renderer) = world.get_resource::<SharedRenderer>().cloned() else { return };
     let session = world.resource::<Session>();
-    let stage = Stage::new(&mut renderer.lock(), &session.scene, &session.config);
+    let stage = Stage::new(&mut renderer.lock(), &session.scene, &session.config).watched();
     world.insert_resource(Staged(stage));
 }
 

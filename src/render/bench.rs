@@ -45,6 +45,8 @@ pub struct FrameTimes {
     pub passes: Vec<(&'static str, f64)>,
     /// What the stages of the geometry counted in the last frame.
     pub counters: Counters,
+    /// Splats of the aurora in it, by level of the pyramid.
+    pub splats: Option<Vec<u32>>,
 }
 
 impl fmt::Display for FrameTimes {
@@ -59,7 +61,12 @@ impl fmt::Display for FrameTimes {
         for (label, time) in &self.passes {
             write!(f, "\n  {label:<12} {time:8.2} ms")?;
         }
-        write!(f, "\n  {}", self.counters)
+        write!(f, "\n  {}", self.counters)?;
+        if let Some(splats) = &self.splats {
+            let levels: Vec<String> = splats.iter().map(u32::to_string).collect();
+            write!(f, "\n  {} splats of the aurora (each level of half the size: {})", splats.iter().sum::<u32>(), levels.join(", "))?;
+        }
+        Ok(())
     }
 }
 
@@ -117,10 +124,18 @@ pub fn frame_times(
         }
         whole.push(begin.elapsed().as_secs_f64() * 1e3);
         prepared.push(ready.as_secs_f64() * 1e3);
+        // Passes of one name count together.
+        let mut sums: Vec<(&'static str, f64)> = Vec::new();
         for &(label, time) in latest {
+            match sums.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, sum)) => *sum += f64::from(time),
+                None => sums.push((label, f64::from(time))),
+            }
+        }
+        for (label, time) in sums {
             match passes.iter_mut().find(|(known, _)| *known == label) {
-                Some((_, times)) => times.push(f64::from(time)),
-                None => passes.push((label, vec![f64::from(time)])),
+                Some((_, times)) => times.push(time),
+                None => passes.push((label, vec![time])),
             }
         }
     }
@@ -133,6 +148,7 @@ pub fn frame_times(
         processor,
         passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
         counters: renderer.counters()?,
+        splats: renderer.aurora_splats()?,
     })
 }
 

@@ -20,6 +20,8 @@ pub enum Slot {
     Numbers,
     /// The same of words of 32 bits.
     Words,
+    /// A 2-D texture of depths that are only fetched.
+    Depth,
     /// An array of them.
     TextureArray,
     /// A filtering sampler.
@@ -51,6 +53,11 @@ pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &
                     Slot::Numbers => texture(TextureViewDimension::D2, false),
                     Slot::Words => BindingType::Texture {
                         sample_type: TextureSampleType::Uint,
+                        view_dimension: TextureViewDimension::D2,
+                        multisampled: false,
+                    },
+                    Slot::Depth => BindingType::Texture {
+                        sample_type: TextureSampleType::Depth,
                         view_dimension: TextureViewDimension::D2,
                         multisampled: false,
                     },

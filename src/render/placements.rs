@@ -244,14 +244,19 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
     }
 }
 
+/// When the light left by which the centre of what flies is seen at `time`, as the settings ask for; None if it is not seen.
+pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
+    match view.settings {
+        Settings { light_delay: false, .. } => Some(time),
+        Settings { method: Method::Flat, .. } => flat_emission_time(view.camera, time, history),
+        _ => emission_time(view.camera, time, history, order),
+    }
+}
+
 /// The placement, where the object then is, and the age of its light.
 fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3, f64)> {
     let camera = view.camera;
-    let emission = match view.settings {
-        Settings { light_delay: false, .. } => time,
-        Settings { method: Method::Flat, .. } => flat_emission_time(camera, time, history)?,
-        _ => emission_time(camera, time, history, order)?,
-    };
+    let emission = departure(view, time, history, order)?;
     let sample = history.at(emission);
     let turn = DMat3::from_quat(sample.attitude);
     let swing = Swing::new(history, emission, object.reach);

@@ -259,7 +259,7 @@ impl Renderer {
         compute(encoder, "stars", &|pass| self.stars.project(pass));
         if self.aurora.images() > 0 {
             compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
-            compute(encoder, "aurora walk", &|pass| self.aurora.walk(pass));
+            compute(encoder, "aurora ends", &|pass| self.aurora.ends(pass));
         }
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
         if let Some(disk) = disk {
@@ -279,6 +279,15 @@ impl Renderer {
             geometry.draw_opaque(&mut pass);
             self.background.draw(&mut pass);
             self.stars.draw(&mut pass);
+        }
+        if self.aurora.images() > 0 {
+            // It asks what is before and behind of it.
+            self.aurora.ranges(encoder, group);
+            let label = "aurora walk";
+            let timestamp_writes = self.timing.compute(label);
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
+            pass.set_bind_group(0, group, &[]);
+            self.aurora.walk(&mut pass);
         }
         // What is behind the disk is dimmed by it.
         draw_aurora(&self.aurora, true, &mut self.timing, encoder, group, &self.targets);
@@ -366,6 +375,18 @@ impl Renderer {
         Ok(*bytemuck::from_bytes(&bytes[..size_of::<Counters>()]))
     }
 
+    /// Splats of the aurora in the last frame, by level of its pyramid, all images together; None if none was prepared.
+    pub fn aurora_splats(&self) -> Result<Option<Vec<u32>>, PictureError> {
+        if self.aurora.images() == 0 {
+            return Ok(None);
+        }
+        let bytes = readback::buffer(&self.gpu, self.aurora.draws())?;
+        let draws: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
+        let levels = self.aurora.levels().count();
+        let all = draws.chunks(super::aurora::PYRAMID as usize).take(self.aurora.images() as usize);
+        Ok(Some(all.fold(vec![0; levels], |sum, image| sum.iter().zip(image).map(|(sum, draw)| sum + draw[1]).collect())))
+    }
+
     /// The geometry stages, for tests that read their buffers.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
@@ -386,19 +407,22 @@ fn draw_aurora(
     group: &wgpu::BindGroup,
     targets: &Targets,
 ) {
-    let Some(light) = aurora.light() else { return };
     for image in aurora.images_behind(behind) {
-        for (label, target, fresh) in [("aurora splat", light, true), ("aurora resolve", &targets.picture, false)] {
+        let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(label),
                 color_attachments: &[Some(colour(target, fresh))],
-                depth_stencil_attachment: fresh.then(|| depth(&targets.depth, false)),
+                depth_stencil_attachment: tested.then(|| depth(&targets.depth, false)),
                 timestamp_writes: timing.render(label),
                 ..Default::default()
             });
             pass.set_bind_group(0, group, &[]);
-            if fresh { aurora.splat(&mut pass, image) } else { aurora.resolve(&mut pass, image) }
+            run(&mut pass);
+        };
+        for (level, light) in aurora.levels() {
+            draw("aurora splat", light, true, level == 0, &|pass| aurora.splat(pass, image, level));
         }
+        draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
     }
 }
 

@@ -25,6 +25,7 @@ const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
 const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
 const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
+const ENLARGE: &str = include_str!("../../shaders/aurora/enlarge.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
@@ -61,12 +62,18 @@ pub enum Pass {
     StarsProject,
     /// Draws stars.
     StarsDraw,
-    /// Projects the ends of the aurora's chords.
+    /// Projects places amid the parts of the aurora's curtains.
     AuroraProject,
-    /// Walks between them.
+    /// The ends of each streak's chords.
+    AuroraEnds,
+    /// The depths of what is drawn, by tiles.
+    AuroraRanges,
+    /// Walks between the ends of chords.
     AuroraWalk,
     /// Adds up the aurora's light.
     AuroraSplat,
+    /// Enlarges a coarse picture of it into the next finer one.
+    AuroraSpread,
     /// Makes it a colour.
     AuroraResolve,
     /// Lays thin triangles over the picture.
@@ -97,7 +104,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 27] = [
+    pub const ALL: [Pass; 30] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -110,8 +117,11 @@ impl Pass {
         Pass::StarsProject,
         Pass::StarsDraw,
         Pass::AuroraProject,
+        Pass::AuroraEnds,
+        Pass::AuroraRanges,
         Pass::AuroraWalk,
         Pass::AuroraSplat,
+        Pass::AuroraSpread,
         Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
@@ -151,8 +161,11 @@ impl Pass {
             Pass::StarsProject => include_str!("../../shaders/sky/stars_project.wgsl"),
             Pass::StarsDraw => include_str!("../../shaders/sky/stars_draw.wgsl"),
             Pass::AuroraProject => include_str!("../../shaders/aurora/project.wgsl"),
+            Pass::AuroraEnds => include_str!("../../shaders/aurora/ends.wgsl"),
+            Pass::AuroraRanges => include_str!("../../shaders/aurora/ranges.wgsl"),
             Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
             Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraSpread => include_str!("../../shaders/aurora/spread.wgsl"),
             Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
@@ -175,8 +188,10 @@ impl Pass {
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw | Pass::AuroraSplat => vec![TYPES, BINDINGS],
             Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STREAKS],
+            Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STREAKS],
-            Pass::AuroraResolve => vec![],
+            Pass::AuroraRanges => vec![],
+            Pass::AuroraSpread | Pass::AuroraResolve => vec![ENLARGE],
             Pass::Compose => vec![COVERAGE],
             Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],

@@ -5,6 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
+use crate::scene::config::AuroraConfig;
 use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
@@ -33,7 +34,8 @@ pub struct Stage {
     ambient: f32,
     has_ships: bool,
     planet: Option<Planet>,
-    has_disk: bool,
+    /// Inner and outer radius of the disk.
+    disk: Option<[f64; 2]>,
     /// Shared, because a stage is only read when it makes a frame.
     show: Arc<Mutex<Option<Show>>>,
 }
@@ -91,8 +93,24 @@ impl Stage {
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
             planet: scene.planet,
-            has_disk: scene.disk(config).is_some(),
+            disk,
             show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, disk, &config.aurora)))),
+        }
+    }
+
+    /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came before.
+    pub fn watched(self) -> Stage {
+        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
+        *show = show.take().map(Show::watched);
+        drop(show);
+        self
+    }
+
+    /// The aurora goes on by other numbers; nothing else is made anew. For a watched stage.
+    pub fn change_aurora(&self, config: &AuroraConfig) {
+        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
+        if show.as_mut().is_none_or(|show| !show.change(config)) {
+            *show = self.planet.as_ref().and_then(|planet| Show::new(planet, self.disk, config)).map(Show::watched);
         }
     }
 
@@ -134,7 +152,7 @@ impl Stage {
                 },
             };
             let light = match object.body {
-                Body::Planet => lighting::on_planet(position, self.has_disk),
+                Body::Planet => lighting::on_planet(position, self.disk.is_some()),
                 _ => lighting::at(position, self.has_ships, self.ambient),
             };
             let object = Object {

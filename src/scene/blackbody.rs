@@ -68,8 +68,8 @@ pub fn blackbody_rgb(temperature: f64) -> [f64; 3] {
     into_gamut(xyz_to_rgb([x / y, 1.0, z / y])).map(|channel| channel * y / unit_luminance())
 }
 
-/// XYZ to linear sRGB (IEC 61966-2-1, white D65).
-fn xyz_to_rgb([x, y, z]: [f64; 3]) -> [f64; 3] {
+/// Linear sRGB (IEC 61966-2-1, white D65) of CIE XYZ; negative where the colour is outside sRGB.
+pub fn xyz_to_rgb([x, y, z]: [f64; 3]) -> [f64; 3] {
     [
         3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
         -0.969_266_0 * x + 1.876_010_8 * y + 0.041_556_0 * z,

@@ -164,7 +164,7 @@ pub fn ratios(sheet: &Sheet) -> String {
     let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let (middle, most) = (radii.get(radii.len() / 2).cloned().unwrap_or_default(), counts.last().cloned().unwrap_or_default());
     let mut text = String::from(
-        "| view | walk | whole pass, table | whole pass, pyramid | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|\n",
+        "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     for view in distinct(sheet, "view") {
         let of = |method: &str, column: &str| {
@@ -180,6 +180,7 @@ pub fn ratios(sheet: &Sheet) -> String {
         };
         let columns = [
             pair("particles", "exact", "walk_ms"),
+            pair("particles-tabled", "exact", "walk_ms"),
             pair("particles", "exact", "total_ms"),
             pair("particles-pyramid", "exact-pyramid", "total_ms"),
             pair("particles-no-table", "exact-pyramid", "total_ms"),

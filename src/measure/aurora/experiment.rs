@@ -85,7 +85,7 @@ const fn variant(name: &'static str, method: Method, threads: bool, splats: Spla
 }
 
 /// The ways on the CPU. The first is the paper's own baseline: one thread, no table.
-pub const VARIANTS: [Variant; 10] = [
+pub const VARIANTS: [Variant; 11] = [
     variant("particles-no-table", Method::Particles, false, Splats::Exponential),
     variant("particles", Method::Particles, false, Splats::Table),
     variant("linear", Method::Linear, false, Splats::Table),
@@ -96,6 +96,7 @@ pub const VARIANTS: [Variant; 10] = [
     variant("particles-pyramid", Method::Particles, false, Splats::Pyramid),
     variant("exact-pyramid", Method::Exact, false, Splats::Pyramid),
     variant("exact-pyramid-threads", Method::Exact, true, Splats::Pyramid),
+    variant("particles-tabled", Method::Tabled, false, Splats::Table),
 ];
 
 /// What is tabulated once for all pictures.

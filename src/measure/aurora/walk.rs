@@ -18,6 +18,8 @@ use crate::scene::aurora::random::hash;
 pub enum Method {
     /// Every collision happens in space and is projected from there: the method of Kojima and others (2012) that the paper compares with.
     Particles,
+    /// The same with the fall tabulated, as the walks on the screen have it: what is left between the two is the walk's own share.
+    Tabled,
     /// The paper's walk: end points are projected, everything between is linear on the screen.
     Linear,
     /// Ends of chords are projected; the parameter in space is walked, homogeneous coordinates are interpolated.
@@ -26,7 +28,8 @@ pub enum Method {
 
 impl Method {
     /// All of them, and their names.
-    pub const ALL: [(Method, &'static str); 3] = [(Method::Particles, "particles"), (Method::Linear, "linear"), (Method::Exact, "exact")];
+    pub const ALL: [(Method, &'static str); 4] =
+        [(Method::Particles, "particles"), (Method::Tabled, "particles-tabled"), (Method::Linear, "linear"), (Method::Exact, "exact")];
 }
 
 /// Electrons whose collisions are dealt before the first of them is walked: numbers just stored one by one cannot be read together at once.
@@ -119,6 +122,7 @@ impl<'a> Walker<'a> {
             for (streak, steps) in streaks.iter().zip(&steps) {
                 match method {
                     Method::Particles => self.particles(streak, out),
+                    Method::Tabled => self.tabled(streak, steps, out),
                     Method::Linear => self.linear(streak, steps, out),
                     Method::Exact => self.exact(streak, steps, out),
                 }
@@ -130,7 +134,7 @@ impl<'a> Walker<'a> {
     /// point is projected.
     #[inline(always)]
     fn particles(&self, streak: &Streak, out: &mut Points) {
-        let Walker { eye, falls, .. } = *self;
+        let falls = self.falls;
         let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
         let [e1, e2] = across();
         let reach = row_reach(streak.row as usize);
@@ -143,16 +147,35 @@ impl<'a> Walker<'a> {
                 let [a, b] = astray(key, level as u32);
                 let sway = falls.sway[level];
                 let position = streak.top + along * (TOP as f32 - falls.heights[level]) + (e1 * a + e2 * b) * sway;
-                let apparent = eye.apparent(position);
-                if let Some([x, y]) = eye.screen(apparent) {
-                    let scale = eye.focal * eye.scale() / -apparent.z;
-                    out.push(Point { x, y, scale, count: (now - before) as f32, level: level as u32 });
-                }
+                self.luminous(position, (now - before) as f32, level as u32, out);
                 before = now;
             }
             if left <= 0.0 {
                 break;
             }
+        }
+    }
+
+    /// A luminous point in space, projected.
+    #[inline(always)]
+    fn luminous(&self, position: Vec3, count: f32, level: u32, out: &mut Points) {
+        let apparent = self.eye.apparent(position);
+        if let Some([x, y]) = self.eye.screen(apparent) {
+            let scale = self.eye.focal * self.eye.scale() / -apparent.z;
+            out.push(Point { x, y, scale, count, level });
+        }
+    }
+
+    /// The particle method at the steps that a table deals out.
+    #[inline(always)]
+    fn tabled(&self, streak: &Streak, steps: &Collisions, out: &mut Points) {
+        let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
+        let [e1, e2] = across();
+        let (key, _) = key(streak, self.seed);
+        for (level, count) in steps.level[..steps.length].iter().zip(&steps.count) {
+            let [a, b] = astray(key, *level);
+            let (height, sway) = (self.falls.heights[*level as usize], self.falls.sway[*level as usize]);
+            self.luminous(streak.top + along * (TOP as f32 - height) + (e1 * a + e2 * b) * sway, *count, *level, out);
         }
     }
 

@@ -98,6 +98,9 @@ pub fn run(
     let config = scene::config::find(config).map_err(TraceError::from)?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
     let case = Case::new(scene, config, request.at, request.size);
+    if let Some(what) = case.left_out() {
+        eprintln!("note: {what}");
+    }
     let frame = contestant(&case).map_err(CompareError::Contestant)?;
     let bar = ProgressBar::new(u64::from(request.size[0]) * u64::from(request.size[1]));
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {

@@ -4,11 +4,13 @@
 //! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
 //! experiment of paper 3 for the chart.
 
+mod levels;
 mod pass;
 pub mod race;
 mod show;
 pub mod veil;
 
+pub use levels::PYRAMID;
 pub use pass::{Aurora, fall_table};
 pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};
 

@@ -2,13 +2,16 @@
 
 use wgpu::{BufferUsages, ShaderStages};
 
+use super::levels::{Levels, PYRAMID, Ranges};
 use super::show::AuroraFrame;
-use super::{AuroraSettings, Segment};
+use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, storage};
+use crate::render::layout::{
+    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, raster_of, storage,
+};
 use crate::render::method::Method;
 use crate::render::shaders::Pass;
-use crate::render::targets::{Targets, target};
+use crate::render::targets::Targets;
 use crate::render::types::Placement;
 use crate::scene::aurora::quantiles::Quantiles;
 
@@ -16,26 +19,72 @@ use crate::scene::aurora::quantiles::Quantiles;
 const ORDERS: usize = 3;
 /// Bytes of `ChordEnd` and `Splat` in WGSL.
 const CHORD_END_BYTES: u64 = 48;
+const REFERENCE_BYTES: u64 = 64;
 const SPLAT_BYTES: u64 = 48;
-/// Bytes between the draw arguments of two orders, and between their splats: bindings start at multiples of this.
-const ALIGNMENT: u64 = 256;
+/// Bytes of `SplatDraw`.
+const DRAW_BYTES: u64 = 16;
 /// Entries of the tabulated Gaussian, for r²/σ² from 0 to 9.
 const GAUSSIAN: usize = 256;
+
+/// A coarse level has room for this part of the splats of the finest; as in walk.wgsl.
+const COARSE_ROOM: u64 = 8;
+
+/// `Splat` in WGSL.
+const SPLAT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: SPLAT_BYTES,
+    step_mode: wgpu::VertexStepMode::Instance,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4],
+};
+
+/// Draw arguments of each image and level: nothing as yet.
+fn no_splats() -> [[u32; 4]; ORDERS * PYRAMID as usize] {
+    [[3, 0, 0, 0]; _]
+}
+
+/// The Gaussian by r²/σ² from 0 to 9, and 0 at the end. A texture, as a software driver reads buffers number by number.
+fn gaussian(gpu: &Gpu) -> wgpu::TextureView {
+    let last = GAUSSIAN - 1;
+    let table: Vec<f32> = (0..GAUSSIAN).map(|k| if k < last { (-4.5 * k as f32 / last as f32).exp() } else { 0.0 }).collect();
+    let size = wgpu::Extent3d { width: GAUSSIAN as u32, height: 1, depth_or_array_layers: 1 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("aurora gaussian"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * GAUSSIAN as u32), rows_per_image: None };
+    gpu.queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(&table), layout, size);
+    texture.create_view(&Default::default())
+}
+
+/// Ends at which a part of a curtain is projected, as in streaks.wgsl.
+fn reference_room(chords: u32) -> u32 {
+    3 * chords + 2
+}
 
 /// Room for the ends of a streak's chords, as in streaks.wgsl: red ones have twice as many.
 fn chord_room(chords: u32) -> u32 {
     2 * chords + 1
 }
 
-/// Pipelines, buffers and the texture in which light is added up.
+/// Pipelines, buffers and the textures in which light is added up.
 #[derive(Debug)]
 pub struct Aurora {
     project: wgpu::ComputePipeline,
+    ends: wgpu::ComputePipeline,
     walk: wgpu::ComputePipeline,
-    splat: wgpu::RenderPipeline,
+    ranges: Ranges,
+    /// Into the finest level, tested by depth, and into the others.
+    splat: [wgpu::RenderPipeline; 2],
+    spread: wgpu::RenderPipeline,
     resolve: wgpu::RenderPipeline,
     walk_layout: wgpu::BindGroupLayout,
     splat_layout: wgpu::BindGroupLayout,
+    spread_layout: wgpu::BindGroupLayout,
     resolve_layout: wgpu::BindGroupLayout,
     settings: wgpu::Buffer,
     placements: wgpu::Buffer,
@@ -44,16 +93,21 @@ pub struct Aurora {
     falls: wgpu::Buffer,
     chords: Growing,
     splats: Growing,
+    references: Growing,
     draws: wgpu::Buffer,
-    gaussian: wgpu::Buffer,
+    gaussian: wgpu::TextureView,
     colours: [wgpu::Buffer; ORDERS],
-    accumulation: Option<([u32; 2], wgpu::TextureView)>,
+    levels: Option<Levels>,
     groups: Option<Groups>,
     /// Of the prepared frame: pixels that each image may be on (left, top, width, height), and whether it is behind the disk.
     images: Vec<([u32; 4], bool)>,
     /// Of the prepared frame: streaks, chords of a streak, orders; nothing is drawn where there are none.
     drawn: [u32; 3],
-    /// Room for splats of one order.
+    /// Places that are projected in each order.
+    projected: u32,
+    /// Levels of the pyramid that the prepared frame uses.
+    in_use: u32,
+    /// Room for splats of one order in the finest level; in each of the others that part of it ([`COARSE_ROOM`]).
     room: u64,
     uploaded: Option<std::sync::Arc<Vec<[f32; 4]>>>,
 }
@@ -61,7 +115,10 @@ pub struct Aurora {
 #[derive(Debug)]
 struct Groups {
     walk: wgpu::BindGroup,
+    /// By level.
     splat: Vec<wgpu::BindGroup>,
+    /// Of the next coarser level into each but the finest.
+    spread: Vec<wgpu::BindGroup>,
     resolve: Vec<wgpu::BindGroup>,
 }
 
@@ -70,9 +127,11 @@ impl Aurora {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         use Slot::{Read, Uniform, Write};
         let device = &gpu.device;
-        let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &[Uniform, Read, Read, Read, Read, Write, Write, Write]);
-        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX_FRAGMENT, &[Read, Read]);
-        let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Uniform]);
+        let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
+        let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
+        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform]);
+        let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
+        let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
         let one = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,
@@ -85,11 +144,18 @@ impl Aurora {
         };
         let groups = [Some(frame_layout), Some(&walk_layout)];
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
-        let gaussian: Vec<f32> = (0..GAUSSIAN).map(|k| (-4.5 * k as f32 / (GAUSSIAN - 1) as f32).exp()).collect();
+        let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
+        let splat = |depth| {
+            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, sum)], depth };
+            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[SPLAT])
+        };
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
+            ends: compute(device, "aurora ends", Pass::AuroraEnds, "main", &groups),
             walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
-            splat: draw("aurora splat", Pass::AuroraSplat, &[(HDR_FORMAT, sum)], Some(false), &splat_layout),
+            ranges: Ranges::new(device, frame_layout),
+            splat: [Some(false), None].map(splat),
+            spread: draw("aurora spread", Pass::AuroraSpread, &[(HDR_FORMAT, None)], None, &spread_layout),
             resolve: draw("aurora resolve", Pass::AuroraResolve, &[(HDR_FORMAT, sum)], None, &resolve_layout),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
             placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
@@ -97,18 +163,22 @@ impl Aurora {
             segments: Growing::new(device, "aurora segments", BufferUsages::STORAGE),
             falls: storage(gpu, "aurora falls", &fall_table()),
             chords: Growing::new(device, "aurora chords", BufferUsages::STORAGE),
-            splats: Growing::new(device, "aurora splats", BufferUsages::STORAGE),
-            draws: buffer(device, "aurora draws", 16 * ORDERS as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
-            gaussian: storage(gpu, "aurora gaussian", &gaussian),
+            splats: Growing::new(device, "aurora splats", BufferUsages::STORAGE | BufferUsages::VERTEX),
+            references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
+            draws: buffer(device, "aurora draws", size_of_val(&no_splats()) as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
+            gaussian: gaussian(gpu),
             colours: std::array::from_fn(|_| uniform("aurora colours", 64)),
-            accumulation: None,
+            levels: None,
             groups: None,
             images: Vec::new(),
             drawn: [0; 3],
+            projected: 0,
+            in_use: 0,
             room: 0,
             uploaded: None,
             walk_layout,
             splat_layout,
+            spread_layout,
             resolve_layout,
         }
     }
@@ -127,12 +197,15 @@ impl Aurora {
         let orders = frame.placements.len().min(ORDERS);
         let mut settings = frame.settings;
         let [streaks, chords, ..] = settings.counts;
-        // Splats of each order start at a multiple of the alignment: 16 splats are three of it.
-        settings.history[2] = settings.history[2].next_multiple_of(16);
-        let room = u64::from(settings.history[2]) * SPLAT_BYTES;
-        debug_assert_eq!(room % ALIGNMENT, 0);
-        let mut replaced = self.groups.is_none() || room != self.room;
-        self.room = room;
+        // All of them must fit into a buffer, with the quarter more that it grows by.
+        let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (SPLAT_BYTES * orders as u64 * 2);
+        // A coarse level has an eighth of the room, so all of them together are less than twice as much.
+        settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
+        let room = u64::from(settings.history[2]);
+        let in_use = (settings.electrons[3] as u32).clamp(1, PYRAMID);
+        settings.electrons[3] = in_use as f32;
+        let mut replaced = self.groups.is_none() || (room, in_use) != (self.room, self.in_use);
+        (self.room, self.in_use) = (room, in_use);
         // The history changes only when the curtains have moved a step.
         if self.uploaded.as_ref().is_none_or(|nodes| !std::sync::Arc::ptr_eq(nodes, &frame.nodes)) {
             replaced |= self.nodes.write(gpu, &frame.nodes);
@@ -140,17 +213,21 @@ impl Aurora {
         }
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
-        replaced |= self.splats.reserve(device, room * ORDERS as u64);
-        if self.accumulation.as_ref().is_none_or(|(size, _)| *size != targets.size) {
-            self.accumulation = Some((targets.size, target(device, "aurora light", targets.size, HDR_FORMAT).1));
+        replaced |= self.splats.reserve(device, SPLAT_BYTES * self.first_splat(orders as u32, 0));
+        let poles = if settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
+        self.projected = settings.history[1] * poles * reference_room(chords);
+        replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
+        if self.levels.as_ref().is_none_or(|levels| levels.size != targets.size) {
+            self.levels = Some(Levels::new(gpu, targets.size));
             replaced = true;
         }
+        replaced |= self.ranges.prepare(device, &targets.depth, targets.size);
         if replaced {
             self.groups = self.make_groups(device);
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&[[6u32, 0, 0, 0]; ORDERS]));
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&no_splats()));
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(colours));
         }
@@ -159,7 +236,7 @@ impl Aurora {
     }
 
     fn make_groups(&self, device: &wgpu::Device) -> Option<Groups> {
-        let (_, light) = self.accumulation.as_ref()?;
+        let levels = self.levels.as_ref()?;
         let walk = [
             &self.settings,
             &self.placements,
@@ -169,21 +246,38 @@ impl Aurora {
             &self.chords.buffer,
             &self.splats.buffer,
             &self.draws,
+            &self.references.buffer,
         ];
-        let splat = (0..ORDERS as u64).map(|order| {
-            let range =
-                wgpu::BufferBinding { buffer: &self.splats.buffer, offset: order * self.room, size: std::num::NonZeroU64::new(self.room) };
-            bind(device, "aurora splat", &self.splat_layout, &[wgpu::BindingResource::Buffer(range), self.gaussian.as_entire_binding()])
+        let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
+        let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
+        let splat = levels.places.iter().map(|place| {
+            let resources = [wgpu::BindingResource::TextureView(&self.gaussian), place.as_entire_binding()];
+            bind(device, "aurora splat", &self.splat_layout, &resources)
         });
-        let resolve = self.colours.iter().map(|colours| {
-            let resources = [wgpu::BindingResource::TextureView(light), colours.as_entire_binding()];
-            bind(device, "aurora resolve", &self.resolve_layout, &resources)
-        });
+        // A level, or black where it is not in use.
+        let light = |level: u32| {
+            let coarse = levels.lights.get(level as usize).filter(|_| level < self.in_use);
+            wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
+        };
+        let resolve = self
+            .colours
+            .iter()
+            .map(|colours| bind(device, "aurora resolve", &self.resolve_layout, &[light(0), colours.as_entire_binding(), light(1)]));
+        let spread = (1..self.in_use).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
         Some(Groups {
-            walk: bind(device, "aurora walk", &self.walk_layout, &walk.map(|buffer| buffer.as_entire_binding())),
+            walk: bind(device, "aurora walk", &self.walk_layout, &walk),
             splat: splat.collect(),
+            spread: spread.collect(),
             resolve: resolve.collect(),
         })
+    }
+
+    /// The first splat of an image and level in their buffer.
+    fn first_splat(&self, image: u32, level: u32) -> u64 {
+        let (image, level, coarsest, coarse_room) =
+            (u64::from(image), u64::from(level), u64::from(self.in_use - 1), self.room / COARSE_ROOM);
+        let before = if level == 0 { 0 } else { self.room + (level - 1) * coarse_room };
+        image * (self.room + coarsest * coarse_room) + before
     }
 
     /// How many images of it the prepared frame has.
@@ -197,10 +291,15 @@ impl Aurora {
         all.zip(&self.images).filter(|(_, (_, is_behind))| *is_behind == behind).map(|(image, _)| image).collect()
     }
 
-    /// The ends of the chords, through the lookup.
+    /// Places amid the parts of curtains, through the lookup.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
+        self.compute(pass, &self.project, self.projected.div_ceil(64), self.drawn[2]);
+    }
+
+    /// From there to the ends of the chords.
+    pub fn ends(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, chords, orders] = self.drawn;
-        self.compute(pass, &self.project, (streaks * chord_room(chords)).div_ceil(64), orders);
+        self.compute(pass, &self.ends, (streaks * chord_room(chords)).div_ceil(64), orders);
     }
 
     /// From chords to splats.
@@ -216,18 +315,31 @@ impl Aurora {
         pass.dispatch_workgroups(groups, orders, 1);
     }
 
-    /// The texture in which light is added up.
-    pub fn light(&self) -> Option<&wgpu::TextureView> {
-        self.accumulation.as_ref().map(|(_, view)| view)
+    /// The depths by tiles, which the walk asks for, once all that has depth has been drawn.
+    pub fn ranges(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup) {
+        self.ranges.encode(encoder, frame);
     }
 
-    /// Adds up the splats of one image.
-    pub fn splat(&self, pass: &mut wgpu::RenderPass, image: u32) {
-        let Some(bound) = &self.groups else { return };
-        pass.set_pipeline(&self.splat);
-        pass.set_bind_group(1, &bound.splat[image as usize], &[]);
-        self.within(pass, image);
-        pass.draw_indirect(&self.draws, 16 * u64::from(image));
+    /// The textures in which light is added up, the coarsest first, and whether each is tested by depth.
+    pub fn levels(&self) -> impl Iterator<Item = (u32, &wgpu::TextureView)> {
+        let lights = self.levels.iter().flat_map(|levels| &levels.lights);
+        (0..).zip(lights.take(self.in_use as usize)).collect::<Vec<_>>().into_iter().rev()
+    }
+
+    /// Adds up the splats of one image in a level, after those of coarser levels. The finest level has the frame's depth.
+    pub fn splat(&self, pass: &mut wgpu::RenderPass, image: u32, level: u32) {
+        let Some((bound, levels)) = self.groups.as_ref().zip(self.levels.as_ref()) else { return };
+        self.within(pass, image, |part| levels.part(part, level));
+        // The coarsest has nothing to take over.
+        if level > 0 && level + 1 < self.in_use {
+            pass.set_pipeline(&self.spread);
+            pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
+            pass.draw(0..3, 0..1);
+        }
+        pass.set_pipeline(&self.splat[usize::from(level > 0)]);
+        pass.set_bind_group(1, &bound.splat[level as usize], &[]);
+        pass.set_vertex_buffer(0, self.splats.buffer.slice(SPLAT_BYTES * self.first_splat(image, level)..));
+        pass.draw_indirect(&self.draws, DRAW_BYTES * u64::from(image * PYRAMID + level));
     }
 
     /// Adds the colour of what was added up to the picture.
@@ -235,18 +347,19 @@ impl Aurora {
         let Some(bound) = &self.groups else { return };
         pass.set_pipeline(&self.resolve);
         pass.set_bind_group(1, &bound.resolve[image as usize], &[]);
-        self.within(pass, image);
+        self.within(pass, image, |part| part);
         pass.draw(0..3, 0..1);
     }
 
-    /// Only where the image may be.
-    fn within(&self, pass: &mut wgpu::RenderPass, image: u32) {
-        if let Some(([left, top, width, height], _)) = self.images.get(image as usize) {
-            pass.set_scissor_rect(*left, *top, *width, *height);
+    /// Only where the image may be; `level` says where that is in a level.
+    fn within(&self, pass: &mut wgpu::RenderPass, image: u32, level: impl FnOnce([u32; 4]) -> [u32; 4]) {
+        if let Some((part, _)) = self.images.get(image as usize) {
+            let [left, top, width, height] = level(*part);
+            pass.set_scissor_rect(left, top, width, height);
         }
     }
 
-    /// Splats drawn in the last frame, by image: for tests and the overlay.
+    /// Splats of the last frame by image and level, as `SplatDraw` in WGSL.
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws
     }

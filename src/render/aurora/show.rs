@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::levels::PYRAMID;
 use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, veil};
 use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
-use crate::render::placements::{Motion as Movement, Object, View, emission_time, light_path, place};
+use crate::render::placements::{Motion as Movement, Object, View, against_static, departure, light_path, place};
 use crate::render::types::Placement;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
@@ -25,6 +26,8 @@ use crate::spacetime::matter::{ShipState, gamma, velocity};
 /// Rows of the history that red light waits in, and seconds between two.
 const ROWS: usize = 128;
 const ROW: f64 = 1.0;
+/// Rows that a frame of a watched aurora makes at most: four steps of the motion, some milliseconds.
+const MOST_ROWS: usize = 2;
 /// Seconds after which the rays' noise is the same again: in them it drifts by 11 and by 7 times its 1024 values (project.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
 /// Nodes of all curtains together.
@@ -46,6 +49,9 @@ const LEAST_SPLATS: u32 = 2;
 const LONGEST: f64 = 400.0;
 /// Room for splats: more are not drawn in one order.
 pub const MOST_SPLATS: usize = 1 << 20;
+
+/// Where no point is wider (pixels, one standard deviation, as if space were flat), none is put into coarser levels of the pyramid; the walk does so from 2 on.
+const NARROW: f64 = 1.0;
 
 /// What a frame shows of the aurora.
 #[derive(Clone, Debug, Default)]
@@ -80,6 +86,13 @@ pub struct Show {
     newest: f64,
     /// The rows laid out for the GPU, until they change.
     laid_out: Option<Arc<Vec<[f32; 4]>>>,
+    /// Whether it is watched as it goes: then no frame makes more than [`MOST_ROWS`], and what was missed out of sight is not made up for. Else each
+    /// frame is what its time says, whatever came before.
+    watched: bool,
+    /// Of a watched aurora: how far its time (s) is ahead of what the game's clock says.
+    offset: f64,
+    /// The pace before it was changed, until the next frame.
+    old_pace: Option<f64>,
 }
 
 /// The worldline of a planet about T = `time`, as far back as light may come from, with the axes of its model turned by `turn`.
@@ -111,7 +124,41 @@ impl Show {
             seed: config.seed,
         };
         let config = config.clone();
-        Some(Show { planet: *planet, disk, config, plan, motion: None, rows: VecDeque::new(), newest: 0.0, laid_out: None })
+        Some(Show {
+            planet: *planet,
+            disk,
+            config,
+            plan,
+            motion: None,
+            rows: VecDeque::new(),
+            newest: 0.0,
+            laid_out: None,
+            watched: false,
+            offset: 0.0,
+            old_pace: None,
+        })
+    }
+
+    /// The same, watched as it goes: no frame takes much longer than another.
+    pub fn watched(mut self) -> Show {
+        self.watched = true;
+        self
+    }
+
+    /// Goes on by other numbers. False if they ask for another aurora, or for none: then nothing has changed.
+    pub fn change(&mut self, config: &AuroraConfig) -> bool {
+        if !config.enabled || config.seed != self.config.seed {
+            return false;
+        }
+        if config.pace != self.config.pace {
+            self.old_pace.get_or_insert(self.config.pace);
+        }
+        (self.plan.field, self.plan.renewal, self.plan.contrast) = (config.field, config.renewal, config.contrast);
+        if let Some(motion) = &mut self.motion {
+            motion.change(config.field, config.renewal, config.contrast);
+        }
+        self.config = config.clone();
+        true
     }
 
     /// What the frame at T = `time` shows; None while the aurora is out of sight or too small to see, and then nothing is simulated. `back` is
@@ -156,16 +203,24 @@ impl Show {
         if frame.placements.is_empty() {
             return None;
         }
-        let ahead = self.advance(time * self.config.pace);
+        if let Some(pace) = self.old_pace.take() {
+            self.offset += time * (pace - self.config.pace);
+        }
+        let ahead = if self.watched { self.go_on(time * self.config.pace) } else { self.advance(time * self.config.pace) };
         let segments = self.segments(view, now.position, now.attitude, pixels);
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
         frame.nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
         let row = self.rows.front().map_or(0, Vec::len);
         let chords = if pixels > 200.0 { 4 } else { 2 };
+        let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.
-        let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * magnification(view, now.position, self.planet.radius);
+        let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * drawn_out;
         let splats = self.config.splats.min(((SPLATS_PER_PIXEL * length).ceil() as u32).max(LEAST_SPLATS));
         let room = (streaks as usize * splats as usize).min(MOST_SPLATS);
+        // As wide as a point may be seen where the aurora is nearest.
+        let nearest = distance - object.reach;
+        let widest = self.config.radius * scale / (nearest * view.pixel) * drawn_out;
+        let levels = if nearest <= object.reach || widest > NARROW { PYRAMID } else { 1 };
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if self.planet.aurora == AuroraShape::Oval {
             flags |= BOTH_POLES;
@@ -174,10 +229,47 @@ impl Show {
             counts: [streaks, chords, splats, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
-            electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, 0.0],
+            electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, levels as f32],
         };
         frame.segments = segments;
         (streaks > 0 && self.rows.len() > 1).then_some(frame)
+    }
+
+    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing moved; when it comes into sight again it
+    /// goes on where it was, and where the clock runs away from it, it stays behind.
+    fn go_on(&mut self, now: f64) -> f64 {
+        let now = now + self.offset;
+        if self.motion.is_none() {
+            let mut motion = Motion::new(self.plan.clone(), ((now / ROW).floor() - ROWS as f64) * ROW);
+            self.rows.clear();
+            for _ in 0..ROWS {
+                motion.pass(ROW);
+                self.keep(&motion);
+            }
+            self.motion = Some(motion);
+        }
+        if let Some(mut motion) = self.motion.take() {
+            for _ in 0..MOST_ROWS {
+                if self.newest < now {
+                    move_on(&mut motion);
+                    self.keep(&motion);
+                }
+            }
+            self.motion = Some(motion);
+        }
+        // Missed: hidden for a while, or the clock began anew.
+        let missed = if (self.newest - 2.0 * ROW..=self.newest).contains(&now) { 0.0 } else { self.newest - now };
+        self.offset += missed;
+        self.newest - (now + missed)
+    }
+
+    /// The curtains as they are now become the newest row.
+    fn keep(&mut self, motion: &Motion) {
+        let row = motion.nodes().iter().map(|node| [node.place.x as f32, node.place.y as f32, node.flux as f32, 0.0]).collect();
+        self.newest = motion.time();
+        self.rows.push_front(row);
+        self.rows.truncate(ROWS);
+        self.laid_out = None;
     }
 
     /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.
@@ -188,19 +280,14 @@ impl Show {
             self.rows.clear();
             self.motion = Some(Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW));
         }
-        let Some(motion) = &mut self.motion else { return 0.0 };
+        let Some(mut motion) = self.motion.take() else { return 0.0 };
         while self.rows.is_empty() || self.newest < now {
             if !self.rows.is_empty() {
-                for _ in 0..(ROW / STEP).round() as u32 {
-                    motion.step();
-                }
+                move_on(&mut motion);
             }
-            let row = motion.nodes().iter().map(|node| [node.place.x as f32, node.place.y as f32, node.flux as f32, 0.0]).collect();
-            self.newest = motion.time();
-            self.rows.push_front(row);
-            self.rows.truncate(ROWS);
-            self.laid_out = None;
+            self.keep(&motion);
         }
+        self.motion = Some(motion);
         self.newest - now
     }
 
@@ -256,11 +343,18 @@ impl Show {
 
     /// The lines' colours, shifted and beamed as the planet's centre is where the settings ask for it, and that part of their brightness.
     fn colours(&self, view: &View, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
-        let g = frequency_ratio(view.camera, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
+        let g = frequency_ratio(view, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
         let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g } else { 1.0 });
         // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it. Shifted lines come with g⁴ of power.
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
         kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
+    }
+}
+
+/// As many steps as there are between two rows.
+fn move_on(motion: &mut Motion) {
+    for _ in 0..(ROW / STEP).round() as u32 {
+        motion.step();
     }
 }
 
@@ -269,7 +363,7 @@ impl Show {
 fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
     let (l, r) = (view.camera.radius(), centre.length());
     let behind = -centre.dot(view.camera.position) / l;
-    if behind <= 0.0 {
+    if behind <= 0.0 || !view.settings.method.bends() {
         return 1.0;
     }
     let einstein = (2.0 * behind / (l * (l + behind))).sqrt();
@@ -280,10 +374,18 @@ fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
 }
 
 /// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives along
-/// both worldlines.
-fn frequency_ratio(camera: &Camera, time: f64, history: &History, order: u32) -> Option<f64> {
-    let order = Order::new(order as u8)?;
-    let emitted = history.at(emission_time(camera, time, history, order)?);
+/// both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all else.
+fn frequency_ratio(view: &View, time: f64, history: &History, order: u32) -> Option<f64> {
+    let (camera, order) = (view.camera, Order::new(order as u8)?);
+    let emitted = history.at(departure(view, time, history, order)?);
+    if !view.settings.method.bends() {
+        let k = (camera.position - emitted.position).normalize();
+        let frequency = |position, momentum| {
+            let p = against_static(position, momentum);
+            gamma(p) - p.dot(k)
+        };
+        return Some(frequency(camera.position, camera.momentum) / frequency(emitted.position, emitted.momentum));
+    }
     let (_, gradient) = light_path(camera, emitted.position, order, Branch::Plus)?;
     let moving = velocity(&ShipState::new(camera.position, camera.momentum));
     // A millionth of the radius: the light path is good to 1e-12 of it.

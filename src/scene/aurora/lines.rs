@@ -120,12 +120,3 @@ pub fn kilorayleigh_xyz(g: f64) -> [[f64; 3]; 4] {
         matching(seen).map(|weight| EFFICACY * weight * radiance)
     })
 }
-
-/// Linear sRGB (white D65, IEC 61966-2-1) of XYZ; negative where the colour is outside sRGB.
-pub fn rgb([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [
-        3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
-        -0.969_266_0 * x + 1.876_010_8 * y + 0.041_556_0 * z,
-        0.055_643_4 * x - 0.204_025_9 * y + 1.057_225_2 * z,
-    ]
-}

@@ -105,6 +105,17 @@ impl Motion {
         motion
     }
 
+    /// Time goes by (s) and brightness travels on, but nothing moves: an aurora that nobody has watched begins so, with a past.
+    pub fn pass(&mut self, seconds: f64) {
+        self.time += seconds;
+        self.shine();
+    }
+
+    /// Strength of the field, renewal time and contrast as in [`Plan`], from now on.
+    pub fn change(&mut self, field: f64, renewal: f64, contrast: f64) {
+        (self.plan.field, self.plan.renewal, self.plan.contrast) = (field, renewal, contrast);
+    }
+
     /// The time reached, s.
     pub fn time(&self) -> f64 {
         self.time

@@ -1,0 +1,175 @@
+//! The pyramid of pictures in which the aurora's light is added up. A wide splat goes to the level where it is one to two pixels narrow; each level
+//! is enlarged into the next finer one before the splats of that one are added. Levels but the finest have a texel of margin on each side, so that
+//! enlarging reads no texel outside.
+//!
+//! Coarse levels know no depth: only splats that are before everything in their box go there (shaders/aurora/walk.wgsl), by [`Ranges`].
+
+use wgpu::{BufferUsages, ShaderStages};
+
+use crate::render::Gpu;
+use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, layout, module, raster};
+use crate::render::shaders::Pass;
+use crate::render::targets::target;
+
+/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl. In the coarsest the widest splat (160 pixels) is 2.5 pixels wide.
+pub const PYRAMID: u32 = 7;
+/// Texels around each level but the finest.
+const MARGIN: u32 = 1;
+
+/// The levels for one size of the screen.
+#[derive(Debug)]
+pub struct Levels {
+    /// Size of the screen.
+    pub size: [u32; 2],
+    /// The light of each, the finest first.
+    pub lights: Vec<wgpu::TextureView>,
+    /// What is enlarged where there is no coarser level: black.
+    pub nothing: wgpu::TextureView,
+    /// `Level` of splat.wgsl.
+    pub places: Vec<wgpu::Buffer>,
+}
+
+/// Size of a level, without its margin.
+fn inner(size: [u32; 2], level: u32) -> [u32; 2] {
+    size.map(|side| side.div_ceil(1 << level))
+}
+
+/// Size of a level.
+fn whole(size: [u32; 2], level: u32) -> [u32; 2] {
+    let margin = if level == 0 { 0 } else { MARGIN };
+    inner(size, level).map(|side| side + 2 * margin)
+}
+
+impl Levels {
+    /// For a screen of a size.
+    pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
+        let device = &gpu.device;
+        let lights = (0..PYRAMID).map(|level| target(device, "aurora light", whole(size, level), HDR_FORMAT).1);
+        let places = (0..PYRAMID).map(|level| {
+            let place = place(size, level);
+            let uniform = buffer(device, "aurora level", size_of_val(&place) as u64, BufferUsages::UNIFORM);
+            gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&place));
+            uniform
+        });
+        Levels { size, lights: lights.collect(), nothing: target(device, "aurora nothing", [1, 1], HDR_FORMAT).1, places: places.collect() }
+    }
+
+    /// The pixels of a level that pixels of the screen (left, top, width, height) lie in, and those beside them.
+    pub fn part(&self, [left, top, width, height]: [u32; 4], level: u32) -> [u32; 4] {
+        if level == 0 {
+            return [left, top, width, height];
+        }
+        let size = whole(self.size, level);
+        // Two to each side: enlarging asks for one, and what it asks for has been enlarged itself.
+        let low = [left, top].map(|edge| ((edge >> level) + MARGIN).saturating_sub(2));
+        let high = [left + width, top + height].map(|edge| (edge >> level) + MARGIN + 3);
+        [low[0], low[1], high[0].min(size[0]) - low[0], high[1].min(size[1]) - low[1]]
+    }
+}
+
+/// From NDC of the screen to those of a level with its margin: factors and sums, then NDC per pixel of the level.
+fn place(size: [u32; 2], level: u32) -> [f32; 8] {
+    let whole = whole(size, level).map(|side| side as f32);
+    let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
+    let [width, height] = size.map(|side| side as f32 / (1u32 << level) as f32);
+    let scale = [width / whole[0], height / whole[1]];
+    // Rows go down and NDC up.
+    let offset = [(width + 2.0 * margin) / whole[0] - 1.0, 1.0 - (height + 2.0 * margin) / whole[1]];
+    [scale[0], scale[1], offset[0], offset[1], 2.0 / whole[0], 2.0 / whole[1], 0.0, 0.0]
+}
+
+/// Sizes of tiles whose depths are known, from 8 × 8 pixels on; as in walk.wgsl.
+const TILES: u32 = 6;
+const LEAST_TILE: u32 = 8;
+
+/// The least and the greatest depth of what is drawn, by tiles.
+#[derive(Debug)]
+pub struct Ranges {
+    first: wgpu::RenderPipeline,
+    next: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    /// The depth that the rest is for.
+    depth: Option<wgpu::TextureView>,
+    all: wgpu::TextureView,
+    steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+}
+
+impl Ranges {
+    /// Compiles the passes.
+    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
+        let layout = layout(device, "aurora ranges", ShaderStages::FRAGMENT, &[Slot::Depth, Slot::Numbers]);
+        let draw = |fragment| {
+            let stage = Raster { vertex: "vertex", fragment, targets: &[(FORMAT, None)], depth: None };
+            let module = module(device, "aurora ranges", Pass::AuroraRanges);
+            raster(device, "aurora ranges", &module, stage, &[Some(frame_layout), Some(&layout)])
+        };
+        let all = texture(device, [1, 1]).create_view(&Default::default());
+        Ranges { first: draw("first"), next: draw("next"), layout, depth: None, all, steps: Vec::new() }
+    }
+
+    /// Of this depth of a screen of a size. True if the texture was replaced.
+    pub fn prepare(&mut self, device: &wgpu::Device, depth: &wgpu::TextureView, size: [u32; 2]) -> bool {
+        if self.depth.as_ref() == Some(depth) {
+            return false;
+        }
+        let texture = texture(device, size);
+        self.all = texture.create_view(&Default::default());
+        let one = |step| {
+            let only = wgpu::TextureViewDescriptor { base_mip_level: step, mip_level_count: Some(1), ..Default::default() };
+            texture.create_view(&only)
+        };
+        let mut nothing = self::texture(device, [1, 1]).create_view(&Default::default());
+        self.steps.clear();
+        for step in 0..TILES {
+            let (own, finer) = (one(step), nothing);
+            let resources = [wgpu::BindingResource::TextureView(depth), wgpu::BindingResource::TextureView(&finer)];
+            let group = bind(device, "aurora ranges", &self.layout, &resources);
+            nothing = own.clone();
+            self.steps.push((own, group));
+        }
+        self.depth = Some(depth.clone());
+        true
+    }
+
+    /// The texture, all sizes of tiles.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.all
+    }
+
+    /// Finds them, after all that has depth has been drawn. `frame` is the group of the frame.
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup) {
+        for (step, (view, group)) in self.steps.iter().enumerate() {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("aurora ranges"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(if step == 0 { &self.first } else { &self.next });
+            pass.set_bind_group(0, frame, &[]);
+            pass.set_bind_group(1, group, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
+
+/// Ranges of a screen of a size, for all sizes of tiles; a whole number of the widest.
+fn texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Texture {
+    let [width, height] = size.map(|side| side.next_multiple_of(LEAST_TILE << (TILES - 1)) / LEAST_TILE);
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("aurora ranges"),
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: TILES,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
