@@ -533,8 +533,7 @@ fn a_small_picture_has_the_light_of_a_large_one() {
 /// Where there is no room for all arcs, what is drawn is whole: no triangle of an earlier frame, none that points nowhere; and it is counted.
 #[test]
 fn a_full_disk_is_drawn_coarser_and_says_so() {
-    // Wide, so that neither rings nor cuts are drawn together; low, so that little is shaded.
-    let mut renderer = renderer([4096, 8]);
+    let mut renderer = renderer([1024, 576]);
     drawn(&mut renderer, &a_disk(), camera(27.0, 80.0, 1.0));
     let mut config = GameConfig::default();
     config.disk.arcs = 50_000;

@@ -39,7 +39,7 @@ fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, f32(THIN_TAPS));
     let along = along_of(at, THIN_TAPS);
     let level = far_level(at);
-    let unseen = unseen_of(in, unseen_variance(f32(level)));
+    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
     var sum = 0.0;
     var squares = 0.0;
     for (var k = 0u; k < along.taps; k++) {

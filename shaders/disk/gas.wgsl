@@ -8,10 +8,10 @@
 @group(2) @binding(2) var near_pattern: texture_2d<f32>;
 @group(2) @binding(3) var near_sampler: sampler;
 
-/// Texels of the pattern, as src/scene/disk/noise.rs has it.
+/// Texels of the pattern that sizes of pixels are told in: every other column of the lattice of src/scene/disk/noise.rs, and its rows.
 const PATTERN_SIZE: vec2<f32> = vec2<f32>(512.0, 512.0);
-/// The same along one side: a power of two, so that a place is brought back into the pattern by a mask.
-const PATTERN_SIDE: i32 = 512;
+/// Texels of the finest level from far, on either side: a power of two, so that a place is brought back into the pattern by a mask.
+const FAR_SIDE: u32 = 1024u;
 
 /// What a pixel needs to know. Two generations of streaks are seen at a time, an even and an odd one; by turns each is the younger. So both go smoothly
 /// over a triangle, but for the moment when one dies and the next but one is born, and then its share is nothing. All that is the same for a whole frame
@@ -92,11 +92,10 @@ fn streaks_of(in: Gas, most: f32) -> Streaks {
 
 /// The pattern from far, of a level, over 8.
 fn far_value(place: vec2<f32>, level: u32) -> f32 {
-    let size = PATTERN_SIZE * bitcast<f32>((127u - level) << 23u);
-    let texel = place * size - 0.5;
+    let texel = place * (f32(FAR_SIDE) * bitcast<f32>((127u - level) << 23u)) - 0.5;
     let whole = floor(texel);
     let t = texel - whole;
-    let v = textureLoad(far_pattern, vec2<i32>(whole) & vec2<i32>((PATTERN_SIDE >> level) - 1), i32(level));
+    let v = textureLoad(far_pattern, vec2<i32>(whole) & vec2<i32>(i32(FAR_SIDE >> level) - 1), i32(level));
     let row = mix(v.xz, v.yw, vec2<f32>(t.x));
     return mix(row.x, row.y, t.y) - 0.5;
 }
@@ -116,9 +115,9 @@ fn unseen_variance(level: f32) -> f32 {
     return 0.05 * clamp(1.0 + 0.33 * level, 0.0, 1.0) + 1.0725 * (t * t * (3.0 - 2.0 * t));
 }
 
-/// The level of the pattern that a pixel takes from far: log₂ of its side, rounded, from the exponent of its square.
+/// The level of the pattern that a pixel takes from far: log₂ of its side in texels of the finest one, rounded, from the exponent of its square.
 fn far_level(at: Streaks) -> u32 {
-    return (bitcast<u32>(max(at.square, 1.0)) - (126u << 23u)) >> 24u;
+    return (bitcast<u32>(max(at.square, 0.25)) - (124u << 23u)) >> 24u;
 }
 
 /// The power of two by which the streaks of both generations cool the gas, from far.
@@ -129,7 +128,7 @@ fn far_power(in: Gas, at: Streaks, level: u32) -> f32 {
 /// The streaks of both generations from far.
 fn far_cooling(in: Gas, at: Streaks) -> Cooling {
     let level = far_level(at);
-    return Cooling(far_power(in, at, level), unseen_of(in, unseen_variance(f32(level))));
+    return Cooling(far_power(in, at, level), unseen_of(in, unseen_variance(f32(level) - 1.0)));
 }
 
 /// A pixel that is long in the pattern, looked up at several places along it.

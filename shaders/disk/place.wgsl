@@ -158,7 +158,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         shown = mix(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y / max(slant, 1e-6)), shown, smoothstep(MEAN.x, MEAN.y, thin.y));
     }
     // Close by, the slant is worked out in each pixel.
-    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, disk.room.y != 0u));
+    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, order <= disk.room.y));
     vertex.more = vec4<f32>(ln_g, cosine, thin);
     return vertex;
 }

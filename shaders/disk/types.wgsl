@@ -17,7 +17,7 @@ struct DiskFrame {
     sizes: vec4<u32>,
     /// x, y, z: first index of order 1, 2, 3; w: the end of order 3.
     regions: vec4<u32>,
-    /// x: vertices that there is room for; y: 1 for a close look (finest octaves, slant in each pixel); z: half height over radius
+    /// x: vertices that there is room for; y: orders up to this one have a close look (finest octaves, slant in each pixel); z: half height over radius
     /// (bits of an f32); w unused.
     room: vec4<u32>,
     /// x: radius of a sprite in r_s; y: the scene's unit of light over the black body's; z, w unused.

@@ -40,7 +40,8 @@ pub struct ArcPass {
     groups: Option<(wgpu::BindGroup, wgpu::BindGroup)>,
     /// Threads of the stages over grid, segments, arcs.
     threads: [u32; 3],
-    close: bool,
+    /// Orders up to this one have a close look.
+    close: u32,
 }
 
 impl ArcPass {
@@ -88,7 +89,7 @@ impl ArcPass {
             draw_layout,
             groups: None,
             threads: [0; 3],
-            close: false,
+            close: 0,
             group_layout,
         }
     }
@@ -163,10 +164,10 @@ impl ArcPass {
         pass.set_bind_group(1, group, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for order in (0..3).rev() {
-            pass.set_pipeline(match (self.close, order) {
-                (true, _) => &self.near,
-                (false, 0) => &self.far,
-                (false, _) => &self.thin,
+            pass.set_pipeline(match order {
+                order if order < u64::from(self.close) => &self.near,
+                0 => &self.far,
+                _ => &self.thin,
             });
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + order * types::ARGUMENTS_DRAW_STEP);
         }

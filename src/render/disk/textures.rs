@@ -1,8 +1,10 @@
 //! The pattern of the gas as textures.
 
 use crate::render::Gpu;
+use std::sync::LazyLock;
+
 use crate::scene::disk::DETAIL;
-use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH};
+use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH, streaks};
 
 /// The greatest value of the pattern with its finest octaves, either way: what is beyond, one texel of 10⁴, counts as that.
 const GREATEST: f32 = 4.0;
@@ -44,7 +46,7 @@ impl Textures {
             ..Default::default()
         });
         Textures {
-            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &halvings(narrower()), &bytes),
+            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &FAR, &bytes),
             near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
             near_sampler,
         }
@@ -53,6 +55,30 @@ impl Textures {
 
 /// One level: width, height, values.
 type Level = (u32, u32, Vec<f32>);
+
+/// What the texture from far holds: [`finer`], and below it [`narrower`] with its halvings.
+static FAR: LazyLock<Vec<Level>> = LazyLock::new(|| std::iter::once(finer()).chain(halvings(narrower())).collect());
+
+/// The pattern with its finest octaves in texels half as large as those of [`narrower`]: so that from ten r_s, where a close look takes over, as much is
+/// seen on either side.
+fn finer() -> Level {
+    let (width, height) = (WIDTH, 2 * HEIGHT);
+    let finer = DETAIL.0 as usize;
+    // A texel holds the mean of as many lattice points of the finest octaves: so many columns, half as many rows.
+    let (columns, rows) = (finer, finer / 2);
+    let (w, h) = (WIDTH / columns, HEIGHT / rows);
+    let mean = |k: usize| -> f32 {
+        let (x, y) = (k % w * columns, k / w * rows);
+        let sum: f32 = (y..y + rows).map(|y| LATTICE[y * WIDTH + x..][..columns].iter().sum::<f32>()).sum();
+        sum / (columns * rows) as f32
+    };
+    let detail: Vec<f32> = (0..w * h).map(mean).collect();
+    let at = |x: usize, y: usize| {
+        let [turns, up] = [(x, width), (y, height)].map(|(k, n)| (k as f64 + 0.5) / n as f64);
+        streaks(turns, up) as f32 + DETAIL.1 as f32 * detail[y % h * w + x % w]
+    };
+    (width as u32, height as u32, (0..width * height).map(|k| at(k % width, k / width).clamp(-GREATEST, GREATEST)).collect())
+}
 
 /// The pattern with its finest octaves, halved round the hole: its cells are long that way, and the less memory, the more of it stays near the processor.
 fn narrower() -> Level {

@@ -47,8 +47,11 @@ const FIT_POINTS: u32 = 8;
 const LEAST_WEIGHT: f64 = 1e-4;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
 const LEAST_ARC: f64 = 128.0;
-/// Nearer to the disk than this, in r_s, the pattern is looked up without a grain and the slant in each pixel.
-const CLOSE: f64 = 3.0;
+/// Nearer to the disk than this, in r_s, the pattern of order 1 is looked up without a grain and the slant in each pixel: from there on a texel of the
+/// pattern from far is hardly larger than a pixel of the default picture.
+const CLOSE: f64 = 10.0;
+/// The same for orders 2 and 3, whose images are narrow until the disk is all round: from far they are looked up at more places.
+const CLOSE_BEHIND: f64 = 3.0;
 /// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
 const DETOUR: f64 = 60.0;
 
@@ -65,8 +68,8 @@ pub struct DiskView {
     pub cuts: Vec<f32>,
     /// Rows on either side of each ring, and its order.
     pub rings: Vec<[u32; 4]>,
-    /// Whether the camera is so near that fine structure is seen.
-    pub close: bool,
+    /// Orders up to this one are so near that fine structure is seen; 0 from far.
+    pub close: u32,
 }
 
 impl DiskView {
@@ -82,7 +85,8 @@ impl DiskView {
         let upwards = DVec3::Z * level - towards * n.z;
         let [_, end] = disk.gas.extent();
         let origin = towards.y.atan2(towards.x);
-        let close = camera.position.z.abs() < CLOSE && l < end + CLOSE;
+        let near = |limit: f64| camera.position.z.abs() < limit && l < end + limit;
+        let close = if near(CLOSE_BEHIND) { 3 } else { u32::from(near(CLOSE)) };
 
         let mut circles = Vec::new();
         let mut samples = Vec::new();
@@ -95,14 +99,14 @@ impl DiskView {
             }
             let first = circles.len() as u32;
             let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
-            let (rows, pairs) = rows(disk, camera, &seen, width, order, if close { FROM_NEAR } else { FROM_FAR });
+            let (rows, pairs) = rows(disk, camera, &seen, width, order, if order <= close { FROM_NEAR } else { FROM_FAR });
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
                 samples.extend(equal_shares(&seen).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
-            if disk.config.gap <= 0.0 && !close {
+            if disk.config.gap <= 0.0 && order > close {
                 straighten(disk, &rows, &mut own);
             }
             circles.extend(own);
@@ -127,7 +131,7 @@ impl DiskView {
                 gas: [disk.gas.contrast as f32, 0.0, disk.config.error_budget as f32, disk.min_width as f32],
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
-                room: [0, u32::from(close), (disk.gas.thickness as f32).to_bits(), 0],
+                room: [0, close, (disk.gas.thickness as f32).to_bits(), 0],
                 sprites: [(0.7 * disk.sprite_radius()) as f32, DISK_UNIT as f32, 0.0, 0.0],
                 offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
             },
