@@ -63,16 +63,19 @@ struct Streaks {
 /// seen edge on became dashes), less would blur what is seen well.
 const LONGEST: f32 = 4.0;
 
-/// The square of the side of a texel for a pixel at `place` in the pattern, in texels.
-fn square_of(place: vec2<f32>, share: f32) -> f32 {
+/// The square of the side of a texel for a pixel at `place` in the pattern, in texels: the pixel's area, or where it is looked up at several places
+/// `along` it, half the square of its width, as a texel shows more than itself; `share` of its length's at least.
+fn square_of(place: vec2<f32>, share: f32, along: bool) -> f32 {
     let a = dpdx(place);
     let b = dpdy(place);
-    return max(abs(a.x * b.y - a.y * b.x), max(dot(a, a), dot(b, b)) * share);
+    let area = abs(a.x * b.y - a.y * b.x);
+    let long = max(dot(a, a), dot(b, b));
+    return max(select(area, 0.5 * area * area / max(long, 1e-30), along), long * share);
 }
 
 /// Where in the pattern a pixel is, in both generations, and how much of it it covers. A pixel that is more than `most` times as long as wide has
 /// texels of that part of its length.
-fn streaks_of(in: Gas, most: f32) -> Streaks {
+fn streaks_of(in: Gas, most: f32, along: bool) -> Streaks {
     // Neighbours outside the triangle may be anywhere; their places are part of the differences.
     let height = 0.25 * log2(max(in.slope.w, 1.0));
     let rate = disk_rate(height);
@@ -84,8 +87,8 @@ fn streaks_of(in: Gas, most: f32) -> Streaks {
     let even_shows = in.even.w > LEAST_SHARE * in.odd.w;
     let odd_shows = in.odd.w > LEAST_SHARE * in.even.w;
     // Differences of each by itself: neighbouring pixels may choose differently.
-    let even = square_of(result.even * PATTERN_SIZE, share);
-    let odd = square_of(result.odd * PATTERN_SIZE, share);
+    let even = square_of(result.even * PATTERN_SIZE, share, along);
+    let odd = square_of(result.odd * PATTERN_SIZE, share, along);
     result.square = select(odd, even, even_shows & (!odd_shows | (in.even.z < in.odd.z)));
     return result;
 }
@@ -136,15 +139,18 @@ struct Along {
     /// Its longest side, in both generations.
     even: vec2<f32>,
     odd: vec2<f32>,
-    /// At how many places: no more than one for each texel.
+    /// Its length in texels of the pattern.
+    texels: f32,
+    /// At how many places.
     taps: u32,
 }
 
-fn along_of(at: Streaks, most: u32) -> Along {
+/// At a place for every `step` texels of the pattern, up to `most`.
+fn along_of(at: Streaks, step: f32, most: u32) -> Along {
     let even = longest_side(at.even);
     let odd = longest_side(at.odd);
     let texels = sqrt(max(dot(even, even), dot(odd, odd))) * PATTERN_SIZE.x;
-    return Along(even, odd, u32(clamp(ceil(texels), 1.0, f32(most))));
+    return Along(even, odd, texels, u32(clamp(ceil(texels / max(step, 1e-6)), 1.0, f32(most))));
 }
 
 fn longest_side(place: vec2<f32>) -> vec2<f32> {
@@ -162,6 +168,22 @@ fn streaks_along(at: Streaks, along: Along, k: u32) -> Streaks {
 /// The variance of ln T for that of the pattern, in units of log₂ in `even` and `odd`.
 fn unseen_of(in: Gas, variance: f32) -> f32 {
     return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
+}
+
+/// The streaks of both generations from far, along a pixel: what is seen there has one colour, by its mean and its variance, as what is not seen at all.
+fn far_along(in: Gas, at: Streaks, along: Along) -> Cooling {
+    let level = far_level(at);
+    var sum = 0.0;
+    var squares = 0.0;
+    for (var k = 0u; k < along.taps; k++) {
+        let power = far_power(in, streaks_along(at, along, k), level);
+        sum += power;
+        squares += power * power;
+    }
+    let share = 1.0 / f32(along.taps);
+    let mean = sum * share;
+    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
+    return Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
 /// Light and opacity of gas that streaks cool: premultiplied. Its density is the fourth power of its temperature, and light goes as
