@@ -2,7 +2,7 @@
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use super::levels::{Levels, PYRAMID, Ranges};
+use super::levels::{Levels, PYRAMID, Ranges, light_format};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -138,6 +138,7 @@ impl Aurora {
             operation: wgpu::BlendOperation::Add,
         };
         let sum = Some(wgpu::BlendState { color: one, alpha: one });
+        let light = light_format(device);
         let draw = |label, pass, targets: &[_], depth, own| {
             let stage = Raster { vertex: "vertex", fragment: "fragment", targets, depth };
             raster(device, label, &module(device, label, pass), stage, &[Some(frame_layout), Some(own)])
@@ -146,7 +147,7 @@ impl Aurora {
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
         let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
         let splat = |depth| {
-            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, sum)], depth };
+            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
             raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[SPLAT])
         };
         Aurora {
@@ -155,7 +156,7 @@ impl Aurora {
             walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
             ranges: Ranges::new(device, frame_layout),
             splat: [Some(false), None].map(splat),
-            spread: draw("aurora spread", Pass::AuroraSpread, &[(HDR_FORMAT, None)], None, &spread_layout),
+            spread: draw("aurora spread", Pass::AuroraSpread, &[(light, None)], None, &spread_layout),
             resolve: draw("aurora resolve", Pass::AuroraResolve, &[(HDR_FORMAT, sum)], None, &resolve_layout),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
             placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
