@@ -45,18 +45,20 @@ struct ChordEnd {
     north: vec4<f32>,
 }
 
-struct Splat {
-    /// x, y: centre in NDC, z: depth, w: kR in its middle.
-    place: vec4<f32>,
-    /// Two half axes of its ellipse, pixels of its level (x right, y up), one standard deviation.
-    axes: vec4<f32>,
-    /// Share of each line.
-    lines: vec4<f32>,
+/// One of the three corners of a splat, as a vertex. Drawn without instances: a driver spends more on an instance than on its three vertices.
+struct Corner {
+    /// NDC of the screen, and depth.
+    x: f32,
+    y: f32,
+    depth: f32,
+    /// kR in the splat's middle: the first two lines and the others, in halves.
+    light: array<u32, 2>,
 }
 
 struct SplatDraw {
-    vertices: u32,
-    instances: atomic<u32>,
+    /// Three of each splat.
+    vertices: atomic<u32>,
+    instances: u32,
     first_vertex: u32,
     first_instance: u32,
 }
@@ -69,7 +71,8 @@ struct SplatDraw {
 /// Photons by row (ROWS × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
-@group(1) @binding(6) var<storage, read_write> splats: array<Splat>;
+/// Three of each splat.
+@group(1) @binding(6) var<storage, read_write> corners: array<Corner>;
 /// By placement and level.
 @group(1) @binding(7) var<storage, read_write> splat_draws: array<SplatDraw>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;

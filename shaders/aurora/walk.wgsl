@@ -105,7 +105,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     } else {
         lines.z = photons.z;
     }
-    let count = min(aurora.counts.z, arrayLength(&splats));
+    let count = min(aurora.counts.z, arrayLength(&corners));
     let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
     // A streak of twice the energy stands for half as many electrons: the flux of energy is what is given.
     let power = light * streak.share * segment.light.x / f32(count);
@@ -198,15 +198,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             level = select(0u, level, place.z >= range.y);
         }
         // Where a coarse level is full, the finest takes over.
-        var slot = atomicAdd(&splat_draws[id.y * PYRAMID + level].instances, 1u);
+        var slot = atomicAdd(&splat_draws[id.y * PYRAMID + level].vertices, 3u) / 3u;
         let coarse_room = aurora.history.z / 8u;
         if (level > 0u) & (slot >= coarse_room) {
-            atomicSub(&splat_draws[id.y * PYRAMID + level].instances, 1u);
+            atomicSub(&splat_draws[id.y * PYRAMID + level].vertices, 3u);
             level = 0u;
-            slot = atomicAdd(&splat_draws[id.y * PYRAMID].instances, 1u);
+            slot = atomicAdd(&splat_draws[id.y * PYRAMID].vertices, 3u) / 3u;
         }
         if (level == 0u) & (slot >= aurora.history.z) {
-            atomicSub(&splat_draws[id.y * PYRAMID].instances, 1u);
+            atomicSub(&splat_draws[id.y * PYRAMID].vertices, 3u);
             return;
         }
         // Enlarging widens it, so it is added narrower by that.
@@ -215,7 +215,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let wide = size * vec2<f32>(major, minor);
         let narrower = sqrt(wide * wide - widening);
         let shrink = narrower / wide;
+        let kilorayleighs = lines * (peak / (shrink.x * shrink.y));
+        let halves = array<u32, 2>(pack2x16float(kilorayleighs.xy), pack2x16float(kilorayleighs.zw));
+        let ndc = axes * shrink.xxyy * 2.0 / frame.size.xyxy;
         let first_of_level = id.y * (aurora.history.z + coarsest * coarse_room) + select(0u, aurora.history.z + (level - 1u) * coarse_room, level > 0u);
-        splats[first_of_level + slot] = Splat(vec4<f32>(place, peak / (shrink.x * shrink.y)), axes * size * shrink.xxyy, lines);
+        for (var k = 0u; k < 3u; k++) {
+            let corner = corner_of(k);
+            let at = place.xy + ndc.xy * corner.x + ndc.zw * corner.y;
+            corners[3u * (first_of_level + slot) + k] = Corner(at.x, at.y, place.z, halves);
+        }
     }
 }

@@ -75,15 +75,15 @@ impl Levels {
     }
 }
 
-/// From NDC of the screen to those of a level with its margin: factors and sums, then NDC per pixel of the level.
-fn place(size: [u32; 2], level: u32) -> [f32; 8] {
+/// From NDC of the screen to those of a level with its margin: factors and sums.
+fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     let whole = whole(size, level).map(|side| side as f32);
     let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
     let [width, height] = size.map(|side| side as f32 / (1u32 << level) as f32);
     let scale = [width / whole[0], height / whole[1]];
     // Rows go down and NDC up.
     let offset = [(width + 2.0 * margin) / whole[0] - 1.0, 1.0 - (height + 2.0 * margin) / whole[1]];
-    [scale[0], scale[1], offset[0], offset[1], 2.0 / whole[0], 2.0 / whole[1], 0.0, 0.0]
+    [scale[0], scale[1], offset[0], offset[1]]
 }
 
 /// Sizes of tiles whose depths are known, from 8 × 8 pixels on; as in walk.wgsl.

@@ -17,10 +17,11 @@ use crate::scene::aurora::quantiles::Quantiles;
 
 /// Image orders that may show it.
 const ORDERS: usize = 3;
-/// Bytes of `ChordEnd` and `Splat` in WGSL.
+/// Bytes of `ChordEnd`, `Reference`, and of a splat's three `Corner`s in WGSL.
 const CHORD_END_BYTES: u64 = 48;
 const REFERENCE_BYTES: u64 = 64;
-const SPLAT_BYTES: u64 = 48;
+const SPLAT_BYTES: u64 = 3 * CORNER_BYTES;
+const CORNER_BYTES: u64 = 20;
 /// Bytes of `SplatDraw`.
 const DRAW_BYTES: u64 = 16;
 /// Entries of the tabulated Gaussian, for r²/σ² from 0 to 9.
@@ -29,16 +30,16 @@ const GAUSSIAN: usize = 256;
 /// A coarse level has room for this part of the splats of the finest; as in walk.wgsl.
 const COARSE_ROOM: u64 = 8;
 
-/// `Splat` in WGSL.
-const SPLAT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
-    array_stride: SPLAT_BYTES,
-    step_mode: wgpu::VertexStepMode::Instance,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4],
+/// `Corner` in WGSL.
+const CORNER: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: CORNER_BYTES,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float16x4],
 };
 
 /// Draw arguments of each image and level: nothing as yet.
 fn no_splats() -> [[u32; 4]; ORDERS * PYRAMID as usize] {
-    [[3, 0, 0, 0]; _]
+    [[0, 1, 0, 0]; _]
 }
 
 /// The Gaussian by r²/σ² from 0 to 9, and 0 at the end. A texture, as a software driver reads buffers number by number.
@@ -148,7 +149,7 @@ impl Aurora {
         let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
         let splat = |depth| {
             let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
-            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[SPLAT])
+            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[CORNER])
         };
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
