@@ -4,7 +4,7 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: splats of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: rows of the history, y: segments, z: room for splats of one placement in the finest level, an eighth of it in each of the others, w: AURORA_*.
+    /// x: rows of the history, y: segments, z: room for splats of one placement in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
@@ -55,14 +55,6 @@ struct Corner {
     light: array<u32, 2>,
 }
 
-struct SplatDraw {
-    /// Three of each splat.
-    vertices: atomic<u32>,
-    instances: u32,
-    first_vertex: u32,
-    first_instance: u32,
-}
-
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
 @group(1) @binding(1) var<storage, read> aurora_placements: array<Placement>;
 /// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean.
@@ -73,8 +65,8 @@ struct SplatDraw {
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
 /// Three of each splat.
 @group(1) @binding(6) var<storage, read_write> corners: array<Corner>;
-/// By placement and level.
-@group(1) @binding(7) var<storage, read_write> splat_draws: array<SplatDraw>;
+/// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then splats in each pair of levels.
+@group(1) @binding(7) var<storage, read_write> splat_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
 /// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;

@@ -27,6 +27,7 @@ const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
 const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
 const ENLARGE: &str = include_str!("../../shaders/aurora/enlarge.wgsl");
 const CORNER: &str = include_str!("../../shaders/aurora/corner.wgsl");
+const ROOMS: &str = include_str!("../../shaders/aurora/rooms.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
@@ -191,7 +192,7 @@ impl Pass {
             Pass::AuroraSplat => vec![CORNER],
             Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STREAKS],
             Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STREAKS],
-            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STREAKS, CORNER],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STREAKS, CORNER, ROOMS],
             Pass::AuroraRanges => vec![],
             Pass::AuroraSpread | Pass::AuroraResolve => vec![ENLARGE],
             Pass::Compose => vec![COVERAGE],
