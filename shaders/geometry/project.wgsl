@@ -85,6 +85,11 @@ fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
     return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
 }
 
+/// The inverse of `normal_of`.
+fn in_body_axes(placement: Placement, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(placement.turn_x.xyz, v), dot(placement.turn_y.xyz, v), dot(placement.turn_z.xyz, v));
+}
+
 /// A body offset on the slice at T₀.
 fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
     return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
