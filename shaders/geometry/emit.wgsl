@@ -15,23 +15,31 @@ fn pixels(clip: vec4<f32>) -> vec2<f32> {
     return clip.xy / clip.w * 0.5 * frame.size.xy;
 }
 
-/// Grows a thin triangle: every corner moves away from the centroid until no half-width is under half the least width.
-fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, height: f32, length_along: f32) -> vec2<f32> {
+/// Sides and heights shorter than this are lengthened only as much as one of this length would be, in pixels: f32 pixels (3e-5 at 500) do not say them
+/// well enough.
+const LEAST_ALONG: f32 = 0.05;
+const LEAST_HEIGHT: f32 = 1e-3;
+
+/// By how much a thin triangle is drawn longer and higher than it is: to the least width.
+fn stretched(length_along: f32, height: f32) -> vec2<f32> {
     let least = frame.side_a.w;
+    return vec2<f32>(max(1.0, least / max(length_along, LEAST_ALONG)), least / max(height, LEAST_HEIGHT));
+}
+
+/// Grows a thin triangle about its centroid, along a direction and across it.
+fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f32>) -> vec2<f32> {
     let across = vec2<f32>(-direction.y, direction.x);
     let v = p - centre;
-    let along_part = dot(v, direction) * max(1.0, least / max(length_along, 0.05));
-    let across_part = dot(v, across) * min(least / max(height, 1e-3), 1e3);
-    return centre + direction * along_part + across * across_part;
+    return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
 }
 
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
 /// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
-/// `outward_normal`, `turn` its `turn_on_screen`.
+/// `outward_normal`, `turn` its `turn_on_screen`, `seen_from` tells which directions see it.
 ///
 /// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
 /// with the sense in which the corners run, and over all triangles what was covered twice cancels.
-fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32) -> bool {
+fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) -> bool {
     if (placement.triangles.w & PLACEMENT_THIN) == 0u {
         return false;
     }
@@ -51,7 +59,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return false;
     }
     // Coverage adds up to the truth only if each line of sight meets one layer: back faces of closed bodies are left out.
-    if dot(outward, seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz) < 0.0 {
+    let leaving = seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz;
+    if dot(outward, leaving) < 0.0 {
         return true;
     }
     let a = p1 - p0;
@@ -67,7 +76,13 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
     }
     direction = direction / along;
     let sense = select(1.0, sign(turned) * turn, turn != 0.0);
-    let coverage = sense * height * min(along, frame.side_a.w) / (frame.side_a.w * frame.side_a.w);
+    let stretch = stretched(along, height);
+    // What it truly covers of what is drawn; and of one layer, as far as no other part of the model stands before it.
+    let part = seen_part(seen_from, in_body_axes(placement, outward), in_body_axes(placement, leaving / max(length(leaving), 1e-20)));
+    let coverage = sense * part / (stretch.x * stretch.y);
+    if coverage == 0.0 {
+        return true;
+    }
     let slot = atomicAdd(&counters.thin, 3u);
     if slot + 3u > frame.capacity.w {
         atomicSub(&counters.thin, 3u);
@@ -75,15 +90,15 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
     }
     let centre = (p0 + p1 + p2) / 3.0;
     let scale = 2.0 / frame.size.xy;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, height, along) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, 0.0, 0.0));
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, height, along) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, 0.0, 0.0));
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, height, along) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, 0.0, 0.0));
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, 0.0, 0.0));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, 0.0, 0.0));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, 0.0, 0.0));
     return true;
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32) {
-    if emit_thin(i0, i1, i2, placement, outward, turn) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) {
+    if emit_thin(i0, i1, i2, placement, outward, turn, seen_from) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
@@ -218,7 +233,7 @@ fn hand_over(queue: u32) {
             let placement = placement_at(piece.what.x);
             let triangle = model_triangles[piece.what.y];
             let corners = triangle.vertices.xyz + vec3<u32>(placement.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz), turn_on_screen(placement, triangle));
+            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz), turn_on_screen(placement, triangle), triangle.edges.w);
         }
     }
 }

@@ -67,6 +67,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let placement = placement_at(what.x);
     let outward = outward_normal(placement, model_triangles[what.y], placement.offset.xyz);
     let turn = turn_on_screen(placement, model_triangles[what.y]);
+    let seen_from = model_triangles[what.y].edges.w;
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
     for (var k = lane; k < place.w; k += 32u) {
@@ -96,7 +97,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
         }
         let slot = place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement, outward, turn) {
+        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement, outward, turn, seen_from) {
             b = a;
             c = a;
         }

@@ -85,6 +85,11 @@ fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
     return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
 }
 
+/// The inverse of `normal_of`.
+fn in_body_axes(placement: Placement, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(placement.turn_x.xyz, v), dot(placement.turn_y.xyz, v), dot(placement.turn_z.xyz, v));
+}
+
 /// A body offset on the slice at T₀.
 fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
     return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
@@ -140,9 +145,11 @@ fn query_body(body: vec3<f32>) -> Query {
 
 /// Most steps on the emission time. Newton squares the error, which starts as the part of c at which the object turns or accelerates while light
 /// crosses it, so two or three do; next to the horizon the first guesses may have no ray at all, and halving comes before Newton. Of what falls
-/// inside beside the camera, seen by light of hardly any energy, some points need 16: the delay goes there as the root of the time that is left until
-/// there is no ray.
-const EMISSION_STEPS: u32 = 24u;
+/// inside beside the camera, seen by light of hardly any energy, most points of a ship need eight to 18, and a few between 24 and 40: the delay goes
+/// there as the root of the time that is left until there is no ray, so halving alone comes near it.
+const EMISSION_STEPS: u32 = 40u;
+/// The longest step back in search of a ray, in r_s/c: beyond it f32 overflows in the fourth power.
+const FARTHEST_BACK: f32 = 1e5;
 /// Before any time, and after all.
 const NEVER: f32 = 3e38;
 
@@ -185,7 +192,7 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         if !result.ray.valid && i < steps {
             // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
             late = s;
-            back = select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0);
+            back = min(select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0), FARTHEST_BACK);
             s = select(s - back, 0.5 * (early + s), early > -NEVER);
             // The last look is at a time that has a ray.
             s = select(s, early, i + 1u == steps && early > -NEVER);

@@ -12,6 +12,7 @@ pub mod device;
 pub mod disk;
 pub mod frame;
 pub mod geometry;
+pub mod hiding;
 pub mod layout;
 pub mod method;
 pub mod models;

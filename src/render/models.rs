@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::scene::model::{Image, Model};
 
 use super::Gpu;
+use super::hiding::seen_from;
 use super::layout::Growing;
 use super::outside::{AGAINST, ALONG, OPEN, sides};
 use super::types::{Material, ModelTriangle, ModelVertex};
@@ -72,7 +73,8 @@ impl Prepared {
         let mut edges = Vec::new();
         let mut numbers: HashMap<[u32; 2], u32> = HashMap::new();
         let mut triangles = Vec::with_capacity(model.triangles.len());
-        for ((triangle, &material), side) in model.triangles.iter().zip(&model.triangle_materials).zip(sides(model)) {
+        let known = sides(model).into_iter().zip(seen_from(model));
+        for ((triangle, &material), (side, seen)) in model.triangles.iter().zip(&model.triangle_materials).zip(known) {
             let mut v = triangle.map(|vertex| place[&(vertex, material)]);
             let side = if in_turn(v) || side == OPEN { side } else { side ^ (ALONG | AGAINST) };
             v.sort_unstable();
@@ -87,7 +89,7 @@ impl Prepared {
             };
             triangles.push(ModelTriangle {
                 vertices: [v[0], v[1], v[2], side],
-                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), 0],
+                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), seen],
             });
         }
         find_opposite(&vertices, &triangles, &mut edges);

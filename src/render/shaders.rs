@@ -17,6 +17,7 @@ const SKY: &str = include_str!("../../shaders/functions/sky.wgsl");
 const SKY_DIRECTION: &str = include_str!("../../shaders/sky/direction.wgsl");
 const COLOUR: &str = include_str!("../../shaders/functions/colour.wgsl");
 const COVERAGE: &str = include_str!("../../shaders/functions/coverage.wgsl");
+const HIDING: &str = include_str!("../../shaders/functions/hiding.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PLACEMENT: &str = include_str!("../../shaders/geometry/placement.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
@@ -184,7 +185,7 @@ impl Pass {
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
-            Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([EMIT]).collect(),
+            Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, EMIT]).collect(),
             Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],

@@ -1,0 +1,119 @@
+//! Which triangles other parts of a model hide, seen from 32 directions around it.
+//!
+//! A thin image has no depth: it is drawn by the areas of its triangles, and of what stands inside or behind another part those would count too.
+//! So each triangle knows from where it is seen past the rest of its model, as a depth map from each direction tells.
+
+use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+
+use crate::scene::model::Model;
+
+/// Directions, a bit for each.
+pub const DIRECTIONS: u32 = 32;
+/// Cells along each side of a depth map.
+const SIDE: usize = 256;
+/// Points of a triangle that are looked at, as weights of its corners: the middles of its four quarters. It counts as seen if half of them are.
+const POINTS: [[f32; 3]; 4] = [
+    [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
+    [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
+    [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0],
+    [1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0],
+];
+
+/// Direction `k` of [`DIRECTIONS`] (unit): the corners of an icosahedron and of the dodecahedron between; the twin of `direction_of` in
+/// `shaders/functions/hiding.wgsl`.
+pub fn direction_of(k: u32) -> Vec3 {
+    let sign = |bit: u32| if k & bit != 0 { -1.0 } else { 1.0 };
+    if k < 8 {
+        return Vec3::new(sign(1), sign(2), sign(4)) / 3f32.sqrt();
+    }
+    let golden = 0.5 * (1.0 + 5f32.sqrt());
+    let icosahedron = k < 20;
+    let long = if icosahedron { golden } else { golden * golden };
+    let [short, long] = (Vec2::new(1.0, long).normalize() * Vec2::new(sign(1), sign(2))).to_array();
+    match ((k - 8) / 4 % 3, icosahedron) {
+        (0, true) => Vec3::new(0.0, short, long),
+        (1, true) => Vec3::new(short, long, 0.0),
+        (_, true) => Vec3::new(long, 0.0, short),
+        (0, false) => Vec3::new(short, 0.0, long),
+        (1, false) => Vec3::new(0.0, long, short),
+        (_, false) => Vec3::new(long, short, 0.0),
+    }
+}
+
+/// For each triangle of the model, in its order, a bit for each direction from which it is seen.
+pub fn seen_from(model: &Model) -> Vec<u32> {
+    let corners: Vec<[Vec3; 3]> =
+        model.triangles.iter().map(|triangle| triangle.map(|vertex| Vec3::from(model.vertices[vertex as usize].position))).collect();
+    let seen: Vec<Vec<bool>> = (0..DIRECTIONS).into_par_iter().map(|k| seen_in(&corners, direction_of(k))).collect();
+    (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect()
+}
+
+/// The part of a triangle that is seen from `direction`: the twin of `seen_part` in `shaders/functions/hiding.wgsl`.
+pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {
+    let (mut sum, mut all) = (0.0, 0.0);
+    for k in 0..DIRECTIONS {
+        let there = direction_of(k);
+        if outward.dot(there) < 0.0 {
+            continue;
+        }
+        let weight = direction.dot(there).max(0.0).powi(8);
+        all += weight;
+        sum += if seen_from & (1 << k) != 0 { weight } else { 0.0 };
+    }
+    if all < 1e-6 { 1.0 } else { sum / all }
+}
+
+/// Whether each triangle is seen from `direction`, far away.
+fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
+    let (right, up) = direction.any_orthonormal_pair();
+    // On the map x and y, and z towards the eye.
+    let turned: Vec<[Vec3; 3]> =
+        triangles.iter().map(|corners| corners.map(|p| Vec3::new(p.dot(right), p.dot(up), p.dot(direction)))).collect();
+    let low = turned.iter().flatten().fold(Vec3::INFINITY, |low, p| low.min(*p));
+    let high = turned.iter().flatten().fold(Vec3::NEG_INFINITY, |high, p| high.max(*p));
+    let cell = ((high - low).truncate() / SIDE as f32).max_element().max(1e-30);
+    let place = |p: Vec3| ((p - low) / cell).truncate();
+    let depths = depth_map(&turned, &place);
+    turned
+        .iter()
+        .map(|corners| {
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+            // The map knows the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
+            let slope = normal.truncate().length() / normal.z.abs().max(0.05);
+            let slack = 1.5 * slope * cell + 1e-4 * (high - low).max_element();
+            let seen = POINTS.iter().filter(|weights| {
+                let point: Vec3 = (0..3).map(|k| corners[k] * weights[k]).sum();
+                let [x, y] = place(point).as_usizevec2().to_array().map(|i| i.min(SIDE - 1));
+                point.z + slack >= depths[y * SIDE + x]
+            });
+            2 * seen.count() >= POINTS.len()
+        })
+        .collect()
+}
+
+/// The nearest depth at the middle of each cell; −∞ where there is nothing.
+fn depth_map(triangles: &[[Vec3; 3]], place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> {
+    let mut depths = vec![f32::NEG_INFINITY; SIDE * SIDE];
+    for corners in triangles {
+        let [a, b, c] = corners.map(place);
+        let area = (b - a).perp_dot(c - a);
+        if area == 0.0 {
+            continue;
+        }
+        let from = (a.min(b).min(c) - 0.5).ceil().max(Vec2::ZERO).as_usizevec2();
+        let to = (a.max(b).max(c) + 0.5).ceil().max(Vec2::ZERO).as_usizevec2().min(glam::USizeVec2::splat(SIDE));
+        for y in from.y..to.y {
+            for x in from.x..to.x {
+                let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let weights = [(b - middle).perp_dot(c - middle), (c - middle).perp_dot(a - middle), (a - middle).perp_dot(b - middle)];
+                if weights.iter().all(|weight| weight / area >= 0.0) {
+                    let depth = (0..3).map(|k| corners[k].z * weights[k]).sum::<f32>() / area;
+                    let here = &mut depths[y * SIDE + x];
+                    *here = here.max(depth);
+                }
+            }
+        }
+    }
+    depths
+}
