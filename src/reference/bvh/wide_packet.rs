@@ -53,13 +53,16 @@ struct Part {
 pub struct Packets {
     items: Vec<Item>,
     parts: Vec<Part>,
+    /// Of each group.
     hulls: Vec<Hull>,
+    /// Of each eight groups.
+    wider: Vec<Hull>,
     stack: Box<[(u32, f32); STACK]>,
 }
 
 impl Default for Packets {
     fn default() -> Packets {
-        Packets { items: Vec::new(), parts: Vec::new(), hulls: Vec::new(), stack: Box::new([(0, 0.0); STACK]) }
+        Packets { items: Vec::new(), parts: Vec::new(), hulls: Vec::new(), wider: Vec::new(), stack: Box::new([(0, 0.0); STACK]) }
     }
 }
 
@@ -96,7 +99,7 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
     if rays.is_empty() {
         return;
     }
-    let Some(axes) = sweep::<L>(wide, rays, &mut packets.hulls) else {
+    let Some(axes) = sweep::<L>(wide, rays, &mut packets.hulls, &mut packets.wider) else {
         // No common direction: halves may have one, eight rays need none.
         if rays.len() <= GROUP {
             wide.each::<false>(rays, hits, &mut packets.stack);
@@ -108,7 +111,7 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
         }
         return;
     };
-    let Packets { items, parts, hulls, stack } = packets;
+    let Packets { items, parts, hulls, wider, stack } = packets;
     items.clear();
     items.push(Item { node: 0, children: !0, near: 0.0 });
     parts.clear();
@@ -117,38 +120,53 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
         let [start, end] = part.items;
         items.truncate(end);
         let groups = part.first..part.first + part.count;
-        if part.count == 1 {
-            let run = part.first * GROUP..((part.first + 1) * GROUP).min(rays.len());
-            if !hulls[part.first].is_narrow(TOGETHER) {
-                wide.each::<false>(&rays[run.clone()], &mut hits[run], stack);
-                continue;
+        let mut list = [start, end];
+        if part.count > 1 {
+            let hull = united(&wider[groups.start / GROUP..groups.end.div_ceil(GROUP)]);
+            if hull.is_narrow(SIFTED) {
+                let planes = Planes::<L>::new(&hull, &axes);
+                for i in start..end {
+                    sift(wide, &planes, items[i], items, stack);
+                }
+                if items.len() == end {
+                    hits[groups.start * GROUP..(groups.end * GROUP).min(rays.len())].fill(Hit::MISS);
+                    continue;
+                }
+                list = [end, items.len()];
+                if part.count <= GROUP {
+                    // What is nearest first hides most of the rest from each group.
+                    items[end..].sort_unstable_by(|a, b| a.near.total_cmp(&b.near));
+                }
             }
-            let planes = Planes::<L>::new(&hulls[part.first], &axes);
-            group(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, &items[start..end], stack);
+        }
+        if part.count > GROUP {
+            // In 16 or in 64 is as fast. Parts begin where eight groups do, as `wider` has them.
+            let size = (part.count.next_power_of_two() / 4).max(GROUP);
+            for first in groups.step_by(size).rev() {
+                parts.push(Part { first, count: size.min(part.first + part.count - first), items: list });
+            }
             continue;
         }
-        let hull = hulls[groups.clone()].iter().fold(Hull::EMPTY, |all, h| all.union(h));
-        let mut list = [start, end];
-        if hull.is_narrow(SIFTED) {
-            let planes = Planes::<L>::new(&hull, &axes);
-            for i in start..end {
-                sift(wide, &planes, items[i], items, stack);
+        for at in groups {
+            let run = at * GROUP..((at + 1) * GROUP).min(rays.len());
+            if hulls[at].is_narrow(TOGETHER) {
+                let planes = Planes::<L>::new(&hulls[at], &axes);
+                group(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, &items[list[0]..list[1]], stack);
+            } else {
+                wide.each::<false>(&rays[run.clone()], &mut hits[run], stack);
             }
-            if items.len() == end {
-                hits[groups.start * GROUP..(groups.end * GROUP).min(rays.len())].fill(Hit::MISS);
-                continue;
-            }
-            list = [end, items.len()];
-            if part.count <= GROUP {
-                // What is nearest first hides most of the rest from each group.
-                items[end..].sort_unstable_by(|a, b| a.near.total_cmp(&b.near));
-            }
-        }
-        let size = if part.count > 8 { part.count.next_power_of_two() / 4 } else { 1 };
-        for first in groups.step_by(size).rev() {
-            parts.push(Part { first, count: size.min(part.first + part.count - first), items: list });
         }
     }
+}
+
+/// The hull of all of these.
+#[inline(always)]
+fn united(hulls: &[Hull]) -> Hull {
+    let mut all = Hull::EMPTY;
+    for hull in hulls {
+        all = all.union(hull);
+    }
+    all
 }
 
 /// Eight rays or fewer; lanes without one repeat the last, with an end before its start.
@@ -169,9 +187,9 @@ fn lanes<L: Lanes>(rays: &[Ray; GROUP]) -> ([L; 3], [L; 3], L) {
     ([x, y, z], [along_x, along_y, along_z], until)
 }
 
-/// The common direction of the rays and the hull of each group; None if they have none.
+/// The common direction of the rays, the hull of each group and of each eight groups; None if they have none.
 #[inline(always)]
-fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<Axes> {
+fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>, wider: &mut Vec<Hull>) -> Option<Axes> {
     let mut spare = [rays[0]; GROUP];
     let middle = rays[rays.len() / 2].direction;
     let z = fastest(middle);
@@ -191,6 +209,7 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
     let widening = widening(&wide.root, low).max(widening(&wide.root, high));
     let axes = Axes { axes, sign, front, widening };
     hulls.clear();
+    wider.clear();
     for rays in rays.chunks(GROUP) {
         let (origin, direction, until) = lanes::<L>(eight(rays, &mut spare));
         let along = direction[z].mul(L::splat(sign));
@@ -207,6 +226,9 @@ fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>) -> Option<A
             return None;
         }
         hulls.push(hull);
+    }
+    for hulls in hulls.chunks(GROUP) {
+        wider.push(united(hulls));
     }
     Some(axes)
 }
