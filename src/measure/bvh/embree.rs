@@ -106,6 +106,10 @@ fn empty_sixteen() -> RayHit16 {
     RayHit16 { ray: Ray16 { tfar: [-1.0; 16], ..Ray16::empty() }, hit: Hit16::new() }
 }
 
+/// Embree loads its masks as wide as they are; the crate aligns them to 16 bytes only, and with AVX-512 the process then ends.
+#[repr(C, align(64))]
+struct Aligned<T>(T);
+
 /// What one run does: traces its rays and writes their hits.
 pub type Trace = Box<dyn FnMut(&mut [Hit])>;
 
@@ -165,11 +169,11 @@ impl Embree {
         let empty = RayHit8 { ray: Ray8 { tfar: [-1.0; 8], ..Ray8::empty() }, hit: Hit8::new() };
         Box::new(move |hits| {
             let mut context = IntersectContext::coherent();
-            let valid = ValidMaskN::<8>::all_active();
+            let valid = Aligned(ValidMaskN::<8>::all_active());
             for (rays, hits) in rays.chunks(8).zip(hits.chunks_mut(8)) {
                 let mut both = empty;
                 packet!(both, rays);
-                scene.intersect8(&mut context, &mut both, &valid);
+                scene.intersect8(&mut context, &mut both, &valid.0);
                 for (i, hit) in hits.iter_mut().enumerate() {
                     *hit = Hit { t: both.ray.tfar[i], triangle: both.hit.primID[i] };
                 }
@@ -181,11 +185,11 @@ impl Embree {
         let (scene, empty) = (self.scene.clone(), empty_sixteen());
         Box::new(move |hits| {
             let mut context = IntersectContext::coherent();
-            let valid = ValidMaskN::<16>::all_active();
+            let valid = Aligned(ValidMaskN::<16>::all_active());
             for (rays, hits) in rays.chunks(16).zip(hits.chunks_mut(16)) {
                 let mut both = empty;
                 packet!(both, rays);
-                scene.intersect16(&mut context, &mut both, &valid);
+                scene.intersect16(&mut context, &mut both, &valid.0);
                 for (i, hit) in hits.iter_mut().enumerate() {
                     *hit = Hit { t: both.ray.tfar[i], triangle: both.hit.primID[i] };
                 }
