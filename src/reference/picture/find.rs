@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
+use super::roots::{Bend, roots};
 use super::span::Scope;
 use super::sweep::{fastest, fastest_since, is_short};
 use super::tree::Chord;
@@ -42,6 +43,8 @@ struct Piece<'a> {
     /// Elapsed time in the segment, from and to.
     from: f64,
     to: f64,
+    /// A bound on |d²x/dτ²| in the segment, in 1/r_s.
+    bend: f64,
 }
 
 impl Piece<'_> {
@@ -102,6 +105,11 @@ impl Met {
     }
 }
 
+/// A piece that may bend by more than this part of a body's reach, in its axes, is halved,
+const BENT: f64 = 0.05;
+/// unless body and light come closer by less than this part of it meanwhile.
+const SHORT: f64 = 1.0 / 128.0;
+
 /// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
 const SLACK: f64 = 1e-11;
 
@@ -157,7 +165,7 @@ impl World<'_> {
         for k in 0..pieces as usize {
             let is_last = k + 1 == pieces as usize;
             let to = if is_last { segment.length } else { step * (k + 1) as f64 };
-            let piece = Piece { segment, axes, from: step * k as f64, to };
+            let piece = Piece { segment, axes, from: step * k as f64, to, bend };
             let end = if is_last { last } else { segment.position(to) };
             let ends = Ends { places: [start, end], rates: OnceCell::new() };
             start = end;
@@ -238,7 +246,11 @@ impl World<'_> {
         if apart > flying.reach + straying {
             return;
         }
-        if straying > 0.5 * flying.reach && half > 1e-9 * (1.0 + piece.segment.start) {
+        let bend = line
+            .sway(self.time - piece.segment.start - piece.to, self.time - piece.segment.start - piece.from)
+            .map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
+        let bends = bend.is_some_and(|bend| bend.sagitta(2.0 * half) > BENT * flying.reach) && straying > SHORT * flying.reach;
+        if (straying > 0.5 * flying.reach || bends) && half > 1e-9 * (1.0 + piece.segment.start) {
             let first = Piece { to: middle, ..*piece };
             self.meet_flying(&first, flying, line, met);
             if met.is_none_or(|met| met.elapsed > middle) {
@@ -246,7 +258,7 @@ impl World<'_> {
             }
             return;
         }
-        self.cross_flying(piece, flying, line, met);
+        self.cross_flying(piece, flying, line, bend, met);
     }
 
     /// How exactly a place on a piece is known in the axes of a body, in r_s: a few ulp of the distance from the hole and of the clocks.
@@ -255,37 +267,43 @@ impl World<'_> {
         8.0 * f64::EPSILON * (1.0 + piece.segment.position(elapsed).length() + self.time.abs() + delay)
     }
 
-    /// The piece in the body's rest frame, against its tree.
-    fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>) {
+    /// The piece in the body's rest frame, against its tree; `bend` is how much it bends there, if that is known.
+    fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, bend: Option<Bend>, met: &mut Option<Met>) {
         let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.place(elapsed));
         let span = piece.to - piece.from;
         let at = |k: usize| piece.from + span * k as f64 / 4.0;
         let points = [0, 1, 2, 3, 4].map(|k| body(at(k)));
-        // The sagitta, measured at a quarter, a half and three quarters, and doubled: the body's history has no closed form to bound it by.
-        let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
+        let bend = bend.filter(|bend| bend.sagitta(span) <= flying.reach).unwrap_or_else(|| {
+            // Measured at a quarter, a half and three quarters, and doubled.
+            let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
+            Bend { curve: 16.0 * off.into_iter().fold(0.0, f64::max) / (span * span), kink: 0.0 }
+        });
         let rounding = self.rounding(piece, piece.from);
-        let grow = 2.0 * off.into_iter().fold(0.0, f64::max) + 1e-9 * flying.reach + rounding;
+        let least = 1e-9 * flying.reach + rounding;
+        let grow = bend.sagitta(span) + least;
         let model = &self.models[self.things[flying.thing as usize].model];
         flying.tree.along(points[0], points[4], grow, 1.0, |item, until| {
             let corners = model.triangles[item as usize].map(|i| flying.vertices[i as usize]);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
             let height = |y: DVec3| normal.dot(y - corners[0]);
             let heights = points.map(height);
-            for k in 0..4 {
-                if heights[k] * heights[k + 1] > 0.0 || heights[k] == 0.0 && heights[k + 1] == 0.0 {
-                    continue;
-                }
-                let elapsed = falsi((at(k), heights[k]), (at(k + 1), heights[k + 1]), |s| height(body(s)));
+            let size = normal.length();
+            let rising = bend.times(size);
+            let mut first = None;
+            let mut visit = |elapsed: f64| {
                 if met.is_some_and(|met| met.elapsed < elapsed) {
-                    break;
+                    return true;
                 }
-                if let Some(barycentrics) = weights(corners, normal, body(elapsed), rounding) {
-                    Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
-                    // A later crossing of this triangle is of no interest. The tree's own bound stays loose by the sagitta.
-                    return ((elapsed - piece.from) / span).min(until);
-                }
-            }
-            until
+                first = weights(corners, normal, body(elapsed), rounding).map(|barycentrics| (elapsed, barycentrics));
+                first.is_some()
+            };
+            // A later crossing of this triangle is of no interest.
+            (0..4)
+                .any(|k| roots(&|s| height(body(s)), (at(k), heights[k]), (at(k + 1), heights[k + 1]), &rising, least * size, &mut visit));
+            let Some((elapsed, barycentrics)) = first else { return until };
+            Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
+            // The tree's own bound stays loose by the sagitta.
+            ((elapsed - piece.from) / span).min(until)
         });
     }
 }
@@ -383,27 +401,4 @@ fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> O
         return weights.iter().all(|&w| w >= -slack).then_some(weights);
     }
     Some(weights)
-}
-
-/// A root of f between two points with values of opposite signs: regula falsi with the weight of the end that stays halved (Illinois).
-fn falsi((mut a, mut fa): (f64, f64), (mut b, mut fb): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    if fa == 0.0 {
-        return a;
-    }
-    let scale = fa.abs().max(fb.abs());
-    // About seven evaluations reach rounding; sixty are enough for any f.
-    for _ in 0..60 {
-        if fb == 0.0 || (b - a).abs() <= 2.0 * f64::EPSILON * b.abs() || fb.abs() <= 1e-15 * scale {
-            break;
-        }
-        let c = (b * fa - a * fb) / (fa - fb);
-        let fc = f(c);
-        if fc * fb < 0.0 {
-            (a, fa) = (b, fb);
-        } else {
-            fa *= 0.5;
-        }
-        (b, fb) = (c, fc);
-    }
-    b
 }
