@@ -28,7 +28,9 @@ mod reference_trace;
 mod render_aurora;
 #[cfg(feature = "game")]
 mod render_branches;
+#[cfg(feature = "game")]
 mod render_chords;
+#[cfg(feature = "game")]
 mod render_contestant;
 #[cfg(feature = "game")]
 mod render_disk;

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use lensrunner::measure::chart::{Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance};
+use lensrunner::measure::chart::{Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance, thread_time, times_the_first};
 use lensrunner::measure::disk::script::{CROSSING, script};
 use lensrunner::measure::plot::{Axis, Bars, Figure, Guide, Line, Lines, Map, Panel, Point, Scatter, Series, pareto, tick_text};
 
@@ -159,6 +159,38 @@ fn contestants_take_turns() {
     assert_eq!(*order.borrow(), [0, 1, 0, 1, 0, 1, 0, 1]);
     assert_eq!(times.len(), 2);
     assert_eq!(Timing::of(vec![3.0, 1.0, 2.0]), Timing { median: 2.0, least: 1.0, most: 3.0 });
+}
+
+/// The first round does not count, the next goes backwards.
+#[test]
+fn neighbours_are_compared() {
+    thread_local! {
+        static NOW: std::cell::Cell<f64> = const { std::cell::Cell::new(0.0) };
+    }
+    let order = std::cell::RefCell::new(Vec::new());
+    let run = |name: usize, seconds: f64| {
+        let cold = if order.borrow().len() < 2 { [1.0, 10.0][name] } else { 1.0 };
+        order.borrow_mut().push(name);
+        NOW.set(NOW.get() + cold * seconds);
+    };
+    let ratios = times_the_first(|| NOW.get(), &mut [&mut || run(0, 2.0), &mut || run(1, 3.0)], 1);
+    assert_eq!(*order.borrow(), [0, 1, 1, 0]);
+    assert_eq!(ratios, [1.0, 1.5]);
+}
+
+#[cfg(all(target_os = "linux", target_pointer_width = "64"))]
+#[test]
+fn the_processor_s_clock_stands_still_while_a_thread_sleeps() {
+    let start = thread_time();
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    let slept = thread_time() - start;
+    // Falling asleep and waking take microseconds.
+    assert!((0.0..0.1).contains(&slept), "{slept}");
+    let mut sum = 0u64;
+    for i in 0..20_000_000u64 {
+        sum = std::hint::black_box(sum.wrapping_add(i));
+    }
+    assert!(thread_time() - start > slept, "{sum}");
 }
 
 #[test]

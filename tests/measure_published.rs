@@ -1,4 +1,4 @@
-//! The figures that README.md and docs/projection.md print are those of the CSVs beside them. Where they are not, the test prints what to write.
+//! The figures that README.md, docs/projection.md and docs/bvh.md print are those of the CSVs beside them. Where they are not, the test prints what to write.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -205,4 +205,65 @@ fn the_sentences_about_the_projection_are_those_of_the_csv() {
         .map(|(document, sentence)| format!("{document}: {sentence}"))
         .collect();
     assert!(wrong.is_empty(), "these should be said:\n{}\n", wrong.join("\n"));
+}
+
+#[test]
+fn the_tables_of_straight_rays_are_those_of_their_csv() {
+    const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];
+    let rows = rows("docs/bvh.csv");
+    let of = |scene: &str, kind: &str, method: &str, packet: &str| {
+        let row =
+            rows.iter().find(|row| row["scene"] == scene && row["rays"] == kind && row["method"] == method && row["packet"] == packet);
+        row.unwrap_or_else(|| panic!("{method} {packet} is not in the CSV for {kind} rays of {scene}"))
+    };
+    let mut lines = String::new();
+    let mut line = |name: &str, cell: &dyn Fn(&str) -> String| {
+        writeln!(lines, "| {name} | {} |", SCENES.map(cell).join(" | ")).unwrap();
+    };
+    let speed = |row: &BTreeMap<String, String>| {
+        let (speed, factor) = (number(row, "Mrays_per_s"), number(row, "times_obvhs"));
+        if factor.is_nan() || row["method"] == "obvhs" { format!("{speed:.1}") } else { format!("{speed:.1} ({factor:.2})") }
+    };
+    for (name, kind, method, packet) in [
+        ("obvhs, single", "primary", "obvhs", "1"),
+        ("bvh, single", "primary", "bvh", "1"),
+        ("Embree, single", "primary", "Embree", "1"),
+        ("tree of eight, single", "primary", "tree of eight", "1"),
+        ("Embree, packets of 8", "primary", "Embree 8", "8"),
+        ("Embree, packets of 16", "primary", "Embree 16", "16"),
+        ("Embree, stream of 64 × 64", "primary", "Embree stream", "64"),
+        ("Embree, stream of 64 × 64 in sixteens", "primary", "Embree stream 16", "64"),
+        ("ours, 8 × 8", "primary", "ours", "8"),
+        ("ours, 64 × 64", "primary", "ours", "64"),
+        ("ours, camera walking, 64 × 64", "walking", "ours", "64"),
+        ("shadow rays: Embree", "shadow", "Embree", "1"),
+        ("shadow rays: tree of eight", "shadow", "tree of eight", "1"),
+        ("shadow rays: ours in packets", "shadow", "ours", "32"),
+        ("mirrored rays: Embree", "mirrored", "Embree", "1"),
+        ("mirrored rays: tree of eight", "mirrored", "tree of eight", "1"),
+        ("mirrored rays: ours in packets", "mirrored", "ours", "32"),
+        ("scattered rays: Embree", "scattered", "Embree", "1"),
+        ("scattered rays: tree of eight", "scattered", "tree of eight", "1"),
+        ("scattered rays: ours in packets", "scattered", "ours", "32"),
+    ] {
+        line(name, &|scene| speed(of(scene, kind, method, packet)));
+    }
+    // Of all ways to ask Embree for many rays at once the fastest, on each scene.
+    let best = |scene: &str| {
+        let of_it = rows.iter().filter(|row| row["scene"] == scene && row["rays"] == "primary" && row["method"].starts_with("Embree"));
+        of_it.map(|row| number(row, "Mrays_per_s")).fold(0.0, f64::max)
+    };
+    let over =
+        |size: &'static str| move |scene: &str| format!("{:.2}", number(of(scene, "primary", "ours", size), "Mrays_per_s") / best(scene));
+    line("ours 8 × 8 over Embree's best", &over("8"));
+    line("ours 64 × 64 over Embree's best", &over("64"));
+    stands("docs/bvh.md", &lines);
+    let mut lines = String::new();
+    for size in ["16", "32", "64"] {
+        let change = |scene: &str| {
+            format!("{:+.1} %", 100.0 * (number(of(scene, "primary", "ours", size), "time_over_8x8") - 1.0)).replace('-', "−")
+        };
+        writeln!(lines, "| {size} × {size} | {} |", SCENES.map(change).join(" | ")).unwrap();
+    }
+    stands("docs/bvh.md", &lines);
 }

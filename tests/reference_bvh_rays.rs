@@ -235,6 +235,17 @@ fn orders_hold_every_pixel_once() {
     assert_eq!(pixels[..8], [0, 1, 8, 9, 2, 3, 10, 11]);
     let (pixels, _) = order::tiles([8, 8], 8);
     assert_eq!(pixels[..8], [0, 1, 2, 3, 8, 9, 10, 11]);
+    // What packets are split into are squares, whatever the size of the tile.
+    for size in [8, 64] {
+        let (pixels, _) = order::tiles([64, 64], size);
+        for edge in [4, 8, 16, 32, 64].into_iter().filter(|&edge| edge <= size) {
+            for square in pixels.chunks(edge * edge) {
+                let corner = square.iter().map(|i| [i % 64, i / 64]).fold([u32::MAX; 2], |[a, b], [x, y]| [a.min(x), b.min(y)]);
+                let inside = |i: &u32| i % 64 - corner[0] < edge as u32 && i / 64 - corner[1] < edge as u32;
+                assert!(square.iter().all(inside), "a run of {} in tiles of {size}", edge * edge);
+            }
+        }
+    }
 }
 
 #[test]

@@ -248,7 +248,7 @@ fn the_picture_is_the_exact_one() {
         let eye =
             Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
         let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 2);
-        let error = disk::compare(&got, &truth, size);
+        let error = disk::compare(&got, &truth, size, disk::peak(&truth));
         println!("L = {l}, {degrees}°: {error:?}");
         assert!(error.psnr > least, "L = {l}, {degrees}°: PSNR is {} dB", error.psnr);
     }
@@ -362,7 +362,7 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
     let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
-    let error = disk::compare(&got, &truth, size);
+    let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
     // It has 41.7 dB. Gas with g off by a hundredth has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
     assert!(error.psnr > 41.2, "PSNR is {} dB", error.psnr);
@@ -475,7 +475,7 @@ fn no_seam_shows_where_a_generation_of_streaks_dies() {
     assert!(seam < 1.3 * elsewhere, "off by {seam:.3} of the light at the seam, {elsewhere:.3} elsewhere");
 }
 
-/// Arcs are nearer to the truth than polygons, from high over the plane to nearly edge on.
+/// Arcs are nearer to the truth than polygons, from high over the plane to nearly edge on, where the one is as near as the other.
 #[test]
 fn arcs_are_nearer_to_the_truth_than_polygons() {
     let size = [320, 180];
@@ -486,17 +486,18 @@ fn arcs_are_nearer_to_the_truth_than_polygons() {
     };
     let disks = [with("arcs"), with("polygons")];
     let mut renderers = [renderer(size), renderer(size)];
-    for degrees in [30.0, 80.0, 87.0, 89.0] {
+    // By how many dB at least: about two thirds of what was measured.
+    for (degrees, lead) in [(30.0, 2.0), (80.0, 2.0), (87.0, 0.5), (89.0, -0.3)] {
         let camera = camera(27.0, degrees, 60f64.to_radians());
         let truth = disk::picture(&disks[0].gas, &eye(&camera), size, 100.0, 3, 2);
         let [arcs, polygons] = std::array::from_fn(|k| {
             renderers[k].set_disk(Some(disks[k].clone()));
             let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
             let got: Vec<[f32; 3]> = renderers[k].picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-            disk::compare(&got, &truth, size)
+            disk::compare(&got, &truth, size, disk::peak(&truth))
         });
         println!("{degrees}°: arcs {:.2} dB, polygons {:.2} dB", arcs.psnr, polygons.psnr);
-        assert!(arcs.psnr > polygons.psnr, "{degrees}°: arcs {:.2} dB, polygons {:.2} dB", arcs.psnr, polygons.psnr);
+        assert!(arcs.psnr > polygons.psnr + lead, "{degrees}°: arcs {:.2} dB, polygons {:.2} dB", arcs.psnr, polygons.psnr);
     }
 }
 

@@ -4,7 +4,7 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: splats of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: rows of the history, y: segments, z: room for splats of one placement in the finest level, an eighth of it in each of the others, w: AURORA_*.
+    /// x: rows of the history, y: segments, z: room for splats of one placement in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
@@ -45,20 +45,14 @@ struct ChordEnd {
     north: vec4<f32>,
 }
 
-struct Splat {
-    /// x, y: centre in NDC, z: depth, w: kR in its middle.
-    place: vec4<f32>,
-    /// Two half axes of its ellipse, pixels of its level (x right, y up), one standard deviation.
-    axes: vec4<f32>,
-    /// Share of each line.
-    lines: vec4<f32>,
-}
-
-struct SplatDraw {
-    vertices: u32,
-    instances: atomic<u32>,
-    first_vertex: u32,
-    first_instance: u32,
+/// One of the three corners of a splat, as a vertex. Drawn without instances: a driver spends more on an instance than on its three vertices.
+struct Corner {
+    /// NDC of the screen, and depth.
+    x: f32,
+    y: f32,
+    depth: f32,
+    /// kR in the splat's middle: the first two lines and the others, in halves.
+    light: array<u32, 2>,
 }
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
@@ -69,9 +63,10 @@ struct SplatDraw {
 /// Photons by row (ROWS × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
-@group(1) @binding(6) var<storage, read_write> splats: array<Splat>;
-/// By placement and level.
-@group(1) @binding(7) var<storage, read_write> splat_draws: array<SplatDraw>;
+/// Three of each splat.
+@group(1) @binding(6) var<storage, read_write> corners: array<Corner>;
+/// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then splats in each pair of levels.
+@group(1) @binding(7) var<storage, read_write> splat_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
 /// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;

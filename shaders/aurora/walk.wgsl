@@ -17,8 +17,9 @@ fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
     return focal * (v.xy + c.xy * (v.z * inverse)) * inverse;
 }
 
-/// Splats whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more.
-const NARROW: f32 = 2.0;
+/// Splats whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more: less would be too narrow for
+/// the coarse pixels once what enlarging adds has been taken off.
+const NARROW: f32 = 1.5;
 /// Sizes of the tiles whose depths are known: 8 pixels, 16, and so on.
 const TILES: u32 = 6u;
 const LEAST_TILE: u32 = 8u;
@@ -74,6 +75,26 @@ fn unseen(first: u32, count: u32) -> bool {
     return nearest < depths_in(around).x;
 }
 
+/// An even stretch of the fall has a twelfth of its length squared as variance; a little more closes the gaps between stretches.
+const STRETCH: f32 = 0.12;
+/// Parts of a streak are one splat as long as they reach over no more than this many standard deviations.
+const MERGED: f32 = 2.0;
+
+/// Km along the fall that are as long on the screen as a splat is wide there (one standard deviation), about the upper end of the chord at a height.
+fn width_along(kind: u32, height: f32, first: u32, count: u32, focal: vec2<f32>) -> f32 {
+    let chord = chord_at(kind, height, count);
+    let a = chords[first + chord];
+    let b = chords[first + chord + 1u];
+    let per_chord = chord_height(kind, chord, count) - chord_height(kind, chord + 1u, count);
+    // Whichever end is before the camera.
+    let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.projection.z);
+    let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
+    let east = screen_step(c, a.east.xyz, focal);
+    let north = screen_step(c, a.north.xyz, focal);
+    let wide = min(dot(east, east), dot(north, north)) * aurora.electrons.z * aurora.electrons.z + PIXEL_VARIANCE;
+    return sqrt(wide) / max(fallen, 1e-6);
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = id.x;
@@ -105,7 +126,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     } else {
         lines.z = photons.z;
     }
-    let count = min(aurora.counts.z, arrayLength(&splats));
+    let count = min(aurora.counts.z, arrayLength(&corners));
     let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
     // A streak of twice the energy stands for half as many electrons: the flux of energy is what is given.
     let power = light * streak.share * segment.light.x / f32(count);
@@ -120,11 +141,27 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var upper = height_of(fall.x, streak.kind, 0.0);
-    for (var k = 0u; k < count; k++) {
-        let lower = height_of(fall.x, streak.kind, f32(k + 1u) / f32(count));
-        let length_km = upper - lower;
-        let height = 0.5 * (upper + lower);
-        upper = lower;
+    // Equal parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one splat.
+    var k = 0u;
+    while k < count {
+        let start = upper;
+        let most_km = MERGED * width_along(streak.kind, start, first, chord_count, focal);
+        // Parts, their heights from here and the squares of those.
+        var sums = vec3<f32>(0.0);
+        loop {
+            let lower = height_of(fall.x, streak.kind, f32(k + 1u) / f32(count));
+            let middle = 0.5 * (upper + lower) - start;
+            let extent = upper - lower;
+            sums += vec3<f32>(1.0, middle, middle * middle + STRETCH * extent * extent);
+            upper = lower;
+            k++;
+            if !(start - height_of(fall.x, streak.kind, f32(k + 1u) / f32(count)) < most_km) | (k >= count) {
+                break;
+            }
+        }
+        let parts = sums.x;
+        let height = start + sums.y / parts;
+        let stretch = max(sums.z / parts - (sums.y / parts) * (sums.y / parts), 0.0);
         let chord = chord_at(streak.kind, height, chord_count);
         let above = chord_height(streak.kind, chord, chord_count);
         let per_chord = above - chord_height(streak.kind, chord + 1u, chord_count);
@@ -152,15 +189,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.y, north.y, fallen.y)),
             dot(vec3<f32>(east.y, north.y, fallen.y), vec3<f32>(east.y, north.y, fallen.y)));
         let blob = aurora.electrons.z * aurora.electrons.z;
-        // An even stretch of the fall has a twelfth of its length squared as variance; a little more closes the gaps between stretches.
-        let stretch = length_km * length_km * 0.12;
         let xx = blob * j.x + stretch * fallen.x * fallen.x + PIXEL_VARIANCE;
         let xy = blob * j.y + stretch * fallen.x * fallen.y;
         let yy = blob * j.z + stretch * fallen.y * fallen.y + PIXEL_VARIANCE;
         let spread = sqrt(max(xx * yy - xy * xy, 1e-12));
         // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km².
         let area = sqrt(max(j.x * j.z - j.y * j.y, 0.0));
-        let peak = min(power * mix(a.east.w, b.east.w, s) * area / (6.2831853 * spread), BRIGHTEST);
+        let peak = min(parts * power * mix(a.east.w, b.east.w, s) * area / (6.2831853 * spread), BRIGHTEST);
         if !(peak > FAINTEST) {
             continue;
         }
@@ -197,16 +232,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             }
             level = select(0u, level, place.z >= range.y);
         }
-        // Where a coarse level is full, the finest takes over.
-        var slot = atomicAdd(&splat_draws[id.y * PYRAMID + level].instances, 1u);
-        let coarse_room = aurora.history.z / 8u;
-        if (level > 0u) & (slot >= coarse_room) {
-            atomicSub(&splat_draws[id.y * PYRAMID + level].instances, 1u);
-            level = 0u;
-            slot = atomicAdd(&splat_draws[id.y * PYRAMID].instances, 1u);
-        }
-        if (level == 0u) & (slot >= aurora.history.z) {
-            atomicSub(&splat_draws[id.y * PYRAMID].instances, 1u);
+        let room = room_of(id.y, &level);
+        if room == 0xffffffffu {
             return;
         }
         // Enlarging widens it, so it is added narrower by that.
@@ -215,7 +242,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let wide = size * vec2<f32>(major, minor);
         let narrower = sqrt(wide * wide - widening);
         let shrink = narrower / wide;
-        let first_of_level = id.y * (aurora.history.z + coarsest * coarse_room) + select(0u, aurora.history.z + (level - 1u) * coarse_room, level > 0u);
-        splats[first_of_level + slot] = Splat(vec4<f32>(place, peak / (shrink.x * shrink.y)), axes * size * shrink.xxyy, lines);
+        let kilorayleighs = lines * (peak / (shrink.x * shrink.y));
+        let halves = array<u32, 2>(pack2x16float(kilorayleighs.xy), pack2x16float(kilorayleighs.zw));
+        let ndc = axes * shrink.xxyy * 2.0 / frame.size.xyxy;
+        for (var n = 0u; n < 3u; n++) {
+            let corner = corner_of(n);
+            let at = place.xy + ndc.xy * corner.x + ndc.zw * corner.y;
+            corners[room + n] = Corner(at.x, at.y, place.z, halves);
+        }
     }
 }

@@ -22,35 +22,16 @@ fn tent_below(x: f32) -> f32 {
     return select(0.5 * t * t, 1.0 - 0.5 * t * t, x > 0.0);
 }
 
-/// Places along a pixel that streaks are looked up at, at most, from far: a thin image crowds the whole disk into few pixels, so that a pixel is long
-/// across the orbits. From near, where a look-up is four fetches instead of two and the disk may fill the picture, there is one: with two and four of them
-/// the disk of `chase` took three times as long.
-const THIN_TAPS: u32 = 4u;
-
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_cooling(in, streaks_of(in, LONGEST)));
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in, FAR_TAPS));
 }
 
-/// Orders 2 and 3, from far. What is seen along a pixel has one colour, by its mean and its variance, as what is not seen at all.
+/// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in, f32(THIN_TAPS));
-    let along = along_of(at, THIN_TAPS);
-    let level = far_level(at);
-    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
-    var sum = 0.0;
-    var squares = 0.0;
-    for (var k = 0u; k < along.taps; k++) {
-        let power = far_power(in, streaks_along(at, along, k), level);
-        sum += power;
-        squares += power * power;
-    }
-    let share = 1.0 / f32(along.taps);
-    let mean = sum * share;
-    let cooling = Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, cooling) * coverage(in.seen.x, in.seen.y);
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in, FAR_TAPS)) * coverage(in.seen.x, in.seen.y);
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -70,15 +51,23 @@ fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
     return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
 }
 
+/// Places along a pixel that streaks are looked up at, at most, from near: low over the plane pixels are longest.
+const CLOSE_TAPS: u32 = 16u;
+/// Lengths of a pixel, in texels of the pattern, between which the look without a grain goes over to places along it from far: over a longer one no grain
+/// is left to be seen, and each place costs half as much.
+const LONG: vec2<f32> = vec2<f32>(1.5, 3.0);
+
 /// From near: the slant in each pixel, streaks without a grain.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    // A thin image crowds the disk into few pixels; wide ones are seen as order 1 is.
-    let at = streaks_of(in, mix(1.0, LONGEST, smoothstep(1.5, 5.0, in.seen.y)));
+    let at = streaks_of(in, STEP * f32(CLOSE_TAPS));
+    let along = along_of(at, CLOSE_TAPS);
+    let far = far_along(in, at, along);
     let level = 0.5 * log2(max(at.square, 1e-12));
+    let near = Cooling(in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level), unseen_of(in, unseen_variance(level)));
+    let share = smoothstep(LONG.x, LONG.y, along.texels);
+    let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
-    let power = in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level);
-    let cooling = Cooling(power, unseen_of(in, unseen_variance(level)));
     return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);
 }
 

@@ -59,19 +59,19 @@ struct Streaks {
     square: f32,
 }
 
-/// A pixel may be this much longer than wide in the pattern before the level follows its length: more of it would alias (streaks of a disk that is
-/// seen edge on became dashes), less would blur what is seen well.
-const LONGEST: f32 = 4.0;
-
-/// The square of the side of a texel for a pixel at `place` in the pattern, in texels.
+/// The square of the side of a texel for a pixel at `place` in the pattern, in texels: half the square of the pixel's width, as a texel shows more than
+/// itself; `share` of its length's at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as long as the
+/// pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
 fn square_of(place: vec2<f32>, share: f32) -> f32 {
     let a = dpdx(place);
     let b = dpdy(place);
-    return max(abs(a.x * b.y - a.y * b.x), max(dot(a, a), dot(b, b)) * share);
+    let area = a.x * b.y - a.y * b.x;
+    let long = max(dot(a, a), dot(b, b));
+    return max(0.5 * area * area / max(long, 1e-30), long * share);
 }
 
-/// Where in the pattern a pixel is, in both generations, and how much of it it covers. A pixel that is more than `most` times as long as wide has
-/// texels of that part of its length.
+/// Where in the pattern a pixel is, in both generations, and how much of it it covers. A texel is no shorter than
+/// its length over `most`.
 fn streaks_of(in: Gas, most: f32) -> Streaks {
     // Neighbours outside the triangle may be anywhere; their places are part of the differences.
     let height = 0.25 * log2(max(in.slope.w, 1.0));
@@ -125,26 +125,26 @@ fn far_power(in: Gas, at: Streaks, level: u32) -> f32 {
     return 8.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
 }
 
-/// The streaks of both generations from far.
-fn far_cooling(in: Gas, at: Streaks) -> Cooling {
-    let level = far_level(at);
-    return Cooling(far_power(in, at, level), unseen_of(in, unseen_variance(f32(level) - 1.0)));
-}
-
 /// A pixel that is long in the pattern, looked up at several places along it.
 struct Along {
     /// Its longest side, in both generations.
     even: vec2<f32>,
     odd: vec2<f32>,
-    /// At how many places: no more than one for each texel.
+    /// Its length in texels of the pattern.
+    texels: f32,
+    /// At how many places.
     taps: u32,
 }
 
+/// Texels from one place along a pixel to the next. What a texel shows reaches about as far, and streaks are the smoother the longer they are.
+const STEP: f32 = 3.0;
+
+/// At up to `most` places, in texels of the pattern from far.
 fn along_of(at: Streaks, most: u32) -> Along {
     let even = longest_side(at.even);
     let odd = longest_side(at.odd);
     let texels = sqrt(max(dot(even, even), dot(odd, odd))) * PATTERN_SIZE.x;
-    return Along(even, odd, u32(clamp(ceil(texels), 1.0, f32(most))));
+    return Along(even, odd, texels, u32(clamp(ceil(texels * inverseSqrt(STEP * STEP * max(at.square, 0.25))), 1.0, f32(most))));
 }
 
 fn longest_side(place: vec2<f32>) -> vec2<f32> {
@@ -163,6 +163,31 @@ fn streaks_along(at: Streaks, along: Along, k: u32) -> Streaks {
 fn unseen_of(in: Gas, variance: f32) -> f32 {
     return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
 }
+
+/// The streaks of both generations from far, along a pixel: what is seen there has one colour, by its mean and its variance, as what is not seen at all.
+fn far_along(in: Gas, at: Streaks, along: Along) -> Cooling {
+    let level = far_level(at);
+    var sum = 0.0;
+    var squares = 0.0;
+    for (var k = 0u; k < along.taps; k++) {
+        let power = far_power(in, streaks_along(at, along, k), level);
+        sum += power;
+        squares += power * power;
+    }
+    let share = 1.0 / f32(along.taps);
+    let mean = sum * share;
+    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
+    return Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
+}
+
+/// The same at up to `most` places.
+fn far_look(in: Gas, most: u32) -> Cooling {
+    let at = streaks_of(in, STEP * f32(most));
+    return far_along(in, at, along_of(at, most));
+}
+
+/// As many as pay, from far: with one, pictures of 240 × 135 pixels were off by twice as much.
+const FAR_TAPS: u32 = 4u;
 
 /// Light and opacity of gas that streaks cool: premultiplied. Its density is the fourth power of its temperature, and light goes as
 /// exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's. Light is steep in t, so what streaks too fine to be

@@ -40,10 +40,24 @@ pub fn check(job: &Job) -> usize {
     // Others may differ by rounding: each such ray is judged.
     let random = &mut StdRng::seed_from_u64(9);
     let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..rays.len())).collect();
-    let theirs: Vec<Hit> = rays.iter().map(|ray| built.obvhs.closest(ray)).collect();
-    let disputed: Vec<usize> = (0..rays.len()).filter(|&i| theirs[i].triangle != single[i].triangle).collect();
+    let theirs = theirs(job, &built);
+    let mut disputed: Vec<usize> = Vec::new();
+    for (name, hits) in &theirs {
+        let others: Vec<usize> = (0..rays.len()).filter(|&i| hits[i].triangle != single[i].triangle).collect();
+        let clear = others.iter().filter(|&&i| !together(hits[i], single[i])).count();
+        eprintln!(
+            "{}: {name}: another triangle at {} of {} rays, {clear} of them not at the same place",
+            job.scene.name,
+            others.len(),
+            rays.len()
+        );
+        disputed.extend(others);
+    }
+    disputed.sort_unstable();
+    disputed.dedup();
     judged.extend(&disputed);
-    let (mut within, mut false_ones, mut their_false) = (0, 0, 0);
+    let (mut within, mut false_ones) = (0, 0);
+    let mut their_false = vec![0; theirs.len()];
     for &i in &judged {
         match verdict(&job.scene.triangles, &rays[i], single[i]) {
             Verdict::Right => (),
@@ -53,16 +67,45 @@ pub fn check(job: &Job) -> usize {
                 false_ones += 1;
             }
         }
-        their_false += usize::from(verdict(&job.scene.triangles, &rays[i], theirs[i]) == Verdict::Wrong);
+        // What differs from ours is judged for itself; what does not was judged with it.
+        for ((_, hits), wrong) in theirs.iter().zip(&mut their_false) {
+            let same = hits[i].triangle == single[i].triangle;
+            *wrong += usize::from(!same && verdict(&job.scene.triangles, &rays[i], hits[i]) == Verdict::Wrong);
+        }
     }
+    let theirs: Vec<String> = theirs.iter().zip(their_false).map(|((name, _), wrong)| format!("{name} on {wrong}")).collect();
     eprintln!(
-        "{}: of {} rays tried against every triangle in f64 ({} disputed by obvhs) ours differs on {within} within rounding, is wrong on \
-         {false_ones}; obvhs is wrong on {their_false}",
+        "{}: of {} rays tried against every triangle in f64 ({} disputed) ours differs on {within} within rounding, is wrong on {false_ones}; {}",
         job.scene.name,
         judged.len(),
         disputed.len(),
+        theirs.join(", "),
     );
     wrong + false_ones
+}
+
+/// Hits of the others in the order of pixels.
+fn theirs(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
+    #[allow(unused_mut)]
+    let mut all = vec![("obvhs".to_owned(), job.primary.iter().map(|ray| built.obvhs.closest(ray)).collect())];
+    #[cfg(feature = "embree")]
+    for way in super::embree::WAYS {
+        let (rays, starts) = tiled(&job.primary, job.size, way.tile());
+        let (pixels, _) = order::tiles(job.size, way.tile());
+        let mut found = vec![Hit::MISS; rays.len()];
+        built.embree.trace(way, rays, starts)(&mut found);
+        let mut hits = vec![Hit::MISS; found.len()];
+        for (pixel, hit) in pixels.into_iter().zip(found) {
+            hits[pixel as usize] = hit;
+        }
+        all.push((format!("{} {}", way.name(), way.packet()), hits));
+    }
+    all
+}
+
+/// Whether both missed, or met something within rounding of the same place.
+fn together(a: Hit, b: Hit) -> bool {
+    if a.is_hit() && b.is_hit() { (a.t - b.t).abs() <= 2e-5 * (1.0 + a.t) } else { a.is_hit() == b.is_hit() }
 }
 
 fn ours(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {

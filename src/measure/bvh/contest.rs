@@ -56,6 +56,16 @@ fn each<'a>(rays: &'a [Ray], trace: impl Fn(&Ray) -> Hit + 'a) -> Box<dyn FnMut(
     })
 }
 
+/// Runs that write their hits themselves.
+#[cfg(feature = "embree")]
+fn counted<'a>(number: usize, mut trace: super::embree::Trace) -> Box<dyn FnMut() -> usize + 'a> {
+    let mut hits = vec![Hit::MISS; number];
+    Box::new(move || {
+        trace(&mut hits);
+        count(&hits)
+    })
+}
+
 /// Everybody. Rays are made before; what a method derives from them (reciprocals, hulls, planes) is in its time, as is writing the hits.
 pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
     let mut all = Vec::new();
@@ -65,12 +75,9 @@ pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
     add("primary", "obvhs", 1, number, each(primary, |ray| built.obvhs.closest(ray)));
     add("primary", "bvh", 1, number, each(primary, |ray| built.svenstaro.closest(ray)));
     #[cfg(feature = "embree")]
-    {
-        add("primary", "Embree", 1, number, built.embree.single(primary));
-        let (rays, _) = tiled(primary, job.size, 16);
-        add("primary", "Embree 8", 8, number, built.embree.eight(&rays));
-        let (rays, _) = tiled(primary, job.size, 16);
-        add("primary", "Embree 16", 16, number, built.embree.sixteen(&rays));
+    for way in super::embree::WAYS {
+        let (rays, starts) = tiled(primary, job.size, way.tile());
+        add("primary", way.name(), way.packet(), number, counted(number, built.embree.trace(way, rays, starts)));
     }
     add("primary", "tree of two", 1, number, each(primary, |ray| built.mesh.closest(ray)));
     add("primary", "tree of eight", 1, number, singles(&built.wide, primary));
@@ -99,6 +106,12 @@ pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
             each(rays, |ray| built.obvhs.closest(ray))
         };
         add(kind, "obvhs", 1, rays.len(), obvhs);
+        #[cfg(feature = "embree")]
+        if shadow {
+            add(kind, "Embree", 1, rays.len(), built.embree.occluded(rays.clone()));
+        } else {
+            add(kind, "Embree", 1, rays.len(), counted(rays.len(), built.embree.single(rays.clone(), false)));
+        }
         let single: Box<dyn FnMut() -> usize> = if shadow {
             let mut hits = vec![Hit::MISS; rays.len()];
             Box::new(move || {

@@ -10,10 +10,13 @@ mod rays;
 
 use std::path::PathBuf;
 
-use super::chart::{Output, Provenance, Sheet, SheetError, interleaved};
+use super::chart::{Output, Provenance, Sheet, SheetError, interleaved_by, thread_time, times_the_first};
 use super::plot::PlotError;
 use crate::reference::scenes::bunny::PlyError;
 use rays::Job;
+
+/// How many times as often as everything else runs what is compared with 8 × 8: single percents are to be told apart there.
+const MORE_ROUNDS: usize = 10;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
@@ -74,24 +77,42 @@ pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
 }
 
 fn measure(request: &Request) -> Result<Sheet, ChartError> {
-    let mut sheet =
-        Sheet::new(&["scene", "triangles", "rays", "method", "packet", "Mrays_per_s", "best_Mrays_per_s", "times_obvhs", "hits"]);
+    let mut sheet = Sheet::new(&[
+        "scene",
+        "triangles",
+        "rays",
+        "method",
+        "packet",
+        "Mrays_per_s",
+        "best_Mrays_per_s",
+        "times_obvhs",
+        "time_over_8x8",
+        "hits",
+    ]);
     sheet.notes = Provenance::now("").notes();
     for name in &request.scenes {
         let job = Job::new(name, request)?;
         eprintln!("{name}: {} triangles{}", job.scene.triangles.len(), if job.stand_in { " (stand-in)" } else { "" });
         let built = contest::Built::new(&job);
         let mut entries = contest::entries(&job, &built);
+        let compared: Vec<bool> = entries.iter().map(|e| e.kind == "primary" && e.method == "ours" && e.packet >= 8).collect();
         let mut hits = vec![0; entries.len()];
         let mut runs: Vec<_> = entries.iter_mut().zip(&mut hits).map(|(entry, hits)| move || *hits = (entry.run)()).collect();
         let mut contestants: Vec<&mut dyn FnMut()> = runs.iter_mut().map(|run| run as &mut dyn FnMut()).collect();
-        let times = interleaved(&mut contestants, request.rounds);
+        let times = interleaved_by(thread_time, &mut contestants, request.rounds);
+        drop(contestants);
+        // The sizes of ours from 8 × 8 on once more, back to back.
+        let sizes: Vec<usize> = (0..compared.len()).filter(|&i| compared[i]).collect();
+        let mut contestants: Vec<&mut dyn FnMut()> =
+            runs.iter_mut().zip(&compared).filter(|(_, compared)| **compared).map(|(run, _)| run as &mut dyn FnMut()).collect();
+        let over = times_the_first(thread_time, &mut contestants, MORE_ROUNDS * request.rounds);
         drop(contestants);
         drop(runs);
         let speed = |i: usize, seconds: f64| entries[i].rays as f64 / seconds * 1e-6;
         for (i, entry) in entries.iter().enumerate() {
             let bar = entries.iter().position(|e| e.kind == entry.kind && e.method == "obvhs");
             let times_obvhs = bar.map_or(f64::NAN, |bar| speed(i, times[i].median) / speed(bar, times[bar].median));
+            let over_8x8 = sizes.iter().position(|&size| size == i).map_or(f64::NAN, |place| over[place]);
             sheet.push([
                 name.clone(),
                 job.scene.triangles.len().to_string(),
@@ -101,6 +122,7 @@ fn measure(request: &Request) -> Result<Sheet, ChartError> {
                 format!("{:.3}", speed(i, times[i].median)),
                 format!("{:.3}", speed(i, times[i].least)),
                 format!("{times_obvhs:.3}"),
+                format!("{over_8x8:.3}"),
                 hits[i].to_string(),
             ]);
         }

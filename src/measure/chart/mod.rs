@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 pub use provenance::Provenance;
 pub use sheet::{Sheet, SheetError};
-pub use timing::{Timing, interleaved};
+pub use timing::{Timing, interleaved, interleaved_by, thread_time, times_the_first};
 
 /// Where charts go unless said otherwise.
 pub const DEFAULT_FOLDER: &str = "out/charts";

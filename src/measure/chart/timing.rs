@@ -1,5 +1,6 @@
 //! Times measured side by side.
 
+use std::sync::OnceLock;
 use std::time::Instant;
 
 /// What a run took, in seconds.
@@ -27,15 +28,74 @@ impl Timing {
 /// Times every contestant `rounds` times, one after another in each round, so that whatever else the machine does falls on all of
 /// them alike; one more round before is thrown away. Each runs on the calling thread.
 pub fn interleaved(contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<Timing> {
+    interleaved_by(wall_time, contestants, rounds)
+}
+
+/// The same by another clock, which gives seconds.
+pub fn interleaved_by(clock: fn() -> f64, contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<Timing> {
     let mut seconds = vec![Vec::with_capacity(rounds); contestants.len()];
     for round in 0..=rounds.max(1) {
         for (run, times) in contestants.iter_mut().zip(&mut seconds) {
-            let start = Instant::now();
+            let start = clock();
             run();
             if round > 0 {
-                times.push(start.elapsed().as_secs_f64());
+                times.push(clock() - start);
             }
         }
     }
     seconds.into_iter().map(Timing::of).collect()
+}
+
+/// How often the time of the first each of the others takes: the medians over `rounds` of ratios within one round, whose order is turned round each
+/// time. One more round before is thrown away. Finer than a ratio of medians where the machine changes its speed from second to second.
+pub fn times_the_first(clock: fn() -> f64, contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<f64> {
+    let number = contestants.len();
+    let mut ratios = vec![Vec::with_capacity(rounds); number];
+    let mut seconds = vec![0.0; number];
+    for round in 0..=rounds.max(1) {
+        for place in 0..number {
+            let i = if round % 2 == 0 { place } else { number - 1 - place };
+            let start = clock();
+            contestants[i]();
+            seconds[i] = clock() - start;
+        }
+        if round > 0 {
+            for (ratios, time) in ratios.iter_mut().zip(&seconds) {
+                ratios.push(time / seconds[0]);
+            }
+        }
+    }
+    ratios.into_iter().map(|ratios| Timing::of(ratios).median).collect()
+}
+
+/// Seconds that have passed since some moment.
+pub fn wall_time() -> f64 {
+    static START: OnceLock<Instant> = OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
+/// Seconds that the calling thread has had a processor, so that a busy machine does not count; [`wall_time`] where that is not known.
+pub fn thread_time() -> f64 {
+    #[cfg(all(target_os = "linux", target_pointer_width = "64"))]
+    {
+        /// Of the system's C library.
+        #[repr(C)]
+        struct Timespec {
+            seconds: i64,
+            nanoseconds: i64,
+        }
+        const CLOCK_THREAD_CPUTIME_ID: i32 = 3;
+        #[allow(unsafe_code)]
+        // SAFETY: declared as in <time.h> of 64-bit Linux; every Rust program there is linked with it.
+        unsafe extern "C" {
+            fn clock_gettime(clock: i32, time: *mut Timespec) -> i32;
+        }
+        let mut time = Timespec { seconds: 0, nanoseconds: 0 };
+        #[allow(unsafe_code)]
+        // SAFETY: it writes one timespec, and `time` is one.
+        if unsafe { clock_gettime(CLOCK_THREAD_CPUTIME_ID, &mut time) } == 0 {
+            return time.seconds as f64 + time.nanoseconds as f64 * 1e-9;
+        }
+    }
+    wall_time()
 }

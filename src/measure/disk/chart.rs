@@ -15,7 +15,7 @@ use crate::scene::disk::Gas;
 use crate::spacetime::frames;
 
 use super::chase::{chase, summary};
-use super::error::{PictureError, compare};
+use super::error::{PictureError, compare, peak};
 use super::exact::{Eye, picture};
 use super::places::errors_by_place;
 
@@ -182,7 +182,7 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
         let shown = draw(Some(number), &view, Some(request.error_size)).map_err(ChartError::Draw)?;
-        errors.push(compare(&shown.picture, &truth, request.error_size));
+        errors.push(compare(&shown.picture, &truth, request.error_size, peak(&truth)));
     }
     let mut times = vec![[const { Vec::new() }; 3]; contestants.len()];
     for _ in 0..request.rounds {

@@ -4,12 +4,16 @@ use crate::measure::chart::{Provenance, Sheet};
 use crate::scene::disk::Gas;
 
 use super::chart::{ChartError, Contestant, DISK_PASSES, Draw, Request, View, median, own, timed};
-use super::error::compare;
+use super::error::{compare, peak};
 use super::exact::picture;
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.
 const SAMPLES: u32 = 3;
+
+/// A picture is exposed for its own peak, but for no less than this part of the brightest one's along the way: in the plane itself the disk is seen edge on,
+/// from within its gas, and has a hundred-thousandth of its light. Nothing brings that to white.
+const LEAST_PEAK: f32 = 0.01;
 
 /// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the pictures that are
 /// compared show the disk alone. Times are medians of the rounds, in which all take turns.
@@ -33,9 +37,11 @@ pub(super) fn chase(request: &Request, contestants: &[Contestant], adapter: &str
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     let steps = request.steps.max(2);
     let runners: Vec<(usize, &Contestant)> = contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3).collect();
-    for step in 0..steps {
-        let (eye, time, situation) = script((step as f64 + 0.5) / steps as f64, base.disk.inner);
-        let truth = picture(&gas, &eye, request.error_size, time, 3, SAMPLES);
+    let places: Vec<_> = (0..steps).map(|step| script((step as f64 + 0.5) / steps as f64, base.disk.inner)).collect();
+    let truths: Vec<_> = places.iter().map(|(eye, time, _)| picture(&gas, eye, request.error_size, *time, 3, SAMPLES)).collect();
+    let brightest = truths.iter().map(|truth| peak(truth)).fold(0.0, f32::max);
+    for (step, (&(eye, time, situation), truth)) in places.iter().zip(&truths).enumerate() {
+        let exposed = peak(truth).max(LEAST_PEAK * brightest);
         let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky });
         let mut times = vec![[const { Vec::new() }; 6]; runners.len()];
         for _ in 0..request.rounds {
@@ -49,7 +55,7 @@ pub(super) fn chase(request: &Request, contestants: &[Contestant], adapter: &str
         }
         for (&(number, contestant), times) in runners.iter().zip(&mut times) {
             let shown = draw(Some(number), &alone, Some(request.error_size)).map_err(ChartError::Draw)?;
-            let error = compare(&shown.picture, &truth, request.error_size);
+            let error = compare(&shown.picture, truth, request.error_size, exposed);
             let mut cells = vec![contestant.name.clone(), contestant.family.to_string(), step.to_string(), situation.to_owned()];
             cells.extend(times.iter_mut().map(|times| format!("{:.3}", median(times))));
             cells.extend([format!("{:.2}", error.psnr), format!("{:.4}", error.flip)]);

@@ -5,7 +5,7 @@ use crate::measure::flip::flip;
 /// The error of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureError {
-    /// Peak signal to noise in dB; the peak is the truth's 99.9th percentile of luminance, and brighter light counts as that.
+    /// Peak signal to noise in dB, at most [`BEST_PSNR`]; brighter light than the peak counts as that.
     pub psnr: f64,
     /// Mean of |difference| over mean of the truth.
     pub relative: f64,
@@ -13,11 +13,18 @@ pub struct PictureError {
     pub flip: f64,
 }
 
-/// Compares linear pictures of `size` pixels.
-pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2]) -> PictureError {
-    let mut brightness: Vec<f32> = truth.iter().map(|p| 0.2127 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).collect();
+/// What cannot be seen any more, in dB: a difference of a thousandth of the peak.
+pub const BEST_PSNR: f64 = 60.0;
+
+/// The light that a picture is exposed for: its 99.9th percentile of luminance.
+pub fn peak(picture: &[[f32; 3]]) -> f32 {
+    let mut brightness: Vec<f32> = picture.iter().map(|p| 0.2127 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]).collect();
     brightness.sort_by(f32::total_cmp);
-    let peak = brightness.get((brightness.len() as f64 * 0.999) as usize).copied().unwrap_or(1.0).max(1e-20);
+    brightness.get((brightness.len() as f64 * 0.999) as usize).copied().unwrap_or(1.0).max(1e-20)
+}
+
+/// Compares linear pictures of `size` pixels, both exposed for `peak`.
+pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2], peak: f32) -> PictureError {
     let (mut square, mut off, mut whole) = (0.0f64, 0.0f64, 0.0f64);
     for (a, b) in got.iter().flatten().zip(truth.iter().flatten()) {
         let difference = f64::from(a.min(peak)) - f64::from(b.min(peak));
@@ -29,5 +36,9 @@ pub fn compare(got: &[[f32; 3]], truth: &[[f32; 3]], size: [u32; 2]) -> PictureE
     let exposed = |picture: &[[f32; 3]]| -> Vec<[f32; 3]> { picture.iter().map(|p| p.map(|light| light / peak)).collect() };
     let differences = flip(&exposed(truth), &exposed(got), size);
     let flip = differences.iter().map(|&d| f64::from(d)).sum::<f64>() / differences.len().max(1) as f64;
-    PictureError { flip, psnr: 10.0 * (f64::from(peak).powi(2) / mean.max(1e-30)).log10(), relative: off / whole.max(1e-30) }
+    PictureError {
+        flip,
+        psnr: (10.0 * (f64::from(peak).powi(2) / mean.max(1e-300)).log10()).min(BEST_PSNR),
+        relative: off / whole.max(1e-30),
+    }
 }

@@ -7,5 +7,5 @@ pub mod exact;
 pub mod places;
 pub mod script;
 
-pub use error::{PictureError, compare};
+pub use error::{PictureError, compare, peak};
 pub use exact::{Eye, picture};

@@ -8,7 +8,7 @@ use crate::measure::chart::{Provenance, Sheet};
 use crate::scene::disk::Gas;
 
 use super::chart::{ChartError, Contestant, Draw, Request, TIME, View, eye};
-use super::error::compare;
+use super::error::{compare, peak};
 use super::exact::{Eye, picture};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
@@ -44,7 +44,7 @@ pub fn errors_by_place(request: &Request, contestants: &[Contestant], adapter: &
         let truth = picture(&gas, &eye, request.error_size, TIME, 3, SAMPLES);
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family < 2) {
             let shown = draw(Some(number), &View { eye, time: TIME, sky: false }, Some(request.error_size)).map_err(ChartError::Draw)?;
-            let error = compare(&shown.picture, &truth, request.error_size);
+            let error = compare(&shown.picture, &truth, request.error_size, peak(&truth));
             sheet.push([
                 contestant.name.clone(),
                 contestant.family.to_string(),

@@ -23,6 +23,7 @@ pub mod tree;
 pub mod triangle;
 pub mod validate;
 pub mod wide;
+mod wide_group;
 mod wide_packet;
 mod wide_ray;
 

@@ -1,7 +1,7 @@
 //! The order in which the pixels of a picture make good packets.
 
-/// Pixels (x + width · y) of a picture in tiles of `size` × `size`, each tile in quarters of quarters down to blocks of 4 × 2, so that any aligned run
-/// of 8 · 4ᵏ rays is a compact patch. Tiles at the right and lower edge are cut. Also gives where each tile starts, and the end.
+/// Pixels (x + width · y) of a picture in tiles of `size` × `size`, each tile in quarters of quarters down to blocks of 4 × 2, so that every aligned run
+/// of 16 · 4ᵏ rays is a square. Tiles at the right and lower edge are cut. Also gives where each tile starts, and the end.
 pub fn tiles(picture: [usize; 2], size: usize) -> (Vec<u32>, Vec<usize>) {
     arranged(picture, size, key)
 }
@@ -31,9 +31,9 @@ fn arranged([width, height]: [usize; 2], size: usize, key: fn(usize, usize) -> u
     (order, starts)
 }
 
-/// Bits of x and y alternate from the top; at the bottom x, x, y make the block of 4 × 2.
+/// Bits of x and y alternate from the top; at the bottom y, x, x make the block of 4 × 2, and the y above it makes that a square.
 fn key(x: usize, y: usize) -> u64 {
-    let (low, high) = ((x & 3) | (y & 1) << 2, spread(x >> 2) | spread(y >> 1) << 1);
+    let (low, high) = ((x & 3) | (y & 1) << 2, spread(x >> 2) << 1 | spread(y >> 1));
     high << 3 | low as u64
 }
 

@@ -7,7 +7,7 @@
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, layout, module, raster};
+use crate::render::layout::{Raster, Slot, bind, buffer, layout, module, raster};
 use crate::render::shaders::Pass;
 use crate::render::targets::target;
 
@@ -15,6 +15,13 @@ use crate::render::targets::target;
 pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
+
+/// In what light is added up: full floats where the adapter blends them. Halves have 11 bits; thousands of faint splats in one of them are rounded one by one, in
+/// the order in which threads appended them, so that the same frame drawn again wavers by some per cent.
+pub fn light_format(device: &wgpu::Device) -> wgpu::TextureFormat {
+    let full = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE);
+    if full { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
+}
 
 /// The levels for one size of the screen.
 #[derive(Debug)]
@@ -44,14 +51,15 @@ impl Levels {
     /// For a screen of a size.
     pub fn new(gpu: &Gpu, size: [u32; 2]) -> Self {
         let device = &gpu.device;
-        let lights = (0..PYRAMID).map(|level| target(device, "aurora light", whole(size, level), HDR_FORMAT).1);
+        let format = light_format(device);
+        let lights = (0..PYRAMID).map(|level| target(device, "aurora light", whole(size, level), format).1);
         let places = (0..PYRAMID).map(|level| {
             let place = place(size, level);
             let uniform = buffer(device, "aurora level", size_of_val(&place) as u64, BufferUsages::UNIFORM);
             gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&place));
             uniform
         });
-        Levels { size, lights: lights.collect(), nothing: target(device, "aurora nothing", [1, 1], HDR_FORMAT).1, places: places.collect() }
+        Levels { size, lights: lights.collect(), nothing: target(device, "aurora nothing", [1, 1], format).1, places: places.collect() }
     }
 
     /// The pixels of a level that pixels of the screen (left, top, width, height) lie in, and those beside them.
@@ -67,15 +75,15 @@ impl Levels {
     }
 }
 
-/// From NDC of the screen to those of a level with its margin: factors and sums, then NDC per pixel of the level.
-fn place(size: [u32; 2], level: u32) -> [f32; 8] {
+/// From NDC of the screen to those of a level with its margin: factors and sums.
+fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     let whole = whole(size, level).map(|side| side as f32);
     let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
     let [width, height] = size.map(|side| side as f32 / (1u32 << level) as f32);
     let scale = [width / whole[0], height / whole[1]];
     // Rows go down and NDC up.
     let offset = [(width + 2.0 * margin) / whole[0] - 1.0, 1.0 - (height + 2.0 * margin) / whole[1]];
-    [scale[0], scale[1], offset[0], offset[1], 2.0 / whole[0], 2.0 / whole[1], 0.0, 0.0]
+    [scale[0], scale[1], offset[0], offset[1]]
 }
 
 /// Sizes of tiles whose depths are known, from 8 × 8 pixels on; as in walk.wgsl.

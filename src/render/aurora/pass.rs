@@ -2,7 +2,8 @@
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use super::levels::{Levels, PYRAMID, Ranges};
+use super::levels::{Levels, PYRAMID, Ranges, light_format};
+use super::rooms::{DRAWS_BYTES, Rooms};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -17,49 +18,17 @@ use crate::scene::aurora::quantiles::Quantiles;
 
 /// Image orders that may show it.
 const ORDERS: usize = 3;
-/// Bytes of `ChordEnd` and `Splat` in WGSL.
+/// Bytes of `ChordEnd`, `Reference`, and of a splat's three `Corner`s in WGSL.
 const CHORD_END_BYTES: u64 = 48;
 const REFERENCE_BYTES: u64 = 64;
-const SPLAT_BYTES: u64 = 48;
-/// Bytes of `SplatDraw`.
-const DRAW_BYTES: u64 = 16;
-/// Entries of the tabulated Gaussian, for r²/σ² from 0 to 9.
-const GAUSSIAN: usize = 256;
-
-/// A coarse level has room for this part of the splats of the finest; as in walk.wgsl.
-const COARSE_ROOM: u64 = 8;
-
-/// `Splat` in WGSL.
-const SPLAT: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
-    array_stride: SPLAT_BYTES,
-    step_mode: wgpu::VertexStepMode::Instance,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4],
+const SPLAT_BYTES: u64 = 3 * CORNER_BYTES;
+const CORNER_BYTES: u64 = 20;
+/// `Corner` in WGSL.
+const CORNER: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
+    array_stride: CORNER_BYTES,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float16x4],
 };
-
-/// Draw arguments of each image and level: nothing as yet.
-fn no_splats() -> [[u32; 4]; ORDERS * PYRAMID as usize] {
-    [[3, 0, 0, 0]; _]
-}
-
-/// The Gaussian by r²/σ² from 0 to 9, and 0 at the end. A texture, as a software driver reads buffers number by number.
-fn gaussian(gpu: &Gpu) -> wgpu::TextureView {
-    let last = GAUSSIAN - 1;
-    let table: Vec<f32> = (0..GAUSSIAN).map(|k| if k < last { (-4.5 * k as f32 / last as f32).exp() } else { 0.0 }).collect();
-    let size = wgpu::Extent3d { width: GAUSSIAN as u32, height: 1, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("aurora gaussian"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * GAUSSIAN as u32), rows_per_image: None };
-    gpu.queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(&table), layout, size);
-    texture.create_view(&Default::default())
-}
 
 /// Ends at which a part of a curtain is projected, as in streaks.wgsl.
 fn reference_room(chords: u32) -> u32 {
@@ -95,7 +64,6 @@ pub struct Aurora {
     splats: Growing,
     references: Growing,
     draws: wgpu::Buffer,
-    gaussian: wgpu::TextureView,
     colours: [wgpu::Buffer; ORDERS],
     levels: Option<Levels>,
     groups: Option<Groups>,
@@ -105,10 +73,8 @@ pub struct Aurora {
     drawn: [u32; 3],
     /// Places that are projected in each order.
     projected: u32,
-    /// Levels of the pyramid that the prepared frame uses.
-    in_use: u32,
-    /// Room for splats of one order in the finest level; in each of the others that part of it ([`COARSE_ROOM`]).
-    room: u64,
+    /// Of the prepared frame.
+    rooms: Rooms,
     uploaded: Option<std::sync::Arc<Vec<[f32; 4]>>>,
 }
 
@@ -129,7 +95,7 @@ impl Aurora {
         let device = &gpu.device;
         let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
-        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform]);
+        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform]);
         let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
         let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
         let one = wgpu::BlendComponent {
@@ -138,6 +104,7 @@ impl Aurora {
             operation: wgpu::BlendOperation::Add,
         };
         let sum = Some(wgpu::BlendState { color: one, alpha: one });
+        let light = light_format(device);
         let draw = |label, pass, targets: &[_], depth, own| {
             let stage = Raster { vertex: "vertex", fragment: "fragment", targets, depth };
             raster(device, label, &module(device, label, pass), stage, &[Some(frame_layout), Some(own)])
@@ -146,8 +113,8 @@ impl Aurora {
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
         let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
         let splat = |depth| {
-            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, sum)], depth };
-            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[SPLAT])
+            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
+            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[CORNER])
         };
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
@@ -155,7 +122,7 @@ impl Aurora {
             walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
             ranges: Ranges::new(device, frame_layout),
             splat: [Some(false), None].map(splat),
-            spread: draw("aurora spread", Pass::AuroraSpread, &[(HDR_FORMAT, None)], None, &spread_layout),
+            spread: draw("aurora spread", Pass::AuroraSpread, &[(light, None)], None, &spread_layout),
             resolve: draw("aurora resolve", Pass::AuroraResolve, &[(HDR_FORMAT, sum)], None, &resolve_layout),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
             placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
@@ -165,16 +132,14 @@ impl Aurora {
             chords: Growing::new(device, "aurora chords", BufferUsages::STORAGE),
             splats: Growing::new(device, "aurora splats", BufferUsages::STORAGE | BufferUsages::VERTEX),
             references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
-            draws: buffer(device, "aurora draws", size_of_val(&no_splats()) as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
-            gaussian: gaussian(gpu),
+            draws: buffer(device, "aurora draws", DRAWS_BYTES * ORDERS as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
             colours: std::array::from_fn(|_| uniform("aurora colours", 64)),
             levels: None,
             groups: None,
             images: Vec::new(),
             drawn: [0; 3],
             projected: 0,
-            in_use: 0,
-            room: 0,
+            rooms: Rooms::default(),
             uploaded: None,
             walk_layout,
             splat_layout,
@@ -199,13 +164,13 @@ impl Aurora {
         let [streaks, chords, ..] = settings.counts;
         // All of them must fit into a buffer, with the quarter more that it grows by.
         let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (SPLAT_BYTES * orders as u64 * 2);
-        // A coarse level has an eighth of the room, so all of them together are less than twice as much.
+        // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
         settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
-        let room = u64::from(settings.history[2]);
         let in_use = (settings.electrons[3] as u32).clamp(1, PYRAMID);
         settings.electrons[3] = in_use as f32;
-        let mut replaced = self.groups.is_none() || (room, in_use) != (self.room, self.in_use);
-        (self.room, self.in_use) = (room, in_use);
+        let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
+        let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
+        self.rooms = rooms;
         // The history changes only when the curtains have moved a step.
         if self.uploaded.as_ref().is_none_or(|nodes| !std::sync::Arc::ptr_eq(nodes, &frame.nodes)) {
             replaced |= self.nodes.write(gpu, &frame.nodes);
@@ -213,7 +178,7 @@ impl Aurora {
         }
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
-        replaced |= self.splats.reserve(device, SPLAT_BYTES * self.first_splat(orders as u32, 0));
+        replaced |= self.splats.reserve(device, SPLAT_BYTES * rooms.all() * orders as u64);
         let poles = if settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
         self.projected = settings.history[1] * poles * reference_room(chords);
         replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
@@ -227,7 +192,7 @@ impl Aurora {
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
-        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&no_splats()));
+        gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(colours));
         }
@@ -250,34 +215,23 @@ impl Aurora {
         ];
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
-        let splat = levels.places.iter().map(|place| {
-            let resources = [wgpu::BindingResource::TextureView(&self.gaussian), place.as_entire_binding()];
-            bind(device, "aurora splat", &self.splat_layout, &resources)
-        });
+        let splat = levels.places.iter().map(|place| bind(device, "aurora splat", &self.splat_layout, &[place.as_entire_binding()]));
         // A level, or black where it is not in use.
         let light = |level: u32| {
-            let coarse = levels.lights.get(level as usize).filter(|_| level < self.in_use);
+            let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);
             wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
         };
         let resolve = self
             .colours
             .iter()
             .map(|colours| bind(device, "aurora resolve", &self.resolve_layout, &[light(0), colours.as_entire_binding(), light(1)]));
-        let spread = (1..self.in_use).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
+        let spread = (1..self.rooms.levels).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
         Some(Groups {
             walk: bind(device, "aurora walk", &self.walk_layout, &walk),
             splat: splat.collect(),
             spread: spread.collect(),
             resolve: resolve.collect(),
         })
-    }
-
-    /// The first splat of an image and level in their buffer.
-    fn first_splat(&self, image: u32, level: u32) -> u64 {
-        let (image, level, coarsest, coarse_room) =
-            (u64::from(image), u64::from(level), u64::from(self.in_use - 1), self.room / COARSE_ROOM);
-        let before = if level == 0 { 0 } else { self.room + (level - 1) * coarse_room };
-        image * (self.room + coarsest * coarse_room) + before
     }
 
     /// How many images of it the prepared frame has.
@@ -323,7 +277,7 @@ impl Aurora {
     /// The textures in which light is added up, the coarsest first, and whether each is tested by depth.
     pub fn levels(&self) -> impl Iterator<Item = (u32, &wgpu::TextureView)> {
         let lights = self.levels.iter().flat_map(|levels| &levels.lights);
-        (0..).zip(lights.take(self.in_use as usize)).collect::<Vec<_>>().into_iter().rev()
+        (0..).zip(lights.take(self.rooms.levels as usize)).collect::<Vec<_>>().into_iter().rev()
     }
 
     /// Adds up the splats of one image in a level, after those of coarser levels. The finest level has the frame's depth.
@@ -331,15 +285,15 @@ impl Aurora {
         let Some((bound, levels)) = self.groups.as_ref().zip(self.levels.as_ref()) else { return };
         self.within(pass, image, |part| levels.part(part, level));
         // The coarsest has nothing to take over.
-        if level > 0 && level + 1 < self.in_use {
+        if level > 0 && level + 1 < self.rooms.levels {
             pass.set_pipeline(&self.spread);
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
             pass.draw(0..3, 0..1);
         }
         pass.set_pipeline(&self.splat[usize::from(level > 0)]);
         pass.set_bind_group(1, &bound.splat[level as usize], &[]);
-        pass.set_vertex_buffer(0, self.splats.buffer.slice(SPLAT_BYTES * self.first_splat(image, level)..));
-        pass.draw_indirect(&self.draws, DRAW_BYTES * u64::from(image * PYRAMID + level));
+        pass.set_vertex_buffer(0, self.splats.buffer.slice(..));
+        pass.draw_indirect(&self.draws, DRAWS_BYTES * u64::from(image) + 16 * u64::from(level));
     }
 
     /// Adds the colour of what was added up to the picture.
@@ -359,7 +313,7 @@ impl Aurora {
         }
     }
 
-    /// Splats of the last frame by image and level, as `SplatDraw` in WGSL.
+    /// Splats of the last frame by image and level, as in [`Rooms::empty`].
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws
     }

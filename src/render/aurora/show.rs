@@ -50,7 +50,7 @@ const LONGEST: f64 = 400.0;
 /// Room for splats: more are not drawn in one order.
 pub const MOST_SPLATS: usize = 1 << 20;
 
-/// Where no point is wider (pixels, one standard deviation, as if space were flat), none is put into coarser levels of the pyramid; the walk does so from 2 on.
+/// Where no point is wider (pixels, one standard deviation, as if space were flat), none is put into coarser levels of the pyramid; the walk does so from 1.5 on.
 const NARROW: f64 = 1.0;
 
 /// What a frame shows of the aurora.

@@ -1,0 +1,40 @@
+//! Where the splats of an image are kept until they are drawn: by pairs of levels of the pyramid, which share a room. One of a pair fills it from the
+//! beginning and the other from the end, so that it does not matter which of them splats go to. Coarser pairs have half as much room each.
+
+use super::levels::PYRAMID;
+
+/// Bytes of the numbers of one image: draw arguments of each level, then splats in each pair of levels.
+pub const DRAWS_BYTES: u64 = 16 * (PYRAMID as u64 + 1);
+
+/// The rooms of all images of a frame; as in shaders/aurora/rooms.wgsl.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Rooms {
+    /// Splats in the room of the two finest levels; a multiple of 8, so that coarser ones are whole.
+    pub finest: u64,
+    /// Levels in use.
+    pub levels: u32,
+}
+
+impl Rooms {
+    /// Splats before the room of a pair of levels of an image: those of all finer pairs.
+    fn before(&self, pair: u32) -> u64 {
+        2 * self.finest - ((2 * self.finest) >> pair)
+    }
+
+    /// Splats that one image has room for.
+    pub fn all(&self) -> u64 {
+        self.before(self.levels.div_ceil(2))
+    }
+
+    /// The numbers of some images when there are no splats as yet.
+    pub fn empty(&self, images: u32) -> Vec<[u32; 4]> {
+        let image = |image: u32| {
+            let level = move |level: u32| {
+                let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
+                [0, 1, 3 * first as u32, 0]
+            };
+            (0..PYRAMID).map(level).chain([[0; 4]])
+        };
+        (0..images).flat_map(image).collect()
+    }
+}
