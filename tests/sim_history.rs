@@ -7,7 +7,7 @@ use lensrunner::spacetime::matter::{ShipState, step};
 
 /// A ship that falls, thrusts and turns by commands that change every few steps, its past known for ten r_s/c.
 fn flown() -> History {
-    let mut state = ShipState { position: DVec3::new(5.0, 1.0, 0.3), momentum: DVec3::new(-0.3, 0.25, 0.1), ..ShipState::default() };
+    let mut state = ShipState::new(DVec3::new(5.0, 1.0, 0.3), DVec3::new(-0.3, 0.25, 0.1));
     let mut history = History::new(0.0, &state);
     for k in 0..200 {
         let sign = if k / 7 % 2 == 0 { 1.0 } else { -1.0 };

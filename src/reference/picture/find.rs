@@ -246,11 +246,15 @@ impl World<'_> {
         if apart > flying.reach + straying {
             return;
         }
-        let bend = line
-            .sway(self.time - piece.segment.start - piece.to, self.time - piece.segment.start - piece.from)
+        let can_halve = half > 1e-9 * (1.0 + piece.segment.start);
+        // Bounds on the motion are asked for late: most pieces are long, and are halved or let go without them.
+        let is_long = can_halve && straying > 0.5 * flying.reach;
+        let bend = (!is_long)
+            .then(|| line.sway(self.time - piece.segment.start - piece.to, self.time - piece.segment.start - piece.from))
+            .flatten()
             .map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
         let bends = bend.is_some_and(|bend| bend.sagitta(2.0 * half) > BENT * flying.reach) && straying > SHORT * flying.reach;
-        if (straying > 0.5 * flying.reach || bends) && half > 1e-9 * (1.0 + piece.segment.start) {
+        if is_long || bends && can_halve {
             let first = Piece { to: middle, ..*piece };
             self.meet_flying(&first, flying, line, met);
             if met.is_none_or(|met| met.elapsed > middle) {
@@ -272,9 +276,15 @@ impl World<'_> {
         let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.place(elapsed));
         let span = piece.to - piece.from;
         let at = |k: usize| piece.from + span * k as f64 / 4.0;
-        let points = [0, 1, 2, 3, 4].map(|k| body(at(k)));
+        let ends = [body(at(0)), body(at(4))];
+        let quarters = OnceCell::new();
+        let points = || {
+            let [a, b, c] = *quarters.get_or_init(|| [1, 2, 3].map(|k| body(at(k))));
+            [ends[0], a, b, c, ends[1]]
+        };
         let bend = bend.filter(|bend| bend.sagitta(span) <= flying.reach).unwrap_or_else(|| {
             // Measured at a quarter, a half and three quarters, and doubled.
+            let points = points();
             let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
             Bend { curve: 16.0 * off.into_iter().fold(0.0, f64::max) / (span * span), kink: 0.0 }
         });
@@ -282,11 +292,14 @@ impl World<'_> {
         let least = 1e-9 * flying.reach + rounding;
         let grow = bend.sagitta(span) + least;
         let model = &self.models[self.things[flying.thing as usize].model];
-        flying.tree.along(points[0], points[4], grow, 1.0, |item, until| {
+        flying.tree.along(ends[0], ends[1], grow, 1.0, |item, until| {
             let corners = model.triangles[item as usize].map(|i| flying.vertices[i as usize]);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+            if passes_beside(corners, normal, ends, grow) {
+                return until;
+            }
             let height = |y: DVec3| normal.dot(y - corners[0]);
-            let heights = points.map(height);
+            let heights = points().map(height);
             let size = normal.length();
             let rising = bend.times(size);
             let mut first = None;
@@ -387,6 +400,23 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
         .or_else(|| between(h0 * turned < 0.0 || h0 != 0.0 && turned == 0.0, from, middle))
         .or_else(|| between(turned * h1 < 0.0, middle, to))
         .or_else(at_end)
+}
+
+/// Whether a curve that strays from the chord between two points by no more than `grow` (r_s) is sure to miss a triangle.
+///
+/// Where the curve is in the plane its chord is within `grow` of it, so no farther from where the chord goes through it than `grow` times the
+/// chord's length over its rise, and the curve `grow` more. A weight changes by no more than the longest edge over twice the area in a length of 1.
+fn passes_beside(corners: [DVec3; 3], normal: DVec3, [from, to]: [DVec3; 2], grow: f64) -> bool {
+    let chord = to - from;
+    let rise = normal.dot(chord);
+    let through = from + chord * (normal.dot(corners[0] - from) / rise);
+    let area = normal.length_squared();
+    let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
+    let longest = edges.map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+    let away = grow * (1.0 + chord.length() * area.sqrt() / rise.abs());
+    let slack = SLACK + away * (longest / area).sqrt();
+    // Not a number where the chord runs along the plane: then nothing is sure.
+    (0..3).any(|k| edges[k].cross(through - corners[k]).dot(normal) < -slack * area)
 }
 
 /// The weights of the corners at a point of the triangle's plane that is known to `rounding` (r_s), or None outside.

@@ -24,8 +24,9 @@ impl Bend {
 
 /// Tells `visit` of the roots of f from `a` to `b`, each with its value there, in order, until it answers that it is content; gives whether it was.
 ///
-/// Between two values on one side a function that strays from its chord by less than either has no root; between two of different signs it has
-/// one if its slope cannot turn round. Everything else is halved, down to dips and waves of less than `least`.
+/// With the sagitta S a function is within 4 S t (1 − t) of its chord at the share t of the span, and its slope within 4 S over the span. So between
+/// a and b of one sign it has no root if √a + √b > 2 √S, and between two of different signs it has one if |b − a| > 4 S. Everything else is halved,
+/// down to dips and waves of less than `least`.
 pub(super) fn roots(
     f: &impl Fn(f64) -> f64,
     a: (f64, f64),
@@ -39,11 +40,10 @@ pub(super) fn roots(
     let crosses = a.1 * b.1 <= 0.0;
     // Where f is unknown at one end, it may be known up to near there.
     let known = [a.1, b.1].map(f64::is_finite);
-    if known == [false; 2] || known == [true; 2] && !crosses && a.1.abs().min(b.1.abs()) > sagitta {
+    if known == [false; 2] || known == [true; 2] && !crosses && a.1.abs().sqrt() + b.1.abs().sqrt() > 2.0 * sagitta.sqrt() {
         return false;
     }
-    // The slope turns by less than eight sagittas over the span, and is the chord's somewhere.
-    if crosses && (b.1 - a.1).abs() > 8.0 * sagitta || sagitta.is_nan() || sagitta <= least {
+    if crosses && (b.1 - a.1).abs() > 4.0 * sagitta || sagitta.is_nan() || sagitta <= least {
         // A curve that runs in the plane sees no surface.
         return crosses && (a.1 != 0.0 || b.1 != 0.0) && visit(falsi(a, b, f));
     }
