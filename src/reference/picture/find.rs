@@ -432,3 +432,34 @@ fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> O
     }
     Some(weights)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_that_meets_a_triangle_does_not_pass_beside_it() {
+        let corners = [DVec3::new(-0.3, -0.2, 0.0), DVec3::new(0.4, -0.1, 0.1), DVec3::new(0.0, 0.5, -0.1)];
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        // Evenly spread numbers.
+        let spread = |i: u32, k: i32| (f64::from(i) * 0.8566748838545029f64.powi(k)).fract() - 0.5;
+        let (mut met, mut let_go) = (0, 0);
+        for i in 1..20_000 {
+            let [from, way, off] = [1, 4, 7].map(|k| DVec3::new(spread(i, k), spread(i, k + 1), spread(i, k + 2)));
+            let grow = 0.2 * f64::from(i % 11) / 11.0;
+            let curve = |t: f64| from + way * (2.0 * t) + off.normalize() * (grow * 4.0 * t * (1.0 - t));
+            let ends = [curve(0.0), curve(1.0)];
+            let height = |t: f64| normal.dot(curve(t) - corners[0]);
+            let hit = (0..64).any(|k| {
+                let [a, b] = [f64::from(k) / 64.0, f64::from(k + 1) / 64.0];
+                let least = &Bend { curve: 0.0, kink: 0.0 };
+                roots(&height, (a, height(a)), (b, height(b)), least, 0.0, &mut |t| weights(corners, normal, curve(t), 1e-15).is_some())
+            });
+            let beside = passes_beside(corners, normal, ends, grow);
+            assert!(!hit || !beside, "{i}");
+            met += u32::from(hit);
+            let_go += u32::from(beside);
+        }
+        assert!(met > 500 && let_go > 10 * met, "{met} {let_go}");
+    }
+}

@@ -80,8 +80,12 @@ mod tests {
     use super::*;
 
     fn all(f: impl Fn(f64) -> f64, curve: f64) -> Vec<f64> {
+        within(f, Bend { curve, kink: 0.0 })
+    }
+
+    fn within(f: impl Fn(f64) -> f64, bend: Bend) -> Vec<f64> {
         let mut found = Vec::new();
-        roots(&f, (0.0, f(0.0)), (1.0, f(1.0)), &Bend { curve, kink: 0.0 }, 1e-12, &mut |s| {
+        roots(&f, (0.0, f(0.0)), (1.0, f(1.0)), &bend, 1e-12, &mut |s| {
             found.push(s);
             false
         });
@@ -100,8 +104,15 @@ mod tests {
         // Opposite signs at the ends, and still three.
         let found = all(|s| (s - 0.2) * (s - 0.21) * (s - 0.9), 6.0);
         assert!(found.len() == 3 && found.windows(2).all(|pair| pair[0] < pair[1]), "{found:?}");
-        assert_eq!(all(|s| (s - 0.4) * (s - 0.4) + 1e-9, 2.0), []);
-        assert_eq!(all(|_| 0.0, 2.0), []);
+        assert!(all(|s| (s - 0.4) * (s - 0.4) + 1e-9, 2.0).is_empty());
+        assert!(all(|_| 0.0, 2.0).is_empty());
         assert_eq!(all(|s| if s < 0.6 { s - 0.4 } else { f64::NAN }, 2.0).len(), 1);
+    }
+    #[test]
+    fn a_kink_within_its_bound_hides_no_roots() {
+        for middle in [0.03, 0.3, 0.5, 0.99] {
+            let found = within(|s| (s - middle).abs() - 1e-3, Bend { curve: 0.0, kink: 2.0 });
+            assert_eq!(found.len(), 2, "at {middle}: {found:?}");
+        }
     }
 }
