@@ -59,6 +59,7 @@ mod scene_files;
 mod scene_models;
 mod scene_sky;
 mod sim_chase;
+mod sim_history;
 mod sim_simulate;
 mod spacetime_light;
 mod spacetime_matter;

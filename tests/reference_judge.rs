@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{DQuat, DVec3};
-use lensrunner::reference::picture::{Motion, Pose, Seen, Thing, World, Worldline};
+use lensrunner::reference::picture::{Motion, Pose, Seen, Sway, Thing, World, Worldline};
 use lensrunner::reference::{Branch, shoot};
 use lensrunner::scene::lighting::Surroundings;
 use lensrunner::scene::model::{Material, Model, Vertex};
@@ -299,4 +299,43 @@ fn a_body_is_seen_beside_a_moment_of_which_nothing_is_known() {
         let world = World::new(&models, vec![thing(0, Motion::Flying(&line))], 0.0, false);
         assert!(matches!(world.look(DVec3::ZERO + 1e-9 * DVec3::X, DVec3::X, TOLERANCE), Seen::Hit(_)), "{moment}");
     }
+}
+
+/// Falls along x, evenly faster, as seen by one who floats: light that crosses its path runs along a parabola in its axes.
+struct Falls(f64);
+
+impl Worldline for Falls {
+    fn at(&self, time: f64) -> Pose {
+        Pose { position: DVec3::X * (0.5 * self.0 * time * time), momentum: DVec3::ZERO, attitude: DQuat::IDENTITY }
+    }
+
+    fn sway(&self, from: f64, to: f64) -> Option<Sway> {
+        Some(Sway { velocity: self.0 * from.abs().max(to.abs()), acceleration: self.0, ..Sway::default() })
+    }
+}
+
+#[test]
+fn light_that_dips_through_a_flying_triangle_and_back_is_stopped() {
+    let models = [square(1.0)];
+    let mut dips = 0;
+    for k in 0..400 {
+        let [fall, share] = [0.05 + 0.002 * f64::from(k % 97), f64::from(k % 31) / 31.0];
+        // The light is in the square's plane when the body is at `depth`; the two moments lie this much before and after T = 0.
+        let half = 0.7 * 0.97f64.powi(k);
+        let depth = 0.5 * fall * half * half;
+        let line = Falls(fall);
+        // The camera, at T = 5, sees at the delay `5 − T` light of the moment T, there at y = 5 − (5 − T) + offset.
+        let (offset, y0) = (0.6 * (share - 0.5), 5.0);
+        let camera = DVec3::new(depth, y0 + offset, 0.3);
+        let world = World::new(&models, vec![thing(0, Motion::Flying(&line))], 5.0, false);
+        // Followed backwards it meets the body first at T = half: then where y = half + offset.
+        let met = [half, -half].into_iter().find(|time| (time + offset).abs() < 1.0);
+        match (met, world.look(camera, -DVec3::Y, TOLERANCE)) {
+            (Some(time), Seen::Hit(hit)) => assert!((hit.delay - (5.0 - time)).abs() < 1e-6, "{k}: {} for {}", hit.delay, 5.0 - time),
+            (None, Seen::Sky { .. }) => continue,
+            other => panic!("dip of {half}: {other:?}"),
+        }
+        dips += 1;
+    }
+    assert!(dips > 390, "{dips}");
 }

@@ -11,12 +11,14 @@ use super::picture_file::{Channel, PictureFileError, check_writable, write_exr, 
 use crate::reference::picture::develop::{Development, develop};
 use crate::reference::picture::shade::Shift;
 use crate::reference::picture::sky::{Background, stars};
-use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Thing, World, Worldline, picture};
+use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Sway, Thing, World, Worldline, picture};
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
+use crate::sim::history::Bounds;
 use crate::sim::{History, Moment};
+use crate::spacetime::orbit::orbital_frequency;
 
 /// The local error of each step of a ray unless asked otherwise, relative to r.
 pub const DEFAULT_TOLERANCE: f64 = 1e-12;
@@ -106,12 +108,33 @@ impl Worldline for Planet {
             attitude: state.attitude,
         })
     }
+
+    fn sway(&self, from: f64, _to: f64) -> Option<Sway> {
+        // Everything goes round evenly.
+        let state = self.state(from)?;
+        let (r, p) = (state.position.length(), state.momentum.length());
+        let frequency = orbital_frequency(r);
+        Some(Sway {
+            velocity: frequency * r,
+            acceleration: frequency * frequency * r,
+            momentum: [p, p],
+            force: frequency * p,
+            surge: frequency * frequency * p,
+            turning: std::f64::consts::TAU / self.day.abs(),
+            jumps: [0.0; 2],
+        })
+    }
 }
 
 impl Worldline for History {
     fn at(&self, time: f64) -> Pose {
         let sample = History::at(self, time);
         Pose { position: sample.position, momentum: sample.momentum, attitude: sample.attitude }
+    }
+
+    fn sway(&self, from: f64, to: f64) -> Option<Sway> {
+        let Bounds { velocity, acceleration, momentum, force, surge, turning, jumps } = self.bounds(from, to)?;
+        Some(Sway { velocity, acceleration, momentum, force, surge, turning, jumps })
     }
 }
 

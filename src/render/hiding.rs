@@ -117,3 +117,51 @@ fn depth_map(triangles: &[[Vec3; 3]], place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> 
     }
     depths
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Material, shapes};
+
+    /// A ball, one inside it and one beside it, wound outward.
+    fn balls() -> Model {
+        let mut model = shapes::icosphere(320, Material::default());
+        let one = model.clone();
+        for (size, away) in [(0.5, Vec3::ZERO), (1.0, Vec3::X * 1.5)] {
+            let first = model.vertices.len() as u32;
+            model.vertices.extend(one.vertices.iter().map(|v| {
+                let mut vertex = *v;
+                vertex.position = (Vec3::from(v.position) * size + away).to_array();
+                vertex
+            }));
+            model.triangles.extend(one.triangles.iter().map(|t| t.map(|i| i + first)));
+            model.triangle_materials.extend(&one.triangle_materials);
+        }
+        model
+    }
+
+    #[test]
+    fn hidden_parts_do_not_count() {
+        let model = balls();
+        let radius = Vec3::from(model.vertices[0].position).length();
+        let disc = std::f32::consts::PI * radius * radius;
+        let seen = seen_from(&model);
+        // Discs seen: both from the side, one along the line of the two.
+        for (direction, discs) in [(Vec3::Y, 2.0), (Vec3::new(0.0, 0.6, 0.8), 2.0), (Vec3::X, 1.0), (-Vec3::X, 1.0)] {
+            let (mut all, mut counted) = (0.0, 0.0);
+            for (triangle, &seen) in model.triangles.iter().zip(&seen) {
+                let [a, b, c] = triangle.map(|i| Vec3::from(model.vertices[i as usize].position));
+                let normal = (b - a).cross(c - a);
+                let area = 0.5 * normal.dot(direction);
+                if area > 0.0 {
+                    all += area;
+                    counted += area * seen_part(seen, normal.normalize(), direction);
+                }
+            }
+            assert!((all / disc - 2.25).abs() < 0.05, "{all} {disc}");
+            assert!((counted / disc / discs - 1.0).abs() < 0.25, "from {direction}: {}", counted / disc);
+        }
+        let apart = (0..DIRECTIONS).flat_map(|k| (0..k).map(move |l| direction_of(k).angle_between(direction_of(l))));
+        assert!(apart.fold(f32::INFINITY, f32::min) > 0.6);
+    }
+}

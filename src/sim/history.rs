@@ -59,6 +59,48 @@ impl Node {
     }
 }
 
+/// Bounds on how a ship moves over a while, in r_s, c and radians.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounds {
+    /// |dx/dT|.
+    pub velocity: f64,
+    /// |d²x/dT²|.
+    pub acceleration: f64,
+    /// The least and the greatest |p| of the momentum per mass.
+    pub momentum: [f64; 2],
+    /// |dp/dT|.
+    pub force: f64,
+    /// |d²p/dT²|, but at nodes.
+    pub surge: f64,
+    /// The angular velocity of the attitude, constant between nodes.
+    pub turning: f64,
+    /// All jumps of dp/dT at nodes together, and all of the angular velocity.
+    pub jumps: [f64; 2],
+}
+
+impl Bounds {
+    /// Widens them by what lies between two nodes. A cubic and its derivatives stay among their Bézier points.
+    fn take(&mut self, earlier: &Node, later: &Node, turn: DVec3) {
+        let span = later.time - earlier.time;
+        let points = |a: DVec3, da: DVec3, b: DVec3, db: DVec3| [a, a + da * (span / 3.0), b - db * (span / 3.0), b];
+        // The first derivatives at the points between, and the second at both ends.
+        let rates = |p: [DVec3; 4]| [p[1] - p[0], p[2] - p[1], p[3] - p[2]].map(|d| d.length() * 3.0 / span);
+        let bends = |p: [DVec3; 4]| [p[2] - 2.0 * p[1] + p[0], p[3] - 2.0 * p[2] + p[1]].map(|d| d.length() * 6.0 / (span * span));
+        let most = |bound: &mut f64, values: &[f64]| *bound = values.iter().copied().fold(*bound, f64::max);
+        let place = points(earlier.state.position, earlier.velocity, later.state.position, later.velocity);
+        let momentum = points(earlier.state.momentum, earlier.force_after, later.state.momentum, later.force_before);
+        most(&mut self.velocity, &rates(place));
+        most(&mut self.acceleration, &bends(place));
+        most(&mut self.force, &rates(momentum));
+        most(&mut self.surge, &bends(momentum));
+        let strays = momentum.map(|p| p.distance(momentum[0])).into_iter().fold(0.0, f64::max);
+        self.momentum[0] = self.momentum[0].min((momentum[0].length() - strays).max(0.0));
+        most(&mut self.momentum[1], &momentum.map(DVec3::length));
+        // Small turns go along a normalised chord instead of an arc, at a rate that is even to a thousandth: a tenth covers its change.
+        most(&mut self.turning, &[1.1 * turn.length()]);
+    }
+}
+
 /// The worldline of one ship. Every node is kept (184 bytes a step), so what crossed the horizon is seen for ever, unless
 /// [`History::forget_beyond`] says that nobody will look that far.
 #[derive(Component, Clone, Debug)]
@@ -165,6 +207,41 @@ impl History {
         let (most, jump) = jumps.iter().enumerate().max_by(|a, b| a.1.length_squared().total_cmp(&b.1.length_squared()))?;
         let beside = [most.checked_sub(1), Some(most + 1)].map(|k| k.and_then(|k| jumps.get(k)).copied().unwrap_or(DVec3::ZERO));
         Some((within[most + 1].time, *jump - 0.5 * (beside[0] + beside[1])))
+    }
+
+    /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them.
+    pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
+        if from < self.oldest().time || to > self.last().time {
+            return None;
+        }
+        // From the last node not after `from` to the first not before `to`; those of the past run backwards.
+        let later = self.past.partition_point(|node| node.time >= to);
+        let past = if from < self.nodes[0].time {
+            &self.past[later.saturating_sub(1)..=self.past.partition_point(|node| node.time > from)]
+        } else {
+            &[]
+        };
+        let since = if later == 0 {
+            let first = self.nodes.partition_point(|node| node.time <= from).saturating_sub(1);
+            &self.nodes[first..=self.nodes.partition_point(|node| node.time < to)]
+        } else {
+            &[]
+        };
+        let mut bounds = Bounds { momentum: [f64::INFINITY, 0.0], ..Bounds::default() };
+        let mut before: Option<(&Node, DVec3)> = None;
+        let mut nodes = past.iter().rev().chain(since);
+        let mut earlier = nodes.next()?;
+        for later in nodes {
+            let turn = turning(earlier, later);
+            bounds.take(earlier, later, turn);
+            if let Some((node, turn_before)) = before {
+                bounds.jumps[0] += node.force_before.distance(earlier.force_after);
+                bounds.jumps[1] += turn_before.distance(turn);
+            }
+            before = Some((later, turn));
+            earlier = later;
+        }
+        before.map(|_| bounds)
     }
 
     fn last(&self) -> &Node {

@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
+use super::roots::{Bend, roots};
 use super::span::Scope;
 use super::sweep::{fastest, fastest_since, is_short};
 use super::tree::Chord;
@@ -42,6 +43,8 @@ struct Piece<'a> {
     /// Elapsed time in the segment, from and to.
     from: f64,
     to: f64,
+    /// A bound on |d²x/dτ²| in the segment, in 1/r_s.
+    bend: f64,
 }
 
 impl Piece<'_> {
@@ -102,6 +105,11 @@ impl Met {
     }
 }
 
+/// A piece that may bend by more than this part of a body's reach, in its axes, is halved,
+const BENT: f64 = 0.05;
+/// unless body and light come closer by less than this part of it meanwhile.
+const SHORT: f64 = 1.0 / 128.0;
+
 /// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
 const SLACK: f64 = 1e-11;
 
@@ -157,7 +165,7 @@ impl World<'_> {
         for k in 0..pieces as usize {
             let is_last = k + 1 == pieces as usize;
             let to = if is_last { segment.length } else { step * (k + 1) as f64 };
-            let piece = Piece { segment, axes, from: step * k as f64, to };
+            let piece = Piece { segment, axes, from: step * k as f64, to, bend };
             let end = if is_last { last } else { segment.position(to) };
             let ends = Ends { places: [start, end], rates: OnceCell::new() };
             start = end;
@@ -238,7 +246,15 @@ impl World<'_> {
         if apart > flying.reach + straying {
             return;
         }
-        if straying > 0.5 * flying.reach && half > 1e-9 * (1.0 + piece.segment.start) {
+        let can_halve = half > 1e-9 * (1.0 + piece.segment.start);
+        // Bounds on the motion are asked for late: most pieces are long, and are halved or let go without them.
+        let is_long = can_halve && straying > 0.5 * flying.reach;
+        let bend = (!is_long)
+            .then(|| line.sway(self.time - piece.segment.start - piece.to, self.time - piece.segment.start - piece.from))
+            .flatten()
+            .map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
+        let bends = bend.is_some_and(|bend| bend.sagitta(2.0 * half) > BENT * flying.reach) && straying > SHORT * flying.reach;
+        if is_long || bends && can_halve {
             let first = Piece { to: middle, ..*piece };
             self.meet_flying(&first, flying, line, met);
             if met.is_none_or(|met| met.elapsed > middle) {
@@ -246,7 +262,7 @@ impl World<'_> {
             }
             return;
         }
-        self.cross_flying(piece, flying, line, met);
+        self.cross_flying(piece, flying, line, bend, met);
     }
 
     /// How exactly a place on a piece is known in the axes of a body, in r_s: a few ulp of the distance from the hole and of the clocks.
@@ -255,37 +271,52 @@ impl World<'_> {
         8.0 * f64::EPSILON * (1.0 + piece.segment.position(elapsed).length() + self.time.abs() + delay)
     }
 
-    /// The piece in the body's rest frame, against its tree.
-    fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>) {
+    /// The piece in the body's rest frame, against its tree; `bend` is how much it bends there, if that is known.
+    fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, bend: Option<Bend>, met: &mut Option<Met>) {
         let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.place(elapsed));
         let span = piece.to - piece.from;
         let at = |k: usize| piece.from + span * k as f64 / 4.0;
-        let points = [0, 1, 2, 3, 4].map(|k| body(at(k)));
-        // The sagitta, measured at a quarter, a half and three quarters, and doubled: the body's history has no closed form to bound it by.
-        let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
+        let ends = [body(at(0)), body(at(4))];
+        let quarters = OnceCell::new();
+        let points = || {
+            let [a, b, c] = *quarters.get_or_init(|| [1, 2, 3].map(|k| body(at(k))));
+            [ends[0], a, b, c, ends[1]]
+        };
+        let bend = bend.filter(|bend| bend.sagitta(span) <= flying.reach).unwrap_or_else(|| {
+            // Measured at a quarter, a half and three quarters, and doubled.
+            let points = points();
+            let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
+            Bend { curve: 16.0 * off.into_iter().fold(0.0, f64::max) / (span * span), kink: 0.0 }
+        });
         let rounding = self.rounding(piece, piece.from);
-        let grow = 2.0 * off.into_iter().fold(0.0, f64::max) + 1e-9 * flying.reach + rounding;
+        let least = 1e-9 * flying.reach + rounding;
+        let grow = bend.sagitta(span) + least;
         let model = &self.models[self.things[flying.thing as usize].model];
-        flying.tree.along(points[0], points[4], grow, 1.0, |item, until| {
+        flying.tree.along(ends[0], ends[1], grow, 1.0, |item, until| {
             let corners = model.triangles[item as usize].map(|i| flying.vertices[i as usize]);
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            let height = |y: DVec3| normal.dot(y - corners[0]);
-            let heights = points.map(height);
-            for k in 0..4 {
-                if heights[k] * heights[k + 1] > 0.0 || heights[k] == 0.0 && heights[k + 1] == 0.0 {
-                    continue;
-                }
-                let elapsed = falsi((at(k), heights[k]), (at(k + 1), heights[k + 1]), |s| height(body(s)));
-                if met.is_some_and(|met| met.elapsed < elapsed) {
-                    break;
-                }
-                if let Some(barycentrics) = weights(corners, normal, body(elapsed), rounding) {
-                    Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
-                    // A later crossing of this triangle is of no interest. The tree's own bound stays loose by the sagitta.
-                    return ((elapsed - piece.from) / span).min(until);
-                }
+            if passes_beside(corners, normal, ends, grow) {
+                return until;
             }
-            until
+            let height = |y: DVec3| normal.dot(y - corners[0]);
+            let heights = points().map(height);
+            let size = normal.length();
+            let rising = bend.times(size);
+            let mut first = None;
+            let mut visit = |elapsed: f64| {
+                if met.is_some_and(|met| met.elapsed < elapsed) {
+                    return true;
+                }
+                first = weights(corners, normal, body(elapsed), rounding).map(|barycentrics| (elapsed, barycentrics));
+                first.is_some()
+            };
+            // A later crossing of this triangle is of no interest.
+            (0..4)
+                .any(|k| roots(&|s| height(body(s)), (at(k), heights[k]), (at(k + 1), heights[k + 1]), &rising, least * size, &mut visit));
+            let Some((elapsed, barycentrics)) = first else { return until };
+            Met { elapsed, thing: flying.thing, triangle: item, barycentrics }.offer(met);
+            // The tree's own bound stays loose by the sagitta.
+            ((elapsed - piece.from) / span).min(until)
         });
     }
 }
@@ -371,6 +402,23 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
         .or_else(at_end)
 }
 
+/// Whether a curve that strays from the chord between two points by no more than `grow` (r_s) is sure to miss a triangle.
+///
+/// Where the curve is in the plane its chord is within `grow` of it, so no farther from where the chord goes through it than `grow` times the
+/// chord's length over its rise, and the curve `grow` more. A weight changes by no more than the longest edge over twice the area in a length of 1.
+fn passes_beside(corners: [DVec3; 3], normal: DVec3, [from, to]: [DVec3; 2], grow: f64) -> bool {
+    let chord = to - from;
+    let rise = normal.dot(chord);
+    let through = from + chord * (normal.dot(corners[0] - from) / rise);
+    let area = normal.length_squared();
+    let edges = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
+    let longest = edges.map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+    let away = grow * (1.0 + chord.length() * area.sqrt() / rise.abs());
+    let slack = SLACK + away * (longest / area).sqrt();
+    // Not a number where the chord runs along the plane: then nothing is sure.
+    (0..3).any(|k| edges[k].cross(through - corners[k]).dot(normal) < -slack * area)
+}
+
 /// The weights of the corners at a point of the triangle's plane that is known to `rounding` (r_s), or None outside.
 fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> Option<[f64; 3]> {
     let area = normal.length_squared();
@@ -385,25 +433,33 @@ fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> O
     Some(weights)
 }
 
-/// A root of f between two points with values of opposite signs: regula falsi with the weight of the end that stays halved (Illinois).
-fn falsi((mut a, mut fa): (f64, f64), (mut b, mut fb): (f64, f64), f: impl Fn(f64) -> f64) -> f64 {
-    if fa == 0.0 {
-        return a;
-    }
-    let scale = fa.abs().max(fb.abs());
-    // About seven evaluations reach rounding; sixty are enough for any f.
-    for _ in 0..60 {
-        if fb == 0.0 || (b - a).abs() <= 2.0 * f64::EPSILON * b.abs() || fb.abs() <= 1e-15 * scale {
-            break;
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curve_that_meets_a_triangle_does_not_pass_beside_it() {
+        let corners = [DVec3::new(-0.3, -0.2, 0.0), DVec3::new(0.4, -0.1, 0.1), DVec3::new(0.0, 0.5, -0.1)];
+        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        // Evenly spread numbers.
+        let spread = |i: u32, k: i32| (f64::from(i) * 0.8566748838545029f64.powi(k)).fract() - 0.5;
+        let (mut met, mut let_go) = (0, 0);
+        for i in 1..20_000 {
+            let [from, way, off] = [1, 4, 7].map(|k| DVec3::new(spread(i, k), spread(i, k + 1), spread(i, k + 2)));
+            let grow = 0.2 * f64::from(i % 11) / 11.0;
+            let curve = |t: f64| from + way * (2.0 * t) + off.normalize() * (grow * 4.0 * t * (1.0 - t));
+            let ends = [curve(0.0), curve(1.0)];
+            let height = |t: f64| normal.dot(curve(t) - corners[0]);
+            let hit = (0..64).any(|k| {
+                let [a, b] = [f64::from(k) / 64.0, f64::from(k + 1) / 64.0];
+                let least = &Bend { curve: 0.0, kink: 0.0 };
+                roots(&height, (a, height(a)), (b, height(b)), least, 0.0, &mut |t| weights(corners, normal, curve(t), 1e-15).is_some())
+            });
+            let beside = passes_beside(corners, normal, ends, grow);
+            assert!(!hit || !beside, "{i}");
+            met += u32::from(hit);
+            let_go += u32::from(beside);
         }
-        let c = (b * fa - a * fb) / (fa - fb);
-        let fc = f(c);
-        if fc * fb < 0.0 {
-            (a, fa) = (b, fb);
-        } else {
-            fa *= 0.5;
-        }
-        (b, fb) = (c, fc);
+        assert!(met > 1000 && let_go > 5000, "{met} {let_go}");
     }
-    b
 }

@@ -3,6 +3,7 @@
 //! - [`world`]: the things of a scene, with worldlines handed in from above.
 //! - [`tree`]: boxes over triangles, asked along pieces of a curve.
 //! - `find`: what one look direction shows; `packet`: the same for neighbours together.
+//! - `roots`: where a curve of bounded bend goes through a plane.
 //! - `sweep`: where flying bodies may be at which delay; `span`: at which delays a camera may see them at all.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`develop`]: linear light to a picture for the eye.
@@ -11,6 +12,7 @@ pub mod develop;
 pub mod disk;
 mod find;
 mod packet;
+mod roots;
 pub mod shade;
 pub mod sky;
 mod span;
@@ -28,7 +30,7 @@ use rayon::prelude::*;
 
 pub use disk::{Crossing, Disk};
 pub use find::Seen;
-pub use world::{Motion, Pose, Thing, World, Worldline};
+pub use world::{Motion, Pose, Sway, Thing, World, Worldline};
 
 use super::bvh::order::squares;
 use super::trace::{Camera, Hit};

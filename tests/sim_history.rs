@@ -1,0 +1,52 @@
+//! What a ship's history says of how it moved.
+
+use glam::DVec3;
+use lensrunner::sim::history::rotation;
+use lensrunner::sim::{Command, History};
+use lensrunner::spacetime::matter::{ShipState, step};
+
+/// A ship that falls, thrusts and turns by commands that change every few steps, its past known for ten r_s/c.
+fn flown() -> History {
+    let mut state = ShipState::new(DVec3::new(5.0, 1.0, 0.3), DVec3::new(-0.3, 0.25, 0.1));
+    let mut history = History::new(0.0, &state);
+    for k in 0..200 {
+        let sign = if k / 7 % 2 == 0 { 1.0 } else { -1.0 };
+        let command = Command { thrust: DVec3::new(0.0, 0.02, -0.05) * sign, rates: DVec3::new(0.3, 1.2, 0.0) * sign };
+        state = step(&state, 1.0 / 32.0, command.thrust, command.rates);
+        history.push(f64::from(k + 1) / 32.0, &state, &command);
+    }
+    history.reach_back(-10.0);
+    history
+}
+
+#[test]
+fn a_ship_moves_within_its_bounds() {
+    let history = flown();
+    for k in 0..120 {
+        let from = -9.0 + 0.12 * f64::from(k);
+        let span = [0.02, 0.1, 0.7][k as usize % 3];
+        let bounds = history.bounds(from, from + span).unwrap();
+        let times: Vec<f64> = (0..=300).map(|i| from + span * f64::from(i) / 300.0).collect();
+        let samples: Vec<_> = times.iter().map(|t| history.at(*t)).collect();
+        let step = span / 300.0;
+        let (mut kinks, mut rates): (f64, Vec<DVec3>) = (0.0, Vec::new());
+        for pair in samples.windows(2) {
+            assert!(pair[0].position.distance(pair[1].position) <= bounds.velocity * step * (1.0 + 1e-9));
+            assert!(pair[0].momentum.distance(pair[1].momentum) <= bounds.force * step * (1.0 + 1e-9));
+            rates.push(rotation(pair[0].attitude, pair[1].attitude) / step);
+            assert!(rates[rates.len() - 1].length() <= bounds.turning + 1e-9, "{from}");
+            let p = pair[0].momentum.length();
+            assert!(p >= bounds.momentum[0] - 1e-12 && p <= bounds.momentum[1] + 1e-12);
+        }
+        for three in samples.windows(3) {
+            let bend = (three[0].position - 2.0 * three[1].position + three[2].position).length() / (step * step);
+            assert!(bend <= bounds.acceleration * (1.0 + 1e-6) + 1e-5, "{from}: {bend} {bounds:?}");
+            kinks += (three[0].momentum - 2.0 * three[1].momentum + three[2].momentum).length() / step;
+        }
+        assert!(kinks <= bounds.surge * span + bounds.jumps[0] + 1e-9, "{from}: {kinks} {bounds:?}");
+        let turns: f64 = rates.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        assert!(turns <= bounds.jumps[1] + 0.1 * bounds.turning, "{from}: {turns} {bounds:?}");
+    }
+    assert_eq!(history.bounds(6.2, 6.3), None);
+    assert_eq!(history.bounds(-1e3, 0.0), None);
+}
