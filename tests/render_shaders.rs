@@ -166,3 +166,26 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
         assert!((mean - (1.0 - free)).abs() < 0.08, "{coverages:?}: {mean}, not {}", 1.0 - free);
     }
 }
+
+#[test]
+fn hidden_parts_count_the_same_in_both_languages() {
+    use glam::Vec3;
+    use lensrunner::render::hiding::{direction_of, seen_part};
+    let body = "
+    let outward = select(vec3<f32>(0.0), direction_of(u32(row.w)), row.w >= 0.0);
+    twin_out[id.x] = vec4<f32>(direction_of(id.x % 32u), seen_part(id.x * 2654435761u, outward, row.xyz));";
+    let mut random = StdRng::seed_from_u64(12);
+    let rows: Vec<[f32; 4]> = (0..2000)
+        .map(|k| {
+            let direction = Vec3::from_array(std::array::from_fn(|_| random.random_range(-1.0..1.0f32))).normalize_or(Vec3::X);
+            [direction.x, direction.y, direction.z, (k % 33) as f32 - 1.0]
+        })
+        .collect();
+    let out = run(Pass::Mesh, body, [&[], &[]], &rows, 1);
+    for (k, (row, got)) in rows.iter().zip(&out).enumerate() {
+        let outward = if row[3] >= 0.0 { direction_of(row[3] as u32) } else { Vec3::ZERO };
+        let want = seen_part((k as u32).wrapping_mul(2_654_435_761), outward, Vec3::new(row[0], row[1], row[2]));
+        assert!(close(got[3], want, 1e-4), "{row:?}: {} on the GPU, {want} in Rust", got[3]);
+        assert!(Vec3::new(got[0], got[1], got[2]).distance(direction_of(k as u32 % 32)) < 1e-6, "direction {}", k % 32);
+    }
+}

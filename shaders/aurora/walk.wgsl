@@ -145,7 +145,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var k = 0u;
     while k < count {
         let start = upper;
-        let most_km = MERGED * width_along(streak.kind, start, first, chord_count, focal);
+        // A width holds for its own chord.
+        let end = chord_height(streak.kind, chord_at(streak.kind, start, chord_count) + 1u, chord_count);
+        let most_km = min(MERGED * width_along(streak.kind, start, first, chord_count, focal), start - end);
         // Parts, their heights from here and the squares of those.
         var sums = vec3<f32>(0.0);
         loop {
@@ -215,10 +217,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let place = clip.xyz / clip.w;
         let pixel = (vec2<f32>(0.5, -0.5) * place.xy + 0.5) * frame.size.xy;
         let axes = vec4<f32>(direction * major, vec2<f32>(-direction.y, direction.x) * minor);
-        // The level at which it is one to two pixels narrow.
+        // The level at which it is three quarters to one and a half pixels narrow.
         let coarsest = max(u32(aurora.electrons.w), 1u) - 1u;
         var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
-        // Light reaches three standard deviations, and two pixels of its level further where that is enlarged.
+        // All but 1 % of the light is within three standard deviations, and two pixels of its level further where that is enlarged.
         let reach = 3.0 * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + select(1.0, 2.0 * f32(1u << level), level > 0u);
         let around = vec4<f32>(pixel - reach, pixel + reach);
         if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {

@@ -61,11 +61,13 @@ const LONG: vec2<f32> = vec2<f32>(1.5, 3.0);
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, STEP * f32(CLOSE_TAPS));
-    let along = along_of(at, CLOSE_TAPS);
+    var along = along_of(at, CLOSE_TAPS);
+    let share = smoothstep(LONG.x, LONG.y, along.texels);
+    // Places that do not count are not looked at.
+    along.taps = select(1u, along.taps, share > 0.0);
     let far = far_along(in, at, along);
     let level = 0.5 * log2(max(at.square, 1e-12));
     let near = Cooling(in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level), unseen_of(in, unseen_variance(level)));
-    let share = smoothstep(LONG.x, LONG.y, along.texels);
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
     return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);

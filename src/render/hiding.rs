@@ -146,8 +146,10 @@ mod tests {
         let radius = Vec3::from(model.vertices[0].position).length();
         let disc = std::f32::consts::PI * radius * radius;
         let seen = seen_from(&model);
-        // Discs seen: both from the side, one along the line of the two.
-        for (direction, discs) in [(Vec3::Y, 2.0), (Vec3::new(0.0, 0.6, 0.8), 2.0), (Vec3::X, 1.0), (-Vec3::X, 1.0)] {
+        // Discs seen: both from the side, one along the line of the two; from the nearest of the directions much of the other is still seen.
+        for (direction, least, most) in
+            [(Vec3::Y, 1.5, 2.1), (Vec3::new(0.0, 0.6, 0.8), 1.5, 2.1), (Vec3::X, 0.9, 1.7), (-Vec3::X, 0.9, 1.7)]
+        {
             let (mut all, mut counted) = (0.0, 0.0);
             for (triangle, &seen) in model.triangles.iter().zip(&seen) {
                 let [a, b, c] = triangle.map(|i| Vec3::from(model.vertices[i as usize].position));
@@ -159,7 +161,7 @@ mod tests {
                 }
             }
             assert!((all / disc - 2.25).abs() < 0.05, "{all} {disc}");
-            assert!((counted / disc / discs - 1.0).abs() < 0.25, "from {direction}: {}", counted / disc);
+            assert!((least..most).contains(&(counted / disc)), "from {direction}: {}", counted / disc);
         }
         let apart = (0..DIRECTIONS).flat_map(|k| (0..k).map(move |l| direction_of(k).angle_between(direction_of(l))));
         assert!(apart.fold(f32::INFINITY, f32::min) > 0.6);

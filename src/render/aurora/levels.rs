@@ -1,4 +1,4 @@
-//! The pyramid of pictures in which the aurora's light is added up. A wide splat goes to the level where it is one to two pixels narrow; each level
+//! The pyramid of pictures in which the aurora's light is added up. A wide splat goes to the level where it is three quarters to one and a half pixels narrow; each level
 //! is enlarged into the next finer one before the splats of that one are added. Levels but the finest have a texel of margin on each side, so that
 //! enlarging reads no texel outside.
 //!
