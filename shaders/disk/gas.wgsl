@@ -186,7 +186,7 @@ fn far_look(in: Gas, most: u32) -> Cooling {
     return far_along(in, at, along_of(at, most));
 }
 
-/// As many as pay, from far: four take a third more time and halve what is left of the error once more.
+/// As many as pay, from far: four take a sixth more of the time of the disk and leave five sixths of the error.
 const FAR_TAPS: u32 = 2u;
 
 /// Light and opacity of gas that streaks cool: premultiplied. Its density is the fourth power of its temperature, and light goes as
