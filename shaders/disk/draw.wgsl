@@ -25,13 +25,13 @@ fn tent_below(x: f32) -> f32 {
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in, FAR_TAPS));
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in));
 }
 
 /// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in, FAR_TAPS)) * coverage(in.seen.x, in.seen.y);
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in)) * coverage(in.seen.x, in.seen.y);
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -61,11 +61,9 @@ const LONG: vec2<f32> = vec2<f32>(1.5, 3.0);
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, STEP * f32(CLOSE_TAPS));
-    var along = along_of(at, CLOSE_TAPS);
-    let share = smoothstep(LONG.x, LONG.y, along.texels);
+    let share = smoothstep(LONG.x, LONG.y, sqrt(at.long));
     // Places that do not count are not looked at.
-    along.taps = select(1u, along.taps, share > 0.0);
-    let far = far_along(in, at, along);
+    let far = far_along(in, at, select(1u, taps_of(at, CLOSE_TAPS), share > 0.0));
     let level = 0.5 * log2(max(at.square, 1e-12));
     let near = Cooling(in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level), unseen_of(in, unseen_variance(level)));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));

@@ -8,8 +8,8 @@
 @group(2) @binding(2) var near_pattern: texture_2d<f32>;
 @group(2) @binding(3) var near_sampler: sampler;
 
-/// Texels of the pattern that sizes of pixels are told in: every other column of the lattice of src/scene/disk/noise.rs, and its rows.
-const PATTERN_SIZE: vec2<f32> = vec2<f32>(512.0, 512.0);
+/// Texels of the pattern that sizes of pixels are told in: every other column of the lattice of src/scene/disk/noise.rs, and its rows, as many.
+const PATTERN_SIZE: f32 = 512.0;
 /// Texels of the finest level from far, on either side: a power of two, so that a place is brought back into the pattern by a mask.
 const FAR_SIDE: u32 = 1024u;
 
@@ -55,19 +55,36 @@ const LEAST_SHARE: f32 = 0.03;
 struct Streaks {
     even: vec2<f32>,
     odd: vec2<f32>,
-    /// Square of the side of a texel, in texels of the pattern itself, that the pixel should be looked up with.
+    /// The pixel's longest side there, in both generations.
+    even_side: vec2<f32>,
+    odd_side: vec2<f32>,
+    /// Square of its length, in texels of the pattern itself.
+    long: f32,
+    /// Square of the side of a texel, in such texels, that the pixel should be looked up with.
     square: f32,
 }
 
-/// The square of the side of a texel for a pixel at `place` in the pattern, in texels: half the square of the pixel's width, as a texel shows more than
+/// What a pixel covers of the pattern.
+struct Shape {
+    /// Its longest side.
+    side: vec2<f32>,
+    /// Square of the length of that, in texels.
+    long: f32,
+    /// Square of the side of the texel that it should be looked up with, in texels.
+    square: f32,
+}
+
+/// For a pixel at `place` in the pattern. The square of its texel's side is half the square of the pixel's width, as a texel shows more than
 /// itself; `share` of its length's at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as long as the
 /// pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
-fn square_of(place: vec2<f32>, share: f32) -> f32 {
+fn shape_of(place: vec2<f32>, share: f32) -> Shape {
     let a = dpdx(place);
     let b = dpdy(place);
-    let area = a.x * b.y - a.y * b.x;
-    let long = max(dot(a, a), dot(b, b));
-    return max(0.5 * area * area / max(long, 1e-30), long * share);
+    let along = dot(a, a);
+    let down = dot(b, b);
+    let area = (a.x * b.y - a.y * b.x) * PATTERN_SIZE;
+    let long = max(along, down) * (PATTERN_SIZE * PATTERN_SIZE);
+    return Shape(select(a, b, down > along), long, max(0.5 * (PATTERN_SIZE * PATTERN_SIZE) * (area * area) / max(long, 1e-30), long * share));
 }
 
 /// Where in the pattern a pixel is, in both generations, and how much of it it covers. A texel is no shorter than
@@ -84,9 +101,12 @@ fn streaks_of(in: Gas, most: f32) -> Streaks {
     let even_shows = in.even.w > LEAST_SHARE * in.odd.w;
     let odd_shows = in.odd.w > LEAST_SHARE * in.even.w;
     // Differences of each by itself: neighbouring pixels may choose differently.
-    let even = square_of(result.even * PATTERN_SIZE, share);
-    let odd = square_of(result.odd * PATTERN_SIZE, share);
-    result.square = select(odd, even, even_shows & (!odd_shows | (in.even.z < in.odd.z)));
+    let even = shape_of(result.even, share);
+    let odd = shape_of(result.odd, share);
+    result.even_side = even.side;
+    result.odd_side = odd.side;
+    result.long = max(even.long, odd.long);
+    result.square = select(odd.square, even.square, even_shows & (!odd_shows | (in.even.z < in.odd.z)));
     return result;
 }
 
@@ -120,43 +140,19 @@ fn far_level(at: Streaks) -> u32 {
     return (bitcast<u32>(max(at.square, 0.25)) - (124u << 23u)) >> 24u;
 }
 
-/// The power of two by which the streaks of both generations cool the gas, from far.
-fn far_power(in: Gas, at: Streaks, level: u32) -> f32 {
-    return 8.0 * (in.even.w * far_value(at.even, level) + in.odd.w * far_value(at.odd, level));
-}
-
-/// A pixel that is long in the pattern, looked up at several places along it.
-struct Along {
-    /// Its longest side, in both generations.
-    even: vec2<f32>,
-    odd: vec2<f32>,
-    /// Its length in texels of the pattern.
-    texels: f32,
-    /// At how many places.
-    taps: u32,
-}
-
 /// Texels from one place along a pixel to the next. What a texel shows reaches about as far, and streaks are the smoother the longer they are.
 const STEP: f32 = 3.0;
 
-/// At up to `most` places, in texels of the pattern from far.
-fn along_of(at: Streaks, most: u32) -> Along {
-    let even = longest_side(at.even);
-    let odd = longest_side(at.odd);
-    let texels = sqrt(max(dot(even, even), dot(odd, odd))) * PATTERN_SIZE.x;
-    return Along(even, odd, texels, u32(clamp(ceil(texels * inverseSqrt(STEP * STEP * max(at.square, 0.25))), 1.0, f32(most))));
+/// At how many places a pixel is looked up along its longest side, from far: at up to `most`.
+fn taps_of(at: Streaks, most: u32) -> u32 {
+    return u32(clamp(ceil(sqrt(at.long / (STEP * STEP * max(at.square, 0.25)))), 1.0, f32(most)));
 }
 
-fn longest_side(place: vec2<f32>) -> vec2<f32> {
-    let a = dpdx(place);
-    let b = dpdy(place);
-    return select(a, b, dot(b, b) > dot(a, a));
-}
-
-/// The streaks at the place `k` of those along a pixel.
-fn streaks_along(at: Streaks, along: Along, k: u32) -> Streaks {
-    let t = (f32(k) + 0.5) / f32(along.taps) - 0.5;
-    return Streaks(at.even + t * along.even, at.odd + t * along.odd, at.square);
+/// The power of two by which the streaks cool the gas, `t` of the pixel's longest side on.
+fn power_along(in: Gas, at: Streaks, t: f32, level: u32) -> f32 {
+    let even = far_value(at.even + t * at.even_side, level);
+    let odd = far_value(at.odd + t * at.odd_side, level);
+    return 8.0 * (in.even.w * even + in.odd.w * odd);
 }
 
 /// The variance of ln T for that of the pattern, in units of log₂ in `even` and `odd`.
@@ -164,30 +160,34 @@ fn unseen_of(in: Gas, variance: f32) -> f32 {
     return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
 }
 
-/// The streaks of both generations from far, along a pixel: what is seen there has one colour, by its mean and its variance, as what is not seen at all.
-fn far_along(in: Gas, at: Streaks, along: Along) -> Cooling {
+/// The streaks of both generations from far, at `taps` places along a pixel: what is seen there has one colour, by its mean and its variance, as what is not
+/// seen at all.
+fn far_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
     let level = far_level(at);
+    let share = 1.0 / f32(taps);
     var sum = 0.0;
     var squares = 0.0;
-    for (var k = 0u; k < along.taps; k++) {
-        let power = far_power(in, streaks_along(at, along, k), level);
+    for (var k = 0u; k < taps; k++) {
+        let power = power_along(in, at, (f32(k) + 0.5) * share - 0.5, level);
         sum += power;
         squares += power * power;
     }
-    let share = 1.0 / f32(along.taps);
     let mean = sum * share;
     let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
     return Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
-/// The same at up to `most` places.
-fn far_look(in: Gas, most: u32) -> Cooling {
-    let at = streaks_of(in, STEP * f32(most));
-    return far_along(in, at, along_of(at, most));
+/// The same at two places, as many as pay from far: four take a sixth more of the time of the disk and leave five sixths of the error. A short pixel is
+/// looked up at its middle twice: a loop that some pixels leave earlier costs a software driver more.
+fn far_look(in: Gas) -> Cooling {
+    let at = streaks_of(in, 2.0 * STEP);
+    let level = far_level(at);
+    let t = select(0.0, 0.25, at.long > STEP * STEP * max(at.square, 0.25));
+    let a = power_along(in, at, -t, level);
+    let b = power_along(in, at, t, level);
+    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
+    return Cooling(0.5 * (a + b), unseen + 0.12011325 * (a - b) * (a - b));
 }
-
-/// As many as pay, from far: four take a sixth more of the time of the disk and leave five sixths of the error.
-const FAR_TAPS: u32 = 2u;
 
 /// Light and opacity of gas that streaks cool: premultiplied. Its density is the fourth power of its temperature, and light goes as
 /// exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's. Light is steep in t, so what streaks too fine to be
