@@ -1,7 +1,7 @@
 //! Straight rays: every method against brute force in f64 and, bit for bit, against each other.
 
 use glam::{DVec3, Vec3};
-use lensrunner::reference::bvh::{EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Settings, Wide, order};
+use lensrunner::reference::bvh::{EyePacket, EyePackets, Hit, Instructions, Mesh, Packets, Ray, Settings, Wide, order};
 use lensrunner::reference::scenes::{Scene, Triangle, View, bunny, castle, spd};
 use rand::rngs::StdRng;
 use rand::seq::SliceRandom;
@@ -166,13 +166,23 @@ fn packets_of_every_size_and_order_give_the_bits_of_single_rays() {
         let wide = Wide::new(&scene.triangles);
         let slow = wide.clone().portable();
         assert!(!slow.is_fast());
+        let half = wide.clone().limited(Instructions::Avx2);
         let primary = view_rays(&scene.view, [32, 24]);
         let second = secondary(&scene.triangles, &primary, &closest_each(&wide, &primary), random);
         let mut mixed = [primary.clone(), second.clone(), any_rays(300, 3.0, random)].concat();
         mixed.shuffle(random);
         let tiled: Vec<Ray> = order::tiles([32, 24], 16).0.iter().map(|&i| primary[i as usize]).collect();
         let backwards: Vec<Ray> = tiled.iter().rev().copied().collect();
-        for rays in [tiled, backwards, second, mixed] {
+        // From one eye amid the scene, in all directions, some with an end.
+        let inside: Vec<Ray> = any_rays(500, 3.0, random).into_iter().map(|ray| Ray { origin: [0.05, 0.1, 0.2], ..ray }).collect();
+        let ended: Vec<Ray> = tiled
+            .iter()
+            .map(|ray| Ray {
+                until: DVec3::from(scene.view.target).distance(DVec3::from(scene.view.eye)) as f32 * random.random_range(0.5..1.5),
+                ..*ray
+            })
+            .collect();
+        for rays in [tiled, backwards, ended, inside, second, mixed] {
             let single = closest_each(&wide, &rays);
             assert_eq!(closest_each(&slow, &rays), single, "{}: portable lanes", scene.name);
             for size in (1..=64).chain([100, 256, 1000, rays.len()]) {
@@ -180,6 +190,7 @@ fn packets_of_every_size_and_order_give_the_bits_of_single_rays() {
             }
             for size in [1, 7, 8, 64, rays.len()] {
                 assert_eq!(closest_packet(&slow, &rays, size), single, "{}: portable packets of {size}", scene.name);
+                assert_eq!(closest_packet(&half, &rays, size), single, "{}: packets of {size} by eight lanes", scene.name);
             }
         }
     }

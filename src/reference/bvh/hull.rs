@@ -4,7 +4,7 @@
 //! their slopes dx/dz lie in [s₀, s₁]; so further on x lies in [a₀ + s₀ z, a₁ + s₁ z], and likewise y. For rays from one eye these are the planes
 //! through the packet's outermost rays. Nothing is asked of the order of rays, nor that they start in one point.
 
-use super::lanes::Lanes;
+use super::lanes::{Eight, Lanes, Mask};
 use super::wide::{Block, Wide8};
 
 /// Slopes above this make a hull too wide to be of use, and its rounding too large: such packets are split instead.
@@ -46,6 +46,12 @@ impl Hull {
         -above_x - x < spread && -above_y - y < spread
     }
 
+    /// Whether no slope is as steep as 1, so that all rays move fastest along the packet's z.
+    #[inline(always)]
+    pub fn is_along_z(&self) -> bool {
+        self.sides[4..].iter().all(|&s| s > -1.0)
+    }
+
     /// Whether the slopes are finite and gentle.
     #[inline(always)]
     pub fn is_gentle(&self) -> bool {
@@ -80,7 +86,7 @@ pub(super) struct Planes<L> {
     end: f32,
 }
 
-impl<L: Lanes> Planes<L> {
+impl<L: Eight> Planes<L> {
     #[inline(always)]
     pub fn new(hull: &Hull, axes: &Axes) -> Planes<L> {
         let shift = axes.sign * axes.widening;

@@ -12,17 +12,22 @@
 
 pub mod bounds;
 pub mod build;
+mod edges;
 mod hull;
 mod lanes;
+#[cfg(target_arch = "x86_64")]
+mod lanes_x86;
 pub mod order;
 pub mod packet;
 pub mod ray;
 pub mod single;
 mod split;
+mod sweep;
 pub mod tree;
 pub mod triangle;
 pub mod validate;
 pub mod wide;
+mod wide_eye;
 mod wide_group;
 mod wide_packet;
 mod wide_ray;
@@ -34,5 +39,5 @@ pub use ray::{Hit, Ray};
 pub use single::Mesh;
 pub use tree::{MAX_DEPTH, Node, Tree};
 pub use validate::{Census, Fault, validate};
-pub use wide::Wide;
+pub use wide::{Instructions, Wide};
 pub use wide_packet::Packets;

@@ -23,7 +23,8 @@ impl Ray {
 
 /// The nearest thing that a ray meets. Of several at the same t, the triangle with the lowest number, so that the answer does not depend on the
 /// order in which a method looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
 pub struct Hit {
     /// Along the ray, in lengths of its direction; ∞ for a miss.
     pub t: f32,

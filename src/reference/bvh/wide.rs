@@ -20,8 +20,23 @@ pub(super) fn leaf(child: u32) -> (usize, u32) {
 /// The child of nobody.
 pub(super) const NOBODY: u32 = u32::MAX;
 
-/// No more than this many entries wait on a traversal's stack: seven siblings a level.
-pub(super) const STACK: usize = 7 * (MAX_DEPTH + 1) + 1;
+/// No more than this many entries wait on a traversal's stack: seven siblings a level, and room to write eight where fewer count.
+pub(super) const STACK: usize = 7 * (MAX_DEPTH + 1) + 1 + 8;
+
+/// A child that waits on a stack.
+#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(C)]
+pub(super) struct Waits {
+    /// As in [`Wide8::children`].
+    pub child: u32,
+    /// Where its box begins; not negative.
+    pub near: f32,
+    /// Where its box is written: eight times its parent's number, and its lane there.
+    pub place: u32,
+}
+
+/// What a traversal keeps from ray to ray, so that it need not be cleared for each.
+pub(super) type Stack = [Waits; STACK];
 
 /// A node: eight boxes, lane by lane. Lanes without a child hold the empty box, which no ray meets.
 #[derive(Clone, Debug)]
@@ -51,7 +66,7 @@ pub struct Wide {
     pub(super) nodes: Vec<Wide8>,
     pub(super) blocks: Vec<Block>,
     pub(super) root: Bounds<f32>,
-    pub(super) fast: bool,
+    pub(super) instructions: Instructions,
 }
 
 /// What the heuristic weighs for this tree: paper 4's 2 : 1 also measured best here, with leaves that fill a block at most.
@@ -67,7 +82,7 @@ impl Wide {
     pub fn with_settings(triangles: &[[[f32; 3]; 3]], settings: &Settings) -> Wide {
         let boxes: Vec<Bounds<f32>> = triangles.iter().map(bounds).collect();
         let tree = build(&boxes, &Settings { max_leaf: settings.max_leaf.min(8), ..*settings });
-        let mut wide = Wide { nodes: Vec::new(), blocks: Vec::new(), root: Bounds::EMPTY, fast: fast() };
+        let mut wide = Wide { nodes: Vec::new(), blocks: Vec::new(), root: Bounds::EMPTY, instructions: Instructions::detected() };
         if let Some(root) = tree.nodes.first() {
             wide.root = root.bounds;
             wide.collapse(&tree, triangles);
@@ -77,12 +92,17 @@ impl Wide {
 
     /// The same tree without the processor's wide instructions.
     pub fn portable(self) -> Wide {
-        Wide { fast: false, ..self }
+        self.limited(Instructions::Portable)
+    }
+
+    /// The same tree with these instructions, where the processor has them.
+    pub fn limited(self, to: Instructions) -> Wide {
+        Wide { instructions: Instructions::detected().min(to), ..self }
     }
 
     /// Whether the processor's wide instructions are used.
     pub fn is_fast(&self) -> bool {
-        self.fast
+        self.instructions != Instructions::Portable
     }
 
     fn collapse(&mut self, tree: &Tree<f32>, triangles: &[[[f32; 3]; 3]]) {
@@ -127,7 +147,7 @@ impl Wide8 {
 }
 
 impl Block {
-    fn new(held: &[u32], triangles: &[[[f32; 3]; 3]]) -> Block {
+    pub(super) fn new(held: &[u32], triangles: &[[[f32; 3]; 3]]) -> Block {
         let mut block = Block { corners: [[[f32::NAN; 8]; 3]; 3], triangles: [super::ray::Hit::NONE; 8] };
         for (lane, &i) in held.iter().enumerate() {
             block.triangles[lane] = i;
@@ -148,18 +168,31 @@ impl Block {
     }
 }
 
-/// Whether the processor has the wide instructions.
-fn fast() -> bool {
-    #[cfg(target_arch = "x86_64")]
-    {
-        std::arch::is_x86_feature_detected!("avx2")
-            && std::arch::is_x86_feature_detected!("bmi1")
-            && std::arch::is_x86_feature_detected!("bmi2")
-            && std::arch::is_x86_feature_detected!("popcnt")
-            && std::arch::is_x86_feature_detected!("lzcnt")
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    {
-        false
+/// Which of the processor's instructions are used; each has those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Instructions {
+    /// What every processor has.
+    Portable,
+    /// Eight numbers at once.
+    Avx2,
+    /// Sixteen.
+    Avx512,
+}
+
+impl Instructions {
+    /// What this processor has.
+    pub fn detected() -> Instructions {
+        #[cfg(target_arch = "x86_64")]
+        {
+            use std::arch::is_x86_feature_detected as has;
+            let eight = has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") && has!("popcnt") && has!("lzcnt");
+            if eight && has!("avx512f") && has!("avx512dq") && has!("avx512vl") {
+                return Instructions::Avx512;
+            }
+            if eight {
+                return Instructions::Avx2;
+            }
+        }
+        Instructions::Portable
     }
 }

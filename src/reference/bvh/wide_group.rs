@@ -1,14 +1,20 @@
-//! Eight, or several eights, of rays through what a packet has left for them.
+//! Sixteen rays through what a packet has left for them.
 
 use super::hull::{Axes, Planes};
-use super::lanes::Lanes;
+use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::ray::{Hit, Ray};
 use super::triangle::Shear;
-use super::wide::{Block, LEAF, STACK, Wide, leaf};
+use super::wide::{Block, LEAF, Stack, Waits, Wide, leaf};
 use super::wide_ray::{meet, sheared};
 
-/// Rays that are tested at once.
+/// Rays that a transposition takes at once.
 pub(super) const EIGHT: usize = 8;
+
+/// Rays that descend together: a look at a node costs the same for all, and 4 × 4 pixels have hardly more in front of them than 4 × 2.
+pub(super) const GROUP: usize = 16;
+
+/// Every lane of a group.
+pub(super) const ALL: u32 = 0xffff;
 
 /// Groups that have looked at this many nodes and blocks share too little (rays from an eye look at about ten), and their rays go on one by one.
 const PATIENCE: u32 = 40;
@@ -26,42 +32,36 @@ pub(super) struct Item {
     pub near: f32,
 }
 
-/// Eight rays or fewer; lanes without one repeat the last, with an end before its start.
+/// `N` rays or fewer; lanes without one repeat the last, with an end before its start.
 #[inline(always)]
-pub(super) fn eight<'a>(rays: &'a [Ray], spare: &'a mut [Ray; EIGHT]) -> &'a [Ray; EIGHT] {
+pub(super) fn filled<'a, const N: usize>(rays: &'a [Ray], spare: &'a mut [Ray; N]) -> &'a [Ray; N] {
     if let Ok(full) = rays.try_into() {
         return full;
     }
-    *spare = [Ray { until: -1.0, ..rays[rays.len() - 1] }; EIGHT];
+    *spare = [Ray { until: -1.0, ..rays[rays.len() - 1] }; N];
     spare[..rays.len()].copy_from_slice(rays);
     spare
 }
 
 /// Rays lane by lane: origin, direction, end.
 #[inline(always)]
-pub(super) fn lanes<L: Lanes>(rays: &[Ray; EIGHT]) -> ([L; 3], [L; 3], L) {
+pub(super) fn lanes<L: Eight>(rays: &[Ray; EIGHT]) -> ([L; 3], [L; 3], L) {
     let [x, y, z, along_x, along_y, along_z, until] = L::columns(bytemuck::cast_ref(rays));
     ([x, y, z], [along_x, along_y, along_z], until)
 }
 
-/// Puts children on the stack, the nearest on top.
+/// Puts some children of a node on the stack, the nearest on top.
 #[inline(always)]
-pub(super) fn push<L: Lanes>(
-    wide: &Wide,
-    stack: &mut [(u32, f32); STACK],
-    height: &mut usize,
-    mut lanes: u32,
-    children: &[u32; 8],
-    nears: &[f32; 8],
-) {
+pub(super) fn push<L: Eight>(wide: &Wide, stack: &mut Stack, height: &mut usize, mut lanes: u32, parent: u32, nears: &[f32; 8]) {
+    let children = &wide.nodes[parent as usize].children;
     let ground = *height;
     while lanes != 0 {
         let lane = lanes.trailing_zeros() as usize;
         lanes &= lanes - 1;
-        let waits = (children[lane], nears[lane]);
-        wide.fetch::<L>(waits.0);
+        let waits = Waits { child: children[lane], near: nears[lane], place: parent << 3 | lane as u32 };
+        wide.fetch::<L>(waits.child);
         let mut place = *height;
-        while place > ground && stack[place - 1].1 < waits.1 {
+        while place > ground && stack[place - 1].near < waits.near {
             stack[place] = stack[place - 1];
             place -= 1;
         }
@@ -79,92 +79,64 @@ fn slopes_along<L: Lanes>(direction: &[L; 3], axis: usize) -> [L; 3] {
 
 /// A corner of the triangle in one lane of a block, for every ray.
 #[inline(always)]
-fn corner<L: Lanes>(block: &Block, corner: usize, axes: [usize; 3], lane: usize) -> [L; 3] {
+pub(super) fn corner<L: Lanes>(block: &Block, corner: usize, axes: [usize; 3], lane: usize) -> [L; 3] {
     let corner = &block.corners[corner];
     [L::splat(corner[axes[0]][lane]), L::splat(corner[axes[1]][lane]), L::splat(corner[axes[2]][lane])]
 }
 
-/// Several eights.
-struct Together<'a, L, const N: usize> {
-    eights: [Group<'a, L>; N],
-}
-
-impl<'a, L: Lanes, const N: usize> Together<'a, L, N> {
-    #[inline(always)]
-    fn deepest(&self) -> f32 {
-        let mut deepest = self.eights[0].deepest();
-        for eight in &self.eights[1..] {
-            deepest = deepest.max(eight.deepest());
-        }
-        deepest
-    }
-
-    /// Tests one block, and says whether a ray has met something nearer.
-    #[inline(always)]
-    fn block(&mut self, block: &Block, lanes: u32) -> bool {
-        let mut nearer = false;
-        for eight in &mut self.eights {
-            nearer |= eight.block(block, lanes);
-        }
-        nearer
-    }
-}
-
-/// Eight rays laid out lane by lane, and what they have met.
-#[derive(Clone, Copy)]
-struct Group<'a, L> {
-    rays: &'a [Ray; EIGHT],
-    origin: [L; 3],
+/// Sixteen rays laid out lane by lane, and what they have met.
+struct Group<'a, S: Lanes> {
+    rays: &'a [Ray; GROUP],
+    origin: [S; 3],
     /// Of `Shear`, each lane along its own fastest axis.
-    slopes: [L; 3],
+    slopes: [S; 3],
     /// By axis: the lanes that move fastest along it.
-    fastest: [L; 3],
+    fastest: [S::Mask; 3],
     /// One bit an axis along which any lane moves fastest.
     axes: u32,
-    until: L,
-    t: L,
+    until: S,
+    t: S,
     /// Numbers of triangles as bits.
-    triangle: L,
+    triangle: S,
     /// The depth where each ray starts, and depth for t.
-    depth: [L; 2],
+    depth: [S; 2],
 }
 
-impl<'a, L: Lanes> Group<'a, L> {
+impl<'a, S: Sixteen> Group<'a, S> {
     #[inline(always)]
-    fn new(rays: &'a [Ray; EIGHT], axes: &Axes) -> Group<'a, L> {
-        let (origin, direction, until) = lanes::<L>(rays);
+    fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, S> {
+        let [x, y, z, along_x, along_y, along_z, until] = S::columns(bytemuck::cast_ref(rays));
+        let (origin, direction) = ([x, y, z], [along_x, along_y, along_z]);
         // As `fastest`.
-        let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
-        let (all, none) = (L::splat(0.0).at_most(L::splat(0.0)), L::splat(0.0));
-        let first = y.at_most(x).and(z.at_most(x));
-        let second = first.select(none, z.at_most(y));
-        let fastest = [first, second, first.or(second).select(none, all)];
-        let slopes = if first.bits() == 0xff {
+        let [x, y, z] = [along_x.abs(), along_y.abs(), along_z.abs()];
+        let fastest = [y.at_most(x).and(z.at_most(x)), x.less(y).and(z.at_most(y)), x.less(z).and(y.less(z))];
+        let some = [fastest[0].bits(), fastest[1].bits(), fastest[2].bits()];
+        let slopes = if some[0] == ALL {
             slopes_along(&direction, 0)
-        } else if second.bits() == 0xff {
+        } else if some[1] == ALL {
             slopes_along(&direction, 1)
-        } else if fastest[2].bits() == 0xff {
+        } else if some[2] == ALL {
             slopes_along(&direction, 2)
         } else {
             let (a, b, c) = (slopes_along(&direction, 0), slopes_along(&direction, 1), slopes_along(&direction, 2));
             [
-                first.select(a[0], second.select(b[0], c[0])),
-                first.select(a[1], second.select(b[1], c[1])),
-                first.select(a[2], second.select(b[2], c[2])),
+                S::select(fastest[0], a[0], S::select(fastest[1], b[0], c[0])),
+                S::select(fastest[0], a[1], S::select(fastest[1], b[1], c[1])),
+                S::select(fastest[0], a[2], S::select(fastest[1], b[2], c[2])),
             ]
         };
         let depth = axes.axes[2];
-        let sign = L::splat(axes.sign);
+        let sign = S::splat(axes.sign);
         Group {
             rays,
             origin,
             slopes,
             fastest,
-            axes: u32::from(fastest[0].bits() != 0) | u32::from(fastest[1].bits() != 0) << 1 | u32::from(fastest[2].bits() != 0) << 2,
+            axes: u32::from(some[0] != 0) | u32::from(some[1] != 0) << 1 | u32::from(some[2] != 0) << 2,
             until,
-            t: L::splat(Hit::MISS.t),
-            triangle: L::splat(f32::from_bits(Hit::NONE)),
-            depth: [origin[depth].sub(L::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
+            t: S::splat(Hit::MISS.t),
+            triangle: S::splat(f32::from_bits(Hit::NONE)),
+            depth: [origin[depth].sub(S::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
         }
     }
 
@@ -174,7 +146,7 @@ impl<'a, L: Lanes> Group<'a, L> {
         self.depth[0].add(self.depth[1].mul(self.t.min(self.until))).greatest()
     }
 
-    /// Tests one block, and says whether a ray has met something nearer.
+    /// Tests some triangles of one block, and says whether a ray has met something nearer.
     #[inline(always)]
     fn block(&mut self, block: &Block, mut lanes: u32) -> bool {
         let mut nearer = false;
@@ -207,14 +179,14 @@ impl<'a, L: Lanes> Group<'a, L> {
         }
         let number = block.triangles[lane];
         let t = met.t();
-        let nearer = inside.and(L::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
+        let nearer = inside.and(S::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
         // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
         let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
         if seldom.bits() != 0 {
             return self.one_by_one(inside.bits(), &block.lane(lane), number);
         }
-        self.t = nearer.select(t, self.t);
-        self.triangle = nearer.select(L::splat(f32::from_bits(number)), self.triangle);
+        self.t = S::select(nearer, t, self.t);
+        self.triangle = S::select(nearer, S::splat(f32::from_bits(number)), self.triangle);
         nearer.bits() != 0
     }
 
@@ -222,42 +194,35 @@ impl<'a, L: Lanes> Group<'a, L> {
     fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
         let mut hits = self.hits();
         let before = hits;
-        for lane in (0..EIGHT).filter(|lane| lanes >> lane & 1 == 1) {
+        for lane in (0..GROUP).filter(|lane| lanes >> lane & 1 == 1) {
             let ray = &self.rays[lane];
             Shear::new(ray).update(corners, number, ray.until, &mut hits[lane]);
         }
-        self.t = L::load(&hits.map(|h| h.t));
-        self.triangle = L::load(&hits.map(|h| f32::from_bits(h.triangle)));
+        self.t = S::load(&hits.map(|h| h.t));
+        self.triangle = S::load(&hits.map(|h| f32::from_bits(h.triangle)));
         hits != before
     }
 
     #[inline(always)]
-    fn hits(&self) -> [Hit; EIGHT] {
+    fn hits(&self) -> [Hit; GROUP] {
         let (t, triangle) = (self.t.store(), self.triangle.store());
         std::array::from_fn(|i| Hit { t: t[i], triangle: triangle[i].to_bits() })
     }
 }
 
-/// The rays of a group through the items that are left: `N` eights, the last of which may not be full.
+/// The rays of a group, sixteen or fewer, through the items that are left.
 #[inline(always)]
-pub(super) fn group<L: Lanes, const N: usize>(
+pub(super) fn group<L: Eight, S: Sixteen>(
     wide: &Wide,
     rays: &[Ray],
     hits: &mut [Hit],
     axes: &Axes,
     planes: &Planes<L>,
     items: &[Item],
-    stack: &mut [(u32, f32); STACK],
+    stack: &mut Stack,
 ) {
-    let mut spare = [rays[0]; EIGHT];
-    let last = rays.len().div_ceil(EIGHT) - 1;
-    let last_eight = eight(&rays[last * EIGHT..], &mut spare);
-    let mut group = Together { eights: [Group::<L>::new(last_eight, axes); N] };
-    for i in 0..N - 1 {
-        if let Ok(full) = rays[i * EIGHT..(i + 1) * EIGHT].try_into() {
-            group.eights[i] = Group::new(full, axes);
-        }
-    }
+    let mut spare = [rays[0]; GROUP];
+    let mut group = Group::<S>::new(filled(rays, &mut spare), axes);
     let mut until = group.deepest() + axes.widening;
     let mut looks = 0;
     let mut patience = PATIENCE;
@@ -266,11 +231,11 @@ pub(super) fn group<L: Lanes, const N: usize>(
             continue;
         }
         let mut only = item.children;
-        stack[0] = (item.node, item.near);
+        stack[0] = Waits { child: item.node, near: item.near, place: 0 };
         let mut height = 1;
         while height > 0 {
             height -= 1;
-            let (at, near) = stack[height];
+            let Waits { child: at, near, .. } = stack[height];
             if near > until {
                 continue;
             }
@@ -284,7 +249,7 @@ pub(super) fn group<L: Lanes, const N: usize>(
                 let met = met & only;
                 only = !0;
                 if met != 0 {
-                    push::<L>(wide, stack, &mut height, met, &node.children, &near.store());
+                    push::<L>(wide, stack, &mut height, met, at, &near.store());
                 }
             } else {
                 let (block, count) = leaf(at);
@@ -297,7 +262,5 @@ pub(super) fn group<L: Lanes, const N: usize>(
             }
         }
     }
-    for (eight, hits) in group.eights.iter().zip(hits.chunks_mut(EIGHT)) {
-        hits.copy_from_slice(&eight.hits()[..hits.len()]);
-    }
+    hits.copy_from_slice(&group.hits()[..hits.len()]);
 }

@@ -2,34 +2,31 @@
 //!
 //! Paper 4 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes that its
 //! hull reaches, each opened for as long as that throws away more children than it keeps. Then the packet is split, and each part sifts the list with
-//! its own, narrower hull. What is left at the end is sixteen rays and the few small nodes in front of them, nearest first. The nodes above are opened once
-//! for all rays, whatever the size of the packet, and no node is opened for rays that cannot reach it.
+//! its own, narrower hull. What is left at the end is sixteen rays, or 64 from one eye, and the few small nodes in front of them, nearest first. The nodes
+//! above are opened once for all rays, whatever the size of the packet, and no node is opened for rays that cannot reach it.
 
-use super::hull::{Axes, Hull, Planes};
-use super::lanes::{Lanes, Portable};
-use super::ray::{Hit, Ray, widening};
-use super::triangle::fastest;
-use super::wide::{STACK, Wide};
-use super::wide_group::{EIGHT, Item, eight, group, lanes, push};
-
-/// Eights that descend together: a look at a node costs the same for one as for two, and 4 × 4 pixels have hardly more in front of them than 4 × 2.
-const EIGHTS: usize = 2;
-
-/// Rays of a group.
-const GROUP: usize = EIGHT * EIGHTS;
+use super::hull::{Hull, Planes};
+use super::lanes::{Eight, Pair, Portable, Sixteen};
+#[cfg(target_arch = "x86_64")]
+use super::lanes_x86::{Avx, Avx512};
+use super::ray::{Hit, Ray};
+use super::sweep;
+use super::wide::{Instructions, STACK, Stack, Waits, Wide};
+use super::wide_eye::{self, Laid, TOGETHER};
+use super::wide_group::{EIGHT, GROUP, Item, group, push};
 
 /// So many groups at most share their last list, the one that is sorted; twice as many are as fast.
-const SHARE: usize = 4;
+const SHARE: usize = TOGETHER;
 
 /// A node is kept closed while a packet reaches at least this many of its children: its parts will throw away more.
-const CLOSED: u32 = 4;
+const CLOSED: u32 = 3;
 
 /// Packets whose slopes differ by more do not sift: they reach almost everything.
 const SIFTED: f32 = 0.5;
 
 /// Groups whose slopes differ by more share too little and go one by one. Measured on mirrored and scattered rays: anything between a twentieth
 /// and a fifth is as good; rays from an eye are far below.
-const TOGETHER: f32 = 0.1;
+const NARROW: f32 = 0.1;
 
 /// A run of groups, and the run of items that the packet it was split off has left for it.
 #[derive(Clone, Copy, Debug)]
@@ -45,14 +42,23 @@ pub struct Packets {
     parts: Vec<Part>,
     /// Of each group.
     hulls: Vec<Hull>,
+    /// The groups, where all rays start in one point.
+    laid: Vec<Laid>,
     /// Of each [`SHARE`] groups.
     wider: Vec<Hull>,
-    stack: Box<[(u32, f32); STACK]>,
+    stack: Box<Stack>,
 }
 
 impl Default for Packets {
     fn default() -> Packets {
-        Packets { items: Vec::new(), parts: Vec::new(), hulls: Vec::new(), wider: Vec::new(), stack: Box::new([(0, 0.0); STACK]) }
+        Packets {
+            items: Vec::new(),
+            parts: Vec::new(),
+            hulls: Vec::new(),
+            laid: Vec::new(),
+            wider: Vec::new(),
+            stack: Box::new([Waits::default(); STACK]),
+        }
     }
 }
 
@@ -64,24 +70,34 @@ impl Wide {
     /// When the lengths differ.
     pub fn closest_packet(&self, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
-        #[cfg(target_arch = "x86_64")]
-        if self.fast {
+        match self.instructions {
+            #[cfg(target_arch = "x86_64")]
             #[allow(unsafe_code)]
-            // SAFETY: `fast` is set only where these instructions were detected.
-            return unsafe { packet_avx(self, rays, hits, packets) };
+            // SAFETY: only what was detected is chosen.
+            Instructions::Avx512 => unsafe { packet_avx512(self, rays, hits, packets) },
+            #[cfg(target_arch = "x86_64")]
+            #[allow(unsafe_code)]
+            // SAFETY: as above.
+            Instructions::Avx2 => unsafe { packet_avx2(self, rays, hits, packets) },
+            _ => packet::<Portable, Pair<Portable>>(self, rays, hits, packets),
         }
-        packet::<Portable>(self, rays, hits, packets);
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
-fn packet_avx(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
-    packet::<super::lanes::Avx>(wide, rays, hits, packets);
+#[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
+fn packet_avx512(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+    packet::<Avx, Avx512>(wide, rays, hits, packets);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
+fn packet_avx2(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+    packet::<Avx, Pair<Avx>>(wide, rays, hits, packets);
 }
 
 #[inline(always)]
-fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
     if wide.nodes.is_empty() {
         hits.fill(Hit::MISS);
         return;
@@ -89,7 +105,12 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
     if rays.is_empty() {
         return;
     }
-    let Some(axes) = sweep::<L>(wide, rays, &mut packets.hulls, &mut packets.wider) else {
+    let Packets { hulls, laid, .. } = packets;
+    let swept = match sweep::from_eye::<S>(wide, rays, hulls, laid) {
+        Some(axes) => Some((axes, true)),
+        None => sweep::from_anywhere::<L>(wide, rays, hulls).map(|axes| (axes, false)),
+    };
+    let Some((axes, from_eye)) = swept else {
         // No common direction: halves may have one, eight rays need none.
         if rays.len() <= EIGHT {
             wide.each::<false>(rays, hits, &mut packets.stack);
@@ -101,7 +122,11 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
         }
         return;
     };
-    let Packets { items, parts, hulls, wider, stack } = packets;
+    let Packets { items, parts, hulls, laid, wider, stack } = packets;
+    wider.clear();
+    for hulls in hulls.chunks(SHARE) {
+        wider.push(united(hulls));
+    }
     items.clear();
     items.push(Item { node: 0, children: !0, near: 0.0 });
     parts.clear();
@@ -137,16 +162,17 @@ fn packet<L: Lanes>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut P
             }
             continue;
         }
+        let items = &items[list[0]..list[1]];
+        if from_eye && hulls[groups.clone()].iter().all(Hull::is_along_z) {
+            let run = groups.start * GROUP..(groups.end * GROUP).min(rays.len());
+            wide_eye::descend::<L, S>(wide, &rays[run.clone()], &mut hits[run], &laid[groups.clone()], &hulls[groups], &axes, items, stack);
+            continue;
+        }
         for at in groups {
             let run = at * GROUP..((at + 1) * GROUP).min(rays.len());
-            if hulls[at].is_narrow(TOGETHER) {
+            if hulls[at].is_narrow(NARROW) {
                 let planes = Planes::<L>::new(&hulls[at], &axes);
-                let items = &items[list[0]..list[1]];
-                if run.len() > EIGHT {
-                    group::<L, EIGHTS>(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, items, stack);
-                } else {
-                    group::<L, 1>(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, items, stack);
-                }
+                group::<L, S>(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, items, stack);
             } else {
                 wide.each::<false>(&rays[run.clone()], &mut hits[run], stack);
             }
@@ -164,65 +190,15 @@ fn united(hulls: &[Hull]) -> Hull {
     all
 }
 
-/// The common direction of the rays, the hull of each group and of each [`SHARE`] groups; None if they have none.
-#[inline(always)]
-fn sweep<L: Lanes>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>, wider: &mut Vec<Hull>) -> Option<Axes> {
-    let mut spare = [rays[0]; EIGHT];
-    let middle = rays[rays.len() / 2].direction;
-    let z = fastest(middle);
-    let axes = [(z + 1) % 3, (z + 2) % 3, z];
-    let sign = 1f32.copysign(middle[z]);
-    let (mut low, mut high) = ([L::splat(f32::INFINITY); 3], [L::splat(f32::NEG_INFINITY); 3]);
-    for rays in rays.chunks(EIGHT) {
-        let (origin, ..) = lanes::<L>(eight(rays, &mut spare));
-        for axis in 0..3 {
-            low[axis] = origin[axis].min(low[axis]);
-            high[axis] = origin[axis].max(high[axis]);
-        }
-    }
-    let low = [low[0].least(), low[1].least(), low[2].least()];
-    let high = [high[0].greatest(), high[1].greatest(), high[2].greatest()];
-    let front = if sign > 0.0 { low[z] } else { high[z] };
-    let widening = widening(&wide.root, low).max(widening(&wide.root, high));
-    let axes = Axes { axes, sign, front, widening };
-    hulls.clear();
-    wider.clear();
-    for (number, rays) in rays.chunks(EIGHT).enumerate() {
-        let (origin, direction, until) = lanes::<L>(eight(rays, &mut spare));
-        let along = direction[z].mul(L::splat(sign));
-        let depth = origin[z].sub(L::splat(front)).mul(L::splat(sign));
-        let end = depth.add(along.mul(until));
-        let [x, y] = [axes.axes[0], axes.axes[1]];
-        let (slope_x, slope_y) = (direction[x].div(along), direction[y].div(along));
-        let (offset_x, offset_y) = (origin[x].sub(slope_x.mul(depth)), origin[y].sub(slope_y.mul(depth)));
-        let lower_and_upper =
-            [offset_x, offset_x.negative(), offset_y, offset_y.negative(), slope_x, slope_x.negative(), slope_y, slope_y.negative()];
-        let hull = Hull { sides: L::leasts(lower_and_upper).store(), depth: [depth.least(), -end.greatest()] };
-        // The comparison also fails where something is not a number.
-        if L::splat(0.0).less(along).bits() != 0xff || !hull.is_gentle() {
-            return None;
-        }
-        if number % EIGHTS == 0 {
-            hulls.push(hull);
-        } else if let Some(last) = hulls.last_mut() {
-            *last = last.union(&hull);
-        }
-    }
-    for hulls in hulls.chunks(SHARE) {
-        wider.push(united(hulls));
-    }
-    Some(axes)
-}
-
 /// Opens an item for a packet as far as it pays, and adds what is left to the list, nearest first.
 #[inline(always)]
-fn sift<L: Lanes>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<Item>, stack: &mut [(u32, f32); STACK]) {
+fn sift<L: Eight>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<Item>, stack: &mut Stack) {
     let mut only = item.children;
-    stack[0] = (item.node, 0.0);
+    stack[0] = Waits { child: item.node, near: 0.0, place: 0 };
     let mut height = 1;
     while height > 0 {
         height -= 1;
-        let at = stack[height].0;
+        let at = stack[height].child;
         let node = &wide.nodes[at as usize];
         let (met, near) = planes.boxes(node, f32::INFINITY);
         let met = met & only;
@@ -239,7 +215,7 @@ fn sift<L: Lanes>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<I
         if met != inner {
             items.push(Item { node: at, children: met & !inner, near: nearest(&nears, met & !inner) });
         }
-        push::<L>(wide, stack, &mut height, inner, &node.children, &nears);
+        push::<L>(wide, stack, &mut height, inner, at, &nears);
     }
 }
 

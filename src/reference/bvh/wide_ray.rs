@@ -1,12 +1,9 @@
 //! One ray through the wide tree: eight boxes or eight triangles at a time.
 
-use super::lanes::{Lanes, Portable};
+use super::lanes::{Eight, Lanes, Mask, Portable};
 use super::ray::{Hit, Ray, Slabs, widening};
 use super::triangle::Shear;
-use super::wide::{Block, LEAF, NOBODY, STACK, Wide, leaf};
-
-/// What a traversal keeps from ray to ray, so that it need not be cleared for each.
-pub(super) type Stack = [(u32, f32); STACK];
+use super::wide::{Block, Instructions, LEAF, NOBODY, STACK, Stack, Waits, Wide, leaf};
 
 impl Wide {
     /// The nearest triangle that each ray meets, ray by ray. `hits` is as long as `rays`.
@@ -15,7 +12,7 @@ impl Wide {
     /// When the lengths differ.
     pub fn closest_each(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
-        let mut stack = [(0, 0.0); STACK];
+        let mut stack = [Waits::default(); STACK];
         self.each::<false>(rays, hits, &mut stack);
     }
 
@@ -32,13 +29,13 @@ impl Wide {
     /// When the lengths differ.
     pub fn any_each(&self, rays: &[Ray], hits: &mut [Hit]) {
         assert_eq!(rays.len(), hits.len(), "one hit a ray");
-        let mut stack = [(0, 0.0); STACK];
+        let mut stack = [Waits::default(); STACK];
         self.each::<true>(rays, hits, &mut stack);
     }
 
     /// Asks for the memory of a child.
     #[inline(always)]
-    pub(super) fn fetch<L: Lanes>(&self, child: u32) {
+    pub(super) fn fetch<L: Eight>(&self, child: u32) {
         if child & LEAF == 0 {
             L::prefetch(&self.nodes[child as usize]);
         } else {
@@ -48,9 +45,9 @@ impl Wide {
 
     pub(super) fn each<const ANY: bool>(&self, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
         #[cfg(target_arch = "x86_64")]
-        if self.fast {
+        if self.instructions != Instructions::Portable {
             #[allow(unsafe_code)]
-            // SAFETY: `fast` is set only where these instructions were detected.
+            // SAFETY: only what was detected is chosen.
             return unsafe { each_avx::<ANY>(self, rays, hits, stack) };
         }
         each::<Portable, ANY>(self, rays, hits, stack);
@@ -58,20 +55,20 @@ impl Wide {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
+#[target_feature(enable = "avx2,fma,bmi1,bmi2,popcnt,lzcnt")]
 fn each_avx<const ANY: bool>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
-    each::<super::lanes::Avx, ANY>(wide, rays, hits, stack);
+    each::<super::lanes_x86::Avx, ANY>(wide, rays, hits, stack);
 }
 
 #[inline(always)]
-fn each<L: Lanes, const ANY: bool>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
+fn each<L: Eight, const ANY: bool>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], stack: &mut Stack) {
     for (ray, hit) in rays.iter().zip(hits) {
         *hit = descend::<L, ANY>(wide, ray, stack);
     }
 }
 
 #[inline(always)]
-fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack) -> Hit {
+fn descend<L: Eight, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack) -> Hit {
     let mut best = Hit::MISS;
     if wide.nodes.is_empty() {
         return best;
@@ -81,11 +78,11 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
     let [inverse, enter, leave]: [[L; 3]; 3] = [splat(slabs.inverse), splat(slabs.enter), splat(slabs.leave)];
     let first = slabs.inverse.map(|i| usize::from(i.is_sign_negative()));
     let mut until = ray.until;
-    stack[0] = (0, 0.0);
+    stack[0] = Waits::default();
     let mut height = 1;
     while height > 0 {
         height -= 1;
-        let (mut at, near) = stack[height];
+        let Waits { child: mut at, near, .. } = stack[height];
         if near > until {
             continue;
         }
@@ -116,14 +113,14 @@ fn descend<L: Lanes, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
             while met != 0 {
                 let lane = met.trailing_zeros() as usize;
                 met &= met - 1;
-                let mut waits = (node.children[lane], nears[lane]);
-                wide.fetch::<L>(waits.0);
-                if waits.1 < nearest {
-                    std::mem::swap(&mut waits.0, &mut at);
-                    std::mem::swap(&mut waits.1, &mut nearest);
+                let mut waits = Waits { child: node.children[lane], near: nears[lane], place: 0 };
+                wide.fetch::<L>(waits.child);
+                if waits.near < nearest {
+                    std::mem::swap(&mut waits.child, &mut at);
+                    std::mem::swap(&mut waits.near, &mut nearest);
                 }
                 let mut place = height;
-                while place > ground && stack[place - 1].1 < waits.1 {
+                while place > ground && stack[place - 1].near < waits.near {
                     stack[place] = stack[place - 1];
                     place -= 1;
                 }
@@ -153,7 +150,7 @@ pub(super) fn splat<L: Lanes>([x, y, z]: [f32; 3]) -> [L; 3] {
 
 /// Three coordinates of eight points, in the order of `axes`.
 #[inline(always)]
-pub(super) fn load<L: Lanes>(coordinates: &[[f32; 8]; 3], axes: [usize; 3]) -> [L; 3] {
+pub(super) fn load<L: Eight>(coordinates: &[[f32; 8]; 3], axes: [usize; 3]) -> [L; 3] {
     [L::load(&coordinates[axes[0]]), L::load(&coordinates[axes[1]]), L::load(&coordinates[axes[2]])]
 }
 
@@ -166,7 +163,7 @@ pub(super) fn sheared<L: Lanes>(corner: [L; 3], origin: [L; 3], slopes: [L; 3]) 
 
 /// Tests the triangles of one block: `Shear::meet`, operation by operation.
 #[inline(always)]
-fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
+pub(super) fn block<L: Eight>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
     let axes = [(shear.axis + 1) % 3, (shear.axis + 2) % 3, shear.axis];
     let slopes: [L; 3] = splat(shear.slopes);
     let origin = splat([shear.origin[axes[0]], shear.origin[axes[1]], shear.origin[axes[2]]]);
@@ -194,13 +191,13 @@ fn block<L: Lanes>(block: &Block, shear: &Shear, until: f32, best: &mut Hit) {
 
 /// Eight pairs of a ray and a triangle that may meet.
 #[derive(Clone, Copy)]
-pub(super) struct Met<L> {
+pub(super) struct Met<L: Lanes> {
     edges: [L; 3],
     depths: [L; 3],
     least: L,
     most: L,
     /// Mask: the edges are of one sign.
-    pub inside: L,
+    pub inside: L::Mask,
 }
 
 /// `Shear::meet` for eight pairs, given their sheared corners.
@@ -218,7 +215,7 @@ pub(super) fn meet<L: Lanes>(a: [L; 3], b: [L; 3], c: [L; 3]) -> Met<L> {
 impl<L: Lanes> Met<L> {
     /// Mask: pairs inside that have an edge function of 0, whose sign only f64 can tell. (Beside edges of both signs it does not matter.)
     #[inline(always)]
-    pub fn exact(&self) -> L {
+    pub fn exact(&self) -> L::Mask {
         let zero = L::splat(0.0);
         // One sign: either the least is 0 and none is below, or the most is 0 and none is above.
         let touches = zero.at_most(self.least).and(self.least.at_most(zero)).or(zero.at_most(self.most).and(self.most.at_most(zero)));

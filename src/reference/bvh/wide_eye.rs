@@ -1,0 +1,284 @@
+//! Rays from one eye, four groups together, through what a packet has left for them.
+//!
+//! All four look at a node at once, by the hull of all. At a block it is asked which rays reach its box. A block that few rays
+//! reach is tested by each of them; else its triangles are tested by sixteen rays at once, after a cheaper test has left out most.
+
+use super::edges::Edges;
+use super::hull::{Axes, Hull, Planes};
+use super::lanes::{Eight, Mask, Sixteen};
+use super::ray::{Hit, Ray};
+use super::triangle::Shear;
+use super::wide::{Block, LEAF, Stack, Waits, Wide, Wide8, leaf};
+use super::wide_group::{GROUP, Item, corner, push};
+use super::wide_ray::{self, meet, sheared, splat};
+
+/// Groups that descend together, 8 × 8 pixels: from one to two castle gains a fifth, from two to four a tenth.
+pub(super) const TOGETHER: usize = 4;
+
+/// A block that no more rays than this reach is tested ray by ray: eight triangles at once.
+const FEW: u32 = 4;
+
+/// After this many looks boxes of inner nodes are asked ray by ray too: there are many things smaller than a pixel, which most rays miss.
+const MANY: u32 = 8;
+
+/// What a group of rays from one eye is to a packet: lane by lane along the packet's axes.
+#[derive(Clone, Copy)]
+#[repr(align(64))]
+pub(super) struct Laid {
+    /// Direction along x and along y over that along z.
+    pub slopes: [[f32; GROUP]; 2],
+    /// Depth for t.
+    pub along: [f32; GROUP],
+    /// The last t that counts.
+    pub until: [f32; GROUP],
+}
+
+/// Sixteen rays from the eye, and what they have met.
+#[derive(Clone, Copy)]
+struct Group<'a, S> {
+    rays: &'a [Ray],
+    /// One bit a lane that holds a ray.
+    used: u32,
+    /// Of `Shear`.
+    slopes: [S; 3],
+    /// Depth for x and for y.
+    inverse: [S; 2],
+    along: S,
+    until: S,
+    t: S,
+    /// Numbers of triangles as bits.
+    triangle: S,
+}
+
+impl<'a, S: Sixteen> Group<'a, S> {
+    #[inline(always)]
+    fn new(rays: &'a [Ray], laid: &Laid, axes: &Axes) -> Group<'a, S> {
+        let (one, sign) = (S::splat(1.0), S::splat(axes.sign));
+        let [x, y] = [S::load(&laid.slopes[0]), S::load(&laid.slopes[1])];
+        let along = S::load(&laid.along);
+        Group {
+            rays,
+            used: (1 << rays.len()) - 1,
+            // Over the direction itself and not its size: the same bits but for the sign.
+            slopes: [x.mul(sign), y.mul(sign), one.div(along).mul(sign)],
+            inverse: [one.div(x), one.div(y)],
+            along,
+            until: S::load(&laid.until),
+            t: S::splat(Hit::MISS.t),
+            triangle: S::splat(f32::from_bits(Hit::NONE)),
+        }
+    }
+
+    /// Behind this depth nothing can be nearer than what every ray has.
+    #[inline(always)]
+    fn deepest(&self) -> f32 {
+        self.along.mul(self.t.min(self.until)).greatest()
+    }
+
+    /// Which rays reach a box, given from the eye along the packet's axes, before what they have met.
+    #[inline(always)]
+    fn reach(&self, [x, y, z]: &[[f32; 2]; 3], widening: f32) -> u32 {
+        let mut near = S::splat(z[0]);
+        let mut far = self.along.mul(self.t.min(self.until)).add(S::splat(widening)).min(S::splat(z[1]));
+        for (k, side) in [x, y].into_iter().enumerate() {
+            let (a, b) = (S::splat(side[0]).mul(self.inverse[k]), S::splat(side[1]).mul(self.inverse[k]));
+            // What is not a number, 0 · ∞, says nothing.
+            near = b.min(a).max(near);
+            far = a.max(b).min(far);
+        }
+        near.at_most(far).bits() & self.used
+    }
+
+    /// Tests one ray against a block, and says whether it has met something nearer.
+    #[inline(always)]
+    fn one<L: Eight>(&mut self, lane: usize, block: &Block, axis: usize) -> bool {
+        let ray = &self.rays[lane];
+        let slopes = [self.slopes[0].store()[lane], self.slopes[1].store()[lane], self.slopes[2].store()[lane]];
+        let before = Hit { t: self.t.store()[lane], triangle: self.triangle.store()[lane].to_bits() };
+        let mut best = before;
+        wide_ray::block::<L>(block, &Shear { origin: ray.origin, axis, slopes }, ray.until, &mut best);
+        if best == before {
+            return false;
+        }
+        self.t = self.t.with(lane, best.t);
+        self.triangle = self.triangle.with(lane, f32::from_bits(best.triangle));
+        true
+    }
+
+    /// `Shear::meet` for one triangle, and whether it is nearer for any ray.
+    #[inline(always)]
+    fn triangle(&mut self, block: &Block, lane: usize, axes: [usize; 3]) -> bool {
+        let eye = self.rays[0].origin;
+        let origin: [S; 3] = splat([eye[axes[0]], eye[axes[1]], eye[axes[2]]]);
+        let met = meet(
+            sheared(corner(block, 0, axes, lane), origin, self.slopes),
+            sheared(corner(block, 1, axes, lane), origin, self.slopes),
+            sheared(corner(block, 2, axes, lane), origin, self.slopes),
+        );
+        let inside = met.inside;
+        if inside.bits() == 0 {
+            return false;
+        }
+        let number = block.triangles[lane];
+        let t = met.t();
+        let nearer = inside.and(S::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
+        // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
+        let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
+        if seldom.bits() != 0 {
+            return self.one_by_one(inside.bits(), &block.lane(lane), number);
+        }
+        self.t = S::select(nearer, t, self.t);
+        self.triangle = S::select(nearer, S::splat(f32::from_bits(number)), self.triangle);
+        nearer.bits() != 0
+    }
+
+    #[inline(never)]
+    fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
+        let (mut t, mut triangle) = (self.t.store(), self.triangle.store());
+        let mut nearer = false;
+        for (lane, ray) in self.rays.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
+            let before = Hit { t: t[lane], triangle: triangle[lane].to_bits() };
+            let mut best = before;
+            Shear::new(ray).update(corners, number, ray.until, &mut best);
+            (t[lane], triangle[lane]) = (best.t, f32::from_bits(best.triangle));
+            nearer |= best != before;
+        }
+        (self.t, self.triangle) = (S::load(&t), S::load(&triangle));
+        nearer
+    }
+
+    #[inline(always)]
+    fn write(&self, hits: &mut [Hit]) {
+        let all: [Hit; GROUP] = bytemuck::cast(self.t.beside(self.triangle));
+        hits.copy_from_slice(&all[..hits.len()]);
+    }
+}
+
+/// The rays of up to [`TOGETHER`] groups through the items that are left. The packet's z is the axis along which each of them moves fastest.
+#[inline(always)]
+pub(super) fn descend<L: Eight, S: Sixteen>(
+    wide: &Wide,
+    rays: &[Ray],
+    hits: &mut [Hit],
+    laid: &[Laid],
+    hulls: &[Hull],
+    axes: &Axes,
+    items: &[Item],
+    stack: &mut Stack,
+) {
+    let eye = rays[0].origin;
+    let axis = axes.axes[2];
+    let mut all = Hull::EMPTY;
+    let mut groups = [Group::<S>::new(&rays[..rays.len().min(GROUP)], &laid[0], axes); TOGETHER];
+    for group in &mut groups[rays.len().div_ceil(GROUP)..] {
+        group.used = 0;
+    }
+    let mut untils = [f32::NEG_INFINITY; TOGETHER];
+    for (i, rays) in rays.chunks(GROUP).enumerate().take(TOGETHER) {
+        if i > 0 {
+            groups[i] = Group::new(rays, &laid[i], axes);
+        }
+        untils[i] = groups[i].deepest() + axes.widening;
+        all = all.union(&hulls[i]);
+    }
+    let planes = Planes::<L>::new(&all, axes);
+    let mut until = greatest(&untils);
+    let mut looks = 0;
+    for item in items {
+        if item.near > until {
+            continue;
+        }
+        let mut only = item.children;
+        stack[0] = Waits { child: item.node, near: item.near, place: 0 };
+        let mut height = 1;
+        while height > 0 {
+            height -= 1;
+            let Waits { child: at, near, place } = stack[height];
+            if near > until {
+                continue;
+            }
+            looks += 1;
+            let inner = at & LEAF == 0;
+            let mut reached = [0; TOGETHER];
+            let mut count = 0;
+            // An item's own box has been asked.
+            if !inner || (looks > MANY && only == !0) {
+                let parent = &wide.nodes[(place >> 3) as usize];
+                let lane = (place & 7) as usize;
+                let sides = seen_from(parent, lane, eye, axes);
+                for i in 0..TOGETHER {
+                    reached[i] = groups[i].reach(&sides, axes.widening);
+                    count += reached[i].count_ones();
+                }
+                if count == 0 {
+                    continue;
+                }
+            }
+            if inner {
+                let node = &wide.nodes[at as usize];
+                let (met, near) = planes.boxes(node, until);
+                let met = met & only;
+                only = !0;
+                if met != 0 {
+                    push::<L>(wide, stack, &mut height, met, at, &near.store());
+                }
+                continue;
+            }
+            let (block, held) = leaf(at);
+            let block = &wide.blocks[block];
+            let mut changed = [false; TOGETHER];
+            if count <= FEW {
+                for i in 0..TOGETHER {
+                    let mut lanes = reached[i];
+                    while lanes != 0 {
+                        let lane = lanes.trailing_zeros() as usize & (GROUP - 1);
+                        lanes &= lanes - 1;
+                        changed[i] |= groups[i].one::<L>(lane, block, axis);
+                    }
+                }
+            } else {
+                let edges = Edges::new::<L>(block, eye, axis);
+                for lane in 0..held as usize {
+                    for i in 0..TOGETHER {
+                        if reached[i] != 0 && edges.may_be_met(lane, groups[i].slopes) {
+                            changed[i] |= groups[i].triangle(block, lane, axes.axes);
+                        }
+                    }
+                }
+            }
+            for i in 0..TOGETHER {
+                if changed[i] {
+                    untils[i] = groups[i].deepest() + axes.widening;
+                }
+            }
+            until = greatest(&untils);
+        }
+    }
+    for (group, hits) in groups.iter().zip(hits.chunks_mut(GROUP)) {
+        group.write(hits);
+    }
+}
+
+/// The last depth that counts for any group.
+#[inline(always)]
+fn greatest(untils: &[f32; TOGETHER]) -> f32 {
+    let mut greatest = untils[0];
+    for &until in &untils[1..] {
+        greatest = if until > greatest { until } else { greatest };
+    }
+    greatest
+}
+
+/// The box in one lane of a node, widened, from the eye along the packet's axes: lower and upper end.
+#[inline(always)]
+fn seen_from(node: &Wide8, lane: usize, eye: [f32; 3], axes: &Axes) -> [[f32; 2]; 3] {
+    let mut sides = [[0.0; 2]; 3];
+    for (side, axis) in sides.iter_mut().zip(axes.axes) {
+        let [low, high] = [node.bounds[axis][0][lane], node.bounds[axis][1][lane]];
+        *side = [low - axes.widening - eye[axis], high + axes.widening - eye[axis]];
+    }
+    if axes.sign < 0.0 {
+        sides[2] = [-sides[2][1], -sides[2][0]];
+    }
+    sides
+}
