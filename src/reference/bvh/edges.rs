@@ -4,8 +4,9 @@
 //! normal · (x, y, 1) tells. That is the edge function of `Shear`, but for rounding: so it only leaves out, by a margin that covers both roundings, and
 //! `Shear` decides on what is left.
 
-use super::lanes::{Eight, Lanes, Mask};
+use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::wide::Block;
+use super::wide_group::ALL;
 use super::wide_ray::{load, splat};
 
 /// Units in the last place, relative to the eye's distance times an edge's length, by which an edge function must have a sign for it to count: 2⁻¹⁹ are 32 of
@@ -43,17 +44,17 @@ impl Edges {
 
     /// Whether any of the rays with these slopes may meet the triangle in one lane.
     #[inline(always)]
-    pub fn may_be_met<S: Lanes>(&self, lane: usize, slopes: [S; 3]) -> bool {
+    pub fn may_be_met<S: Sixteen>(&self, lane: usize, slopes: [S; 3]) -> bool {
         let (u, v, w) = (self.side(0, lane, slopes), self.side(1, lane, slopes), self.side(2, lane, slopes));
         let margin = S::splat(self.margins[lane]);
         let below = u.min(v).min(w).less(margin.negative());
         let above = margin.less(u.max(v).max(w));
-        below.and(above).bits() != 0xffff
+        below.and(above).bits() != ALL
     }
 
     /// The edge function.
     #[inline(always)]
-    fn side<S: Lanes>(&self, edge: usize, lane: usize, slopes: [S; 3]) -> S {
+    fn side<S: Sixteen>(&self, edge: usize, lane: usize, slopes: [S; 3]) -> S {
         let [x, y, z] = &self.normals[edge];
         slopes[0].roughly(S::splat(x[lane]), slopes[1].roughly(S::splat(y[lane]), S::splat(z[lane])))
     }

@@ -6,7 +6,7 @@ use super::ray::{Ray, widening};
 use super::triangle::fastest;
 use super::wide::Wide;
 use super::wide_eye::Laid;
-use super::wide_group::{ALL, EIGHT, GROUP, filled, lanes};
+use super::wide_group::{ALL, EIGHT, GROUP, NO_END, filled, lanes};
 
 /// Of seven times sixteen numbers, which are sixteen rays of seven, those that are not of an origin: one bit each.
 const OTHER: [u32; 7] = {
@@ -28,7 +28,7 @@ fn axes_of(rays: &[Ray]) -> ([usize; 3], f32) {
     ([(z + 1) % 3, (z + 2) % 3, z], 1f32.copysign(middle[z]))
 }
 
-/// The same for rays that all start in one point, with each group laid out; None also if they do not.
+/// The common direction of rays that all start in one point, the hull of each group, and each group laid out; None if they have no such direction or point.
 #[inline(always)]
 pub(super) fn from_eye<S: Sixteen>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>, laid: &mut Vec<Laid>) -> Option<Axes> {
     let eye = rays[0].origin;
@@ -45,6 +45,7 @@ pub(super) fn from_eye<S: Sixteen>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hu
     for rays in rays.chunks(GROUP) {
         let rays: &[[f32; 7]; GROUP] = bytemuck::cast_ref(filled(rays, &mut spare));
         let [along_a, along_b, along_c, until] = S::last_columns(rays);
+        let until = until.max(S::splat(NO_END));
         let direction = [along_a, along_b, along_c];
         let along = direction[z].mul(S::splat(sign));
         let mut fit = S::splat(0.0).less(along).bits();
@@ -90,6 +91,7 @@ pub(super) fn from_anywhere<L: Eight>(wide: &Wide, rays: &[Ray], hulls: &mut Vec
     hulls.clear();
     for (number, rays) in rays.chunks(EIGHT).enumerate() {
         let (origin, direction, until) = lanes::<L>(filled(rays, &mut spare));
+        let until = until.max(L::splat(NO_END));
         let along = direction[z].mul(L::splat(sign));
         let depth = origin[z].sub(L::splat(front)).mul(L::splat(sign));
         let end = depth.add(along.mul(until));

@@ -20,18 +20,17 @@ pub(super) fn leaf(child: u32) -> (usize, u32) {
 /// The child of nobody.
 pub(super) const NOBODY: u32 = u32::MAX;
 
-/// No more than this many entries wait on a traversal's stack: seven siblings a level, and room to write eight where fewer count.
-pub(super) const STACK: usize = 7 * (MAX_DEPTH + 1) + 1 + 8;
+/// No more than this many entries wait on a traversal's stack: seven siblings a level.
+pub(super) const STACK: usize = 7 * (MAX_DEPTH + 1) + 1;
 
 /// A child that waits on a stack.
-#[derive(Clone, Copy, Debug, Default, bytemuck::Pod, bytemuck::Zeroable)]
-#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Waits {
     /// As in [`Wide8::children`].
     pub child: u32,
     /// Where its box begins; not negative.
     pub near: f32,
-    /// Where its box is written: eight times its parent's number, and its lane there.
+    /// Where its box is written: eight times its parent's number, and its lane there; 0 where nobody asks again.
     pub place: u32,
 }
 

@@ -53,7 +53,7 @@ struct Group<'a, S> {
 impl<'a, S: Sixteen> Group<'a, S> {
     #[inline(always)]
     fn new(rays: &'a [Ray], laid: &Laid, axes: &Axes) -> Group<'a, S> {
-        let (one, sign) = (S::splat(1.0), S::splat(axes.sign));
+        let (zero, one, sign) = (S::splat(0.0), S::splat(1.0), S::splat(axes.sign));
         let [x, y] = [S::load(&laid.slopes[0]), S::load(&laid.slopes[1])];
         let along = S::load(&laid.along);
         Group {
@@ -61,7 +61,8 @@ impl<'a, S: Sixteen> Group<'a, S> {
             used: (1 << rays.len()) - 1,
             // Over the direction itself and not its size: the same bits but for the sign.
             slopes: [x.mul(sign), y.mul(sign), one.div(along).mul(sign)],
-            inverse: [one.div(x), one.div(y)],
+            // Never −0, whose reciprocal would turn an interval round.
+            inverse: [one.div(x.add(zero)), one.div(y.add(zero))],
             along,
             until: S::load(&laid.until),
             t: S::splat(Hit::MISS.t),

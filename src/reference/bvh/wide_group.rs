@@ -32,13 +32,16 @@ pub(super) struct Item {
     pub near: f32,
 }
 
+/// Where a ray ends that meets nothing: lanes without a ray, and ends that are not a number or lie before the start.
+pub(super) const NO_END: f32 = -1.0;
+
 /// `N` rays or fewer; lanes without one repeat the last, with an end before its start.
 #[inline(always)]
 pub(super) fn filled<'a, const N: usize>(rays: &'a [Ray], spare: &'a mut [Ray; N]) -> &'a [Ray; N] {
     if let Ok(full) = rays.try_into() {
         return full;
     }
-    *spare = [Ray { until: -1.0, ..rays[rays.len() - 1] }; N];
+    *spare = [Ray { until: NO_END, ..rays[rays.len() - 1] }; N];
     spare[..rays.len()].copy_from_slice(rays);
     spare
 }
@@ -106,6 +109,7 @@ impl<'a, S: Sixteen> Group<'a, S> {
     #[inline(always)]
     fn new(rays: &'a [Ray; GROUP], axes: &Axes) -> Group<'a, S> {
         let [x, y, z, along_x, along_y, along_z, until] = S::columns(bytemuck::cast_ref(rays));
+        let until = until.max(S::splat(NO_END));
         let (origin, direction) = ([x, y, z], [along_x, along_y, along_z]);
         // As `fastest`.
         let [x, y, z] = [along_x.abs(), along_y.abs(), along_z.abs()];

@@ -163,7 +163,7 @@ fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], pac
             continue;
         }
         let items = &items[list[0]..list[1]];
-        if from_eye && hulls[groups.clone()].iter().all(Hull::is_along_z) {
+        if from_eye && hulls[groups.clone()].iter().all(|hull| hull.is_along_z() && hull.is_narrow(NARROW)) {
             let run = groups.start * GROUP..(groups.end * GROUP).min(rays.len());
             wide_eye::descend::<L, S>(wide, &rays[run.clone()], &mut hits[run], &laid[groups.clone()], &hulls[groups], &axes, items, stack);
             continue;

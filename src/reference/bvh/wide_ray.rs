@@ -189,7 +189,7 @@ pub(super) fn block<L: Eight>(block: &Block, shear: &Shear, until: f32, best: &m
     }
 }
 
-/// Eight pairs of a ray and a triangle that may meet.
+/// Pairs of a ray and a triangle that may meet.
 #[derive(Clone, Copy)]
 pub(super) struct Met<L: Lanes> {
     edges: [L; 3],
@@ -200,7 +200,7 @@ pub(super) struct Met<L: Lanes> {
     pub inside: L::Mask,
 }
 
-/// `Shear::meet` for eight pairs, given their sheared corners.
+/// `Shear::meet` for as many pairs as there are lanes, given their sheared corners.
 #[inline(always)]
 pub(super) fn meet<L: Lanes>(a: [L; 3], b: [L; 3], c: [L; 3]) -> Met<L> {
     let u = c[0].mul(b[1]).sub(c[1].mul(b[0]));
