@@ -234,6 +234,8 @@ fn the_tables_of_straight_rays_are_those_of_their_csv() {
         ("Embree, stream of 64 × 64", "primary", "Embree stream", "64"),
         ("Embree, stream of 64 × 64 in sixteens", "primary", "Embree stream 16", "64"),
         ("ours, 8 × 8", "primary", "ours", "8"),
+        ("ours, 16 × 16", "primary", "ours", "16"),
+        ("ours, 32 × 32", "primary", "ours", "32"),
         ("ours, 64 × 64", "primary", "ours", "64"),
         ("ours, camera walking, 64 × 64", "walking", "ours", "64"),
         ("shadow rays: Embree", "shadow", "Embree", "1"),
@@ -256,6 +258,7 @@ fn the_tables_of_straight_rays_are_those_of_their_csv() {
     let over =
         |size: &'static str| move |scene: &str| format!("{:.2}", number(of(scene, "primary", "ours", size), "Mrays_per_s") / best(scene));
     line("ours 8 × 8 over Embree's best", &over("8"));
+    line("ours 16 × 16 over Embree's best", &over("16"));
     line("ours 64 × 64 over Embree's best", &over("64"));
     stands("docs/bvh.md", &lines);
     let mut lines = String::new();
