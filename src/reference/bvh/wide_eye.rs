@@ -155,18 +155,20 @@ impl<'a, S: Sixteen> Group<'a, S> {
     }
 }
 
+/// Up to [`TOGETHER`] groups of a packet from one eye, the last of which may not be full.
+pub(super) struct Run<'a> {
+    /// Their rays.
+    pub rays: &'a [Ray],
+    /// The groups, laid out.
+    pub laid: &'a [Laid],
+    /// Their hulls.
+    pub hulls: &'a [Hull],
+}
+
 /// The rays of up to [`TOGETHER`] groups through the items that are left. The packet's z is the axis along which each of them moves fastest.
 #[inline(always)]
-pub(super) fn descend<L: Eight, S: Sixteen>(
-    wide: &Wide,
-    rays: &[Ray],
-    hits: &mut [Hit],
-    laid: &[Laid],
-    hulls: &[Hull],
-    axes: &Axes,
-    items: &[Item],
-    stack: &mut Stack,
-) {
+pub(super) fn descend<L: Eight, S: Sixteen>(wide: &Wide, run: &Run, hits: &mut [Hit], axes: &Axes, items: &[Item], stack: &mut Stack) {
+    let Run { rays, laid, hulls } = *run;
     let eye = rays[0].origin;
     let axis = axes.axes[2];
     let mut all = Hull::EMPTY;

@@ -12,7 +12,7 @@ use super::lanes_x86::{Avx, Avx512};
 use super::ray::{Hit, Ray};
 use super::sweep;
 use super::wide::{Instructions, STACK, Stack, Waits, Wide};
-use super::wide_eye::{self, Laid, TOGETHER};
+use super::wide_eye::{self, Laid, Run, TOGETHER};
 use super::wide_group::{EIGHT, GROUP, Item, group, push};
 
 /// So many groups at most share their last list, the one that is sorted; twice as many are as fast.
@@ -165,7 +165,8 @@ fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], pac
         let items = &items[list[0]..list[1]];
         if from_eye && hulls[groups.clone()].iter().all(|hull| hull.is_along_z() && hull.is_narrow(NARROW)) {
             let run = groups.start * GROUP..(groups.end * GROUP).min(rays.len());
-            wide_eye::descend::<L, S>(wide, &rays[run.clone()], &mut hits[run], &laid[groups.clone()], &hulls[groups], &axes, items, stack);
+            let eye = Run { rays: &rays[run.clone()], laid: &laid[groups.clone()], hulls: &hulls[groups] };
+            wide_eye::descend::<L, S>(wide, &eye, &mut hits[run], &axes, items, stack);
             continue;
         }
         for at in groups {
