@@ -167,14 +167,16 @@ fn packets_of_every_size_and_order_give_the_bits_of_single_rays() {
         let slow = wide.clone().portable();
         assert!(!slow.is_fast());
         let half = wide.clone().limited(Instructions::Avx2);
-        let primary = view_rays(&scene.view, [32, 24]);
+        // Fine enough that neighbours go together: coarser rays would go one by one.
+        let primary = view_rays(&scene.view, [64, 48]);
         let second = secondary(&scene.triangles, &primary, &closest_each(&wide, &primary), random);
         let mut mixed = [primary.clone(), second.clone(), any_rays(300, 3.0, random)].concat();
         mixed.shuffle(random);
-        let tiled: Vec<Ray> = order::tiles([32, 24], 16).0.iter().map(|&i| primary[i as usize]).collect();
+        let tiled: Vec<Ray> = order::tiles([64, 48], 16).0.iter().map(|&i| primary[i as usize]).collect();
         let backwards: Vec<Ray> = tiled.iter().rev().copied().collect();
-        // From one eye amid the scene, in all directions, some with an end.
-        let inside: Vec<Ray> = any_rays(500, 3.0, random).into_iter().map(|ray| Ray { origin: [0.05, 0.1, 0.2], ..ray }).collect();
+        // From one eye amid the scene: neighbours, and in all directions, some with an end.
+        let amid = tiled.iter().copied().chain(any_rays(500, 3.0, random));
+        let inside: Vec<Ray> = amid.map(|ray| Ray { origin: [0.05, 0.1, 0.2], ..ray }).collect();
         let ended: Vec<Ray> = tiled
             .iter()
             .map(|ray| Ray {
@@ -182,9 +184,13 @@ fn packets_of_every_size_and_order_give_the_bits_of_single_rays() {
                 ..*ray
             })
             .collect();
-        // Ends that are none, beside ends that are.
-        let endless: Vec<Ray> =
-            ended.iter().enumerate().map(|(i, ray)| if i % 5 == 0 { Ray { until: f32::NAN, ..*ray } } else { *ray }).collect();
+        // In each sixteen one ray that sees far, in the lane beside that of an end that is no number.
+        let until = |i: usize| match i % 16 {
+            0 => 9.0,
+            8 => f32::NAN,
+            _ => 0.01,
+        };
+        let endless: Vec<Ray> = tiled.iter().enumerate().map(|(i, ray)| Ray { until: until(i), ..*ray }).collect();
         for rays in [tiled, backwards, ended, endless, inside, second, mixed] {
             let single = closest_each(&wide, &rays);
             assert_eq!(closest_each(&slow, &rays), single, "{}: portable lanes", scene.name);
