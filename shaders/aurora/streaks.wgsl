@@ -1,4 +1,4 @@
-// What the passes of the aurora share: electrons ("streaks"), where they come down, how they fall. Lengths in km and heights above the
+// What the passes of the aurora share: streaks, each the light of all electrons that come down on a small part of a curtain; where they are, how they fall. Lengths in km and heights above the
 // planet, in the axes of its magnetic dipole (+z north); see src/scene/aurora for the physics, and src/render/aurora for who fills what.
 
 struct AuroraSettings {
@@ -8,8 +8,8 @@ struct AuroraSettings {
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
-    /// x: accelerated, y: thermal energy in keV, z: spread of a luminous point in km, w: levels of the pyramid that are in use.
-    electrons: vec4<f32>,
+    /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw unused.
+    splats: vec4<f32>,
 };
 
 /// The paper's walk: linear on the screen.
@@ -74,14 +74,14 @@ struct Corner {
 /// Levels of the pyramid, each of half the size of the one before.
 const PYRAMID: u32 = 7u;
 
-const ROWS: u32 = 96u;
+const ROWS: u32 = 32u;
+const LEAST_FLUX: f32 = 0.05;
+const MOST_FLUX: f32 = 4.0;
 const PARTS: u32 = 32u;
 const KINDS: u32 = 3u;
 const DELAYS: u32 = 64u;
-const FIRST_DELAY: u32 = 384u;
-const FIRST_HEIGHT: u32 = 512u;
-const LN_FIRST_REACH: f32 = -18.420681;
-const LN_REACHES: f32 = 14.508658;
+const FIRST_DELAY: u32 = 128u;
+const FIRST_HEIGHT: u32 = 256u;
 const PLANET_RADIUS: f32 = 6371.0;
 const REFERENCE_HEIGHT: f32 = 110.0;
 
@@ -135,14 +135,17 @@ struct Streak {
     along: f32,
     across: f32,
     kind: u32,
-    /// One over the streaks of its kind in the segment.
+    /// Its part of the light of its kind in the segment.
     share: f32,
     south: bool,
-    key: u32,
+    /// In [0, 1): which part of the light that is made at its place is seen so late.
+    wait: f32,
 }
 
-/// A streak by its number. Its place within its segment depends on its number there alone, so that when streaks are added or taken away the
-/// others stay where they are.
+/// Steps of an even sequence in two dimensions: one over the plastic number, and its square.
+const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
+
+/// A streak by its number. Those of a kind lie evenly along their segment, and evenly across it and in their waits over a few of them.
 fn streak_of(index: u32) -> Streak {
     var low = 0u;
     var high = aurora.history.y - 1u;
@@ -158,15 +161,22 @@ fn streak_of(index: u32) -> Streak {
     let number = index - range.x;
     var streak: Streak;
     streak.segment = low;
-    streak.key = hash(number + hash(low + 1u));
-    // The golden ratio spreads any number of them evenly.
-    streak.along = fract(0.618034 * f32(number) + unit(hash(low)));
-    streak.across = unit(hash(streak.key + 1u)) - 0.5;
     // Of four, two are green, one prompt and one red.
     let turn = number & 3u;
     streak.kind = select(select(PROMPT, RED, turn == 3u), GREEN, turn < 2u);
-    streak.share = select(4.0, 2.0, turn < 2u) / f32(max(range.z, 1u));
-    streak.south = ((aurora.history.w & AURORA_BOTH_POLES) != 0u) & (((number >> 2u) & 1u) == 1u);
+    let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
+    streak.south = both & (((number >> 2u) & 1u) == 1u);
+    // Which of how many of its kind and pole.
+    let fours = number >> select(2u, 3u, both);
+    let many = select(1u, 2u, turn < 2u);
+    let own = many * fours + select(0u, turn, turn < 2u);
+    let all = many * max(range.z >> select(2u, 3u, both), 1u);
+    streak.share = select(1.0, 0.5, both) / f32(all);
+    streak.along = (f32(own) + 0.5) / f32(all);
+    // Segments and kinds go on with the sequence at places of their own.
+    let even = fract(EVEN * f32(own) + EVEN.yx * f32(low & 1023u) + 0.37 * f32(turn));
+    streak.across = even.x - 0.5;
+    streak.wait = even.y;
     return streak;
 }
 
@@ -183,22 +193,13 @@ fn mean_wait(kind: u32, height: f32) -> f32 {
 
 /// The same for one streak: exponentially distributed over the streaks.
 fn waits(streak: Streak, height: f32) -> f32 {
-    return -log(max(1.0 - unit(hash(streak.key + 2u)), 1e-6)) * mean_wait(streak.kind, height);
+    return -log(max(1.0 - streak.wait, 1e-6)) * mean_wait(streak.kind, height);
 }
 
-/// Row of the table of falls for a streak: energy from the spectrum φ ∝ E exp(−(E − E_acc)/E_th), slope µ = √u. y: the energy in keV.
-fn fall_of(streak: Streak, flux: f32) -> vec2<f32> {
-    // Brighter parts of a curtain are harder: the potential goes as the square root of the flux.
-    let accelerated = aurora.electrons.x * sqrt(clamp(flux, 0.05, 4.0));
-    let thermal = aurora.electrons.y;
-    var x = -log(max(1.0 - unit(hash(streak.key + 3u)), 1e-6));
-    if unit(hash(streak.key + 4u)) * (accelerated + thermal) >= accelerated {
-        x -= log(max(1.0 - unit(hash(streak.key + 5u)), 1e-6));
-    }
-    let energy = clamp(accelerated + thermal * x, 0.05, 500.0);
-    let slope = clamp(sqrt(unit(hash(streak.key + 6u))), 0.05, 1.0);
-    let ln_reach = log(4.57e-6 * slope) + 1.75 * log(energy);
-    return vec2<f32>(clamp((ln_reach - LN_FIRST_REACH) / LN_REACHES, 0.0, 1.0) * f32(ROWS - 1u), energy);
+/// Row of the table of falls where the energy flux is so many times its mean.
+fn fall_at(flux: f32) -> f32 {
+    let first = sqrt(LEAST_FLUX);
+    return (sqrt(clamp(flux, LEAST_FLUX, MOST_FLUX)) - first) / (sqrt(MOST_FLUX) - first) * f32(ROWS - 1u);
 }
 
 /// Height below which `part` (0 to 1) of the light of a kind has been passed.

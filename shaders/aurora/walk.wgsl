@@ -46,7 +46,7 @@ const BEYOND: f32 = 30.0;
 
 /// Whether nothing of a streak can be seen: all its ends are beyond one edge of the screen, or behind what is drawn there.
 fn unseen(first: u32, count: u32) -> bool {
-    let reach_km = 3.0 * aurora.electrons.z + BEYOND;
+    let reach_km = 3.0 * aurora.splats.x + BEYOND;
     // Beyond the right, the upper, the left and the lower edge.
     var beyond = vec4<bool>(true);
     var near = false;
@@ -91,7 +91,7 @@ fn width_along(kind: u32, height: f32, first: u32, count: u32, focal: vec2<f32>)
     let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
     let east = screen_step(c, a.east.xyz, focal);
     let north = screen_step(c, a.north.xyz, focal);
-    let wide = min(dot(east, east), dot(north, north)) * aurora.electrons.z * aurora.electrons.z + PIXEL_VARIANCE;
+    let wide = min(dot(east, east), dot(north, north)) * aurora.splats.x * aurora.splats.x + PIXEL_VARIANCE;
     return sqrt(wide) / max(fallen, 1e-6);
 }
 
@@ -109,10 +109,10 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let segment = segments[streak.segment];
     // How hard its electrons are, by the flux when those of the middle came down.
-    let fall = fall_of(streak, chords[first + chord_count / 2u].north.w);
-    // Collisions of this streak, and from them photons of its lines, in kR km².
-    let row = min(u32(fall.x), ROWS - 2u);
-    let part = fall.x - f32(row);
+    let fall = fall_at(chords[first + chord_count / 2u].north.w);
+    // Photons of its lines per 35 eV, and from them the light of this streak, in kR km².
+    let row = min(u32(fall), ROWS - 2u);
+    let part = fall - f32(row);
     var photons: vec4<f32>;
     for (var line = 0u; line < 4u; line++) {
         photons[line] = mix(falls[4u * row + line], falls[4u * row + 4u + line], part);
@@ -128,7 +128,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let count = min(aurora.counts.z, arrayLength(&corners));
     let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
-    // A streak of twice the energy stands for half as many electrons: the flux of energy is what is given.
     let power = light * streak.share * segment.light.x / f32(count);
     lines /= light;
 
@@ -140,7 +139,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.projection.z)) {
         return;
     }
-    var upper = height_of(fall.x, streak.kind, 0.0);
+    var upper = height_of(fall, streak.kind, 0.0);
     // Equal parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one splat.
     var k = 0u;
     while k < count {
@@ -151,13 +150,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // Parts, their heights from here and the squares of those.
         var sums = vec3<f32>(0.0);
         loop {
-            let lower = height_of(fall.x, streak.kind, f32(k + 1u) / f32(count));
+            let lower = height_of(fall, streak.kind, f32(k + 1u) / f32(count));
             let middle = 0.5 * (upper + lower) - start;
             let extent = upper - lower;
             sums += vec3<f32>(1.0, middle, middle * middle + STRETCH * extent * extent);
             upper = lower;
             k++;
-            if !(start - height_of(fall.x, streak.kind, f32(k + 1u) / f32(count)) < most_km) | (k >= count) {
+            if !(start - height_of(fall, streak.kind, f32(k + 1u) / f32(count)) < most_km) | (k >= count) {
                 break;
             }
         }
@@ -190,7 +189,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let j = vec3<f32>(dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.x, north.x, fallen.x)),
             dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.y, north.y, fallen.y)),
             dot(vec3<f32>(east.y, north.y, fallen.y), vec3<f32>(east.y, north.y, fallen.y)));
-        let blob = aurora.electrons.z * aurora.electrons.z;
+        let blob = aurora.splats.x * aurora.splats.x;
         let xx = blob * j.x + stretch * fallen.x * fallen.x + PIXEL_VARIANCE;
         let xy = blob * j.y + stretch * fallen.x * fallen.y;
         let yy = blob * j.z + stretch * fallen.y * fallen.y + PIXEL_VARIANCE;
@@ -218,7 +217,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let pixel = (vec2<f32>(0.5, -0.5) * place.xy + 0.5) * frame.size.xy;
         let axes = vec4<f32>(direction * major, vec2<f32>(-direction.y, direction.x) * minor);
         // The level at which it is three quarters to one and a half pixels narrow.
-        let coarsest = max(u32(aurora.electrons.w), 1u) - 1u;
+        let coarsest = max(u32(aurora.splats.y), 1u) - 1u;
         var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
         // All but 1 % of the light is within three standard deviations, and two pixels of its level further where that is enlarged.
         let reach = 3.0 * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + select(1.0, 2.0 * f32(1u << level), level > 0u);

@@ -12,7 +12,7 @@ mod show;
 pub mod veil;
 
 pub use levels::PYRAMID;
-pub use pass::{Aurora, fall_table};
+pub use pass::Aurora;
 pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};
 
 use bytemuck::{Pod, Zeroable};
@@ -25,7 +25,7 @@ pub struct AuroraSettings {
     pub counts: [u32; 4],
     pub history: [u32; 4],
     pub clock: [f32; 4],
-    pub electrons: [f32; 4],
+    pub splats: [f32; 4],
 }
 
 /// `Segment` in WGSL.

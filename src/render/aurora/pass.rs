@@ -1,5 +1,7 @@
 //! The passes of the aurora, and their buffers.
 
+use std::sync::Arc;
+
 use wgpu::{BufferUsages, ShaderStages};
 
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
@@ -8,13 +10,12 @@ use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
 use crate::render::layout::{
-    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, raster_of, storage,
+    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, raster_of,
 };
 use crate::render::method::Method;
 use crate::render::shaders::Pass;
 use crate::render::targets::Targets;
 use crate::render::types::Placement;
-use crate::scene::aurora::quantiles::Quantiles;
 
 /// Image orders that may show it.
 const ORDERS: usize = 3;
@@ -59,7 +60,7 @@ pub struct Aurora {
     placements: wgpu::Buffer,
     nodes: Growing,
     segments: Growing,
-    falls: wgpu::Buffer,
+    falls: Growing,
     chords: Growing,
     splats: Growing,
     references: Growing,
@@ -75,7 +76,8 @@ pub struct Aurora {
     projected: u32,
     /// Of the prepared frame.
     rooms: Rooms,
-    uploaded: Option<std::sync::Arc<Vec<[f32; 4]>>>,
+    /// The nodes and the falls that are on the GPU.
+    uploaded: Option<(Arc<Vec<[f32; 4]>>, Arc<Vec<f32>>)>,
 }
 
 #[derive(Debug)]
@@ -128,7 +130,7 @@ impl Aurora {
             placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
             nodes: Growing::new(device, "aurora nodes", BufferUsages::STORAGE),
             segments: Growing::new(device, "aurora segments", BufferUsages::STORAGE),
-            falls: storage(gpu, "aurora falls", &fall_table()),
+            falls: Growing::new(device, "aurora falls", BufferUsages::STORAGE),
             chords: Growing::new(device, "aurora chords", BufferUsages::STORAGE),
             splats: Growing::new(device, "aurora splats", BufferUsages::STORAGE | BufferUsages::VERTEX),
             references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
@@ -166,16 +168,20 @@ impl Aurora {
         let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (SPLAT_BYTES * orders as u64 * 2);
         // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
         settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
-        let in_use = (settings.electrons[3] as u32).clamp(1, PYRAMID);
-        settings.electrons[3] = in_use as f32;
+        let in_use = (settings.splats[1] as u32).clamp(1, PYRAMID);
+        settings.splats[1] = in_use as f32;
         let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
         let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
         self.rooms = rooms;
-        // The history changes only when the curtains have moved a step.
-        if self.uploaded.as_ref().is_none_or(|nodes| !std::sync::Arc::ptr_eq(nodes, &frame.nodes)) {
+        // The history changes only when the curtains have moved a step, and falls with the keys of the spectrum.
+        let (nodes, falls) = self.uploaded.take().unzip();
+        if nodes.is_none_or(|nodes| !Arc::ptr_eq(&nodes, &frame.nodes)) {
             replaced |= self.nodes.write(gpu, &frame.nodes);
-            self.uploaded = Some(frame.nodes.clone());
         }
+        if falls.is_none_or(|falls| !Arc::ptr_eq(&falls, &frame.falls)) {
+            replaced |= self.falls.write(gpu, &frame.falls);
+        }
+        self.uploaded = Some((frame.nodes.clone(), frame.falls.clone()));
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
         replaced |= self.splats.reserve(device, SPLAT_BYTES * rooms.all() * orders as u64);
@@ -207,7 +213,7 @@ impl Aurora {
             &self.placements,
             &self.nodes.buffer,
             &self.segments.buffer,
-            &self.falls,
+            &self.falls.buffer,
             &self.chords.buffer,
             &self.splats.buffer,
             &self.draws,
@@ -328,11 +334,4 @@ fn pixels([left, top, right, bottom]: [f64; 4], [width, height]: [u32; 2]) -> [u
     let (x0, x1) = (pixel(left, -EDGE, width), pixel(right, EDGE, width));
     let (y0, y1) = (pixel(top, -EDGE, height), pixel(bottom, EDGE, height));
     [x0, y0, x1 - x0, y1 - y0]
-}
-
-/// The tables of the fall in the order that shaders/aurora/streaks.wgsl reads them.
-pub fn fall_table() -> Vec<f32> {
-    let tables = Quantiles::new();
-    let photons = tables.photons.iter().flatten();
-    photons.chain(tables.delays.iter().flatten()).chain(&tables.heights).copied().collect()
 }

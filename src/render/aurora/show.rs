@@ -13,8 +13,10 @@ use crate::render::placements::{Motion as Movement, Object, View, against_static
 use crate::render::types::Placement;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
+use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
 use crate::scene::aurora::motion::{Motion, Plan, STEP};
+use crate::scene::aurora::quantiles::Quantiles;
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Surroundings;
 use crate::scene::planet::{AuroraShape, Planet};
@@ -70,6 +72,8 @@ pub struct AuroraFrame {
     pub segments: Vec<Segment>,
     /// Rows of nodes, newest first.
     pub nodes: Arc<Vec<[f32; 4]>>,
+    /// [`Quantiles`] of the curtains' electrons.
+    pub falls: Arc<Vec<f32>>,
 }
 
 /// The curtains of a planet, as they move.
@@ -79,6 +83,7 @@ pub struct Show {
     /// Inner and outer radius of the scene's accretion disk, r_s.
     disk: Option<[f64; 2]>,
     config: AuroraConfig,
+    falls: Arc<Vec<f32>>,
     plan: Plan,
     motion: Option<Motion>,
     /// Rows of nodes, newest first, and when the newest was.
@@ -127,6 +132,7 @@ impl Show {
         Some(Show {
             planet: *planet,
             disk,
+            falls: falls(&config),
             config,
             plan,
             motion: None,
@@ -156,6 +162,9 @@ impl Show {
         (self.plan.field, self.plan.renewal, self.plan.contrast) = (config.field, config.renewal, config.contrast);
         if let Some(motion) = &mut self.motion {
             motion.change(config.field, config.renewal, config.contrast);
+        }
+        if [config.energy, config.thermal] != [self.config.energy, self.config.thermal] {
+            self.falls = falls(config);
         }
         self.config = config.clone();
         true
@@ -229,9 +238,10 @@ impl Show {
             counts: [streaks, chords, splats, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
-            electrons: [self.config.energy as f32, self.config.thermal as f32, self.config.radius as f32, levels as f32],
+            splats: [self.config.radius as f32, levels as f32, 0.0, 0.0],
         };
         frame.segments = segments;
+        frame.falls = self.falls.clone();
         (streaks > 0 && self.rows.len() > 1).then_some(frame)
     }
 
@@ -349,6 +359,11 @@ impl Show {
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
         kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
+}
+
+/// Falls of electrons with the energies that the keys ask for.
+fn falls(config: &AuroraConfig) -> Arc<Vec<f32>> {
+    Arc::new(Quantiles::new(&Spectrum { accelerated: config.energy, thermal: config.thermal }).laid_out())
 }
 
 /// As many steps as there are between two rows.

@@ -1,30 +1,40 @@
-//! The fall and its light as tables: for each reach µR(E), the heights between which equal parts of each line's light lie, and how much it is.
+//! The fall and its light as tables: for each brightness of a curtain, the heights between which equal parts of each line's light lie, and how much it is.
 //!
-//! A splat is then always as bright as its neighbours, and steps are short where light is made and long where there is none.
+//! A row is the mean over all electrons that come down there, of every energy and slope of the spectrum: what is drawn is not one electron but all of a few
+//! hundred metres of a curtain. Drawn one by one, each with the energy that chance gave it, five times as many made a picture with more grain.
+//!
+//! A splat is as bright as its neighbours, and steps are short where light is made and long where there is none.
 
 use super::air::overhead;
-use super::fall::share_left;
+use super::fall::{Spectrum, range, sane_energy, share_left, slope};
 use super::lines;
 
-/// Rows of the table, evenly spaced in ln of the reach.
-pub const ROWS: usize = 96;
+/// Rows of the tables, evenly spaced in the square root of the energy flux over its mean.
+pub const ROWS: usize = 32;
 /// Equal parts of the light.
 pub const PARTS: usize = 32;
-/// Reaches of the first and the last row, g cm⁻².
-pub const REACHES: [f64; 2] = [1e-8, 2e-2];
+/// Energy flux over its mean of the first and the last row; beyond them falls stay the same.
+pub const FLUXES: [f64; 2] = [0.05, 4.0];
 /// Kinds of light, each with heights and waits of its own: green, prompt (blue and crimson), red.
 pub const KINDS: usize = 3;
 /// For each kind the greatest and the least height at which it is drawn, km.
 pub const HEIGHTS: [[f64; 2]; KINDS] = [[340.0, 84.0], [340.0, 84.0], [480.0, 130.0]];
 /// Steps of height of the integrals, km.
 const STEP: f64 = 0.5;
+/// Reaches µR(E) whose falls are mixed, evenly spaced in their logarithm: how many, the first and the last, g cm⁻².
+const REACHES: usize = 96;
+const REACH_ENDS: [f64; 2] = [1e-8, 2e-2];
+/// Slopes, and energies above that of the potential, over which the spectrum is summed; the latter up to so many thermal energies.
+const SLOPES: usize = 16;
+const ENERGIES: usize = 96;
+const THERMALS: f64 = 16.0;
 
 /// The tables.
 #[derive(Clone, Debug)]
 pub struct Quantiles {
     /// Heights (km) by row, kind and part: PARTS + 1 each, falling.
     pub heights: Vec<f32>,
-    /// Photons per collision (35 eV of the electron's whole energy) by row: green, blue, red, crimson.
+    /// Photons per 35 eV that come down, by row: green, blue, red, crimson.
     pub photons: Vec<[f32; 4]>,
     /// Mean wait (s) of green and red at 64 heights from 80 to 500 km; the molecules do not wait.
     pub delays: Vec<[f32; 2]>,
@@ -35,41 +45,58 @@ pub const DELAY_HEIGHTS: [f64; 2] = [80.0, 500.0];
 /// Entries of [`Quantiles::delays`].
 pub const DELAYS: usize = 64;
 
-/// The reach of a row, g cm⁻².
-pub fn reach(row: usize) -> f64 {
-    REACHES[0] * (REACHES[1] / REACHES[0]).powf(row as f64 / (ROWS - 1) as f64)
+/// Energy flux over its mean of a row.
+pub fn flux(row: usize) -> f64 {
+    let [first, last] = FLUXES.map(f64::sqrt);
+    (first + (last - first) * row as f64 / (ROWS - 1) as f64).powi(2)
+}
+
+/// Parts of the energy that electrons of each of the [`REACHES`] bring; 1 together. Number goes as E exp(−(E − E_acc)/E_th), so energy as E² of it, and
+/// isotropic electrons come down at the slope √u, u even in [0, 1).
+fn shares(spectrum: &Spectrum) -> Vec<f64> {
+    let mut shares = vec![0.0; REACHES];
+    let step = THERMALS / ENERGIES as f64;
+    for k in 0..ENERGIES {
+        let x = step * (k as f64 + 0.5);
+        let energy = spectrum.accelerated + spectrum.thermal * x;
+        let weight = energy * energy * (-x).exp();
+        for j in 0..SLOPES {
+            let reach = slope((j as f64 + 0.5) / SLOPES as f64) * range(sane_energy(energy));
+            let place = (reach / REACH_ENDS[0]).ln() / (REACH_ENDS[1] / REACH_ENDS[0]).ln() * (REACHES - 1) as f64;
+            let place = place.clamp(0.0, (REACHES - 1) as f64);
+            let below = (place as usize).min(REACHES - 2);
+            shares[below] += weight * (1.0 - (place - below as f64));
+            shares[below + 1] += weight * (place - below as f64);
+        }
+    }
+    let total: f64 = shares.iter().sum();
+    shares.iter().map(|share| share / total).collect()
 }
 
 impl Quantiles {
-    /// Integrates the falls.
-    pub fn new() -> Self {
+    /// Integrates the falls of a curtain's electrons; `spectrum` is theirs where the flux is the mean. Brighter parts are harder: the potential goes as
+    /// the square root of the flux.
+    pub fn new(spectrum: &Spectrum) -> Self {
         let levels: Vec<f64> = (0..).map(|k| 500.0 - STEP * f64::from(k)).take_while(|&z| z >= 80.0).collect();
         let overheads: Vec<f64> = levels.iter().map(|z| overhead(z - 0.5 * STEP)).collect();
         let light: Vec<[f64; 4]> = levels.iter().map(|&z| lines::photons(z)).collect();
+        // Energy left below each level, of electrons of each reach.
+        let reach = |k: usize| REACH_ENDS[0] * (REACH_ENDS[1] / REACH_ENDS[0]).powf(k as f64 / (REACHES - 1) as f64);
+        let left: Vec<Vec<f64>> = (0..REACHES).map(|k| overheads.iter().map(|over| share_left(*over, reach(k))).collect()).collect();
         let mut heights = Vec::with_capacity(ROWS * KINDS * (PARTS + 1));
         let mut photons = Vec::with_capacity(ROWS);
         for row in 0..ROWS {
+            let shares = shares(&Spectrum { accelerated: spectrum.accelerated * flux(row).sqrt(), ..*spectrum });
             let mut sums = vec![[0.0; 4]; levels.len() + 1];
             let mut before = 1.0;
-            for (k, (over, light)) in overheads.iter().zip(&light).enumerate() {
-                let left = share_left(*over, reach(row));
+            for (k, light) in light.iter().enumerate() {
+                let left: f64 = shares.iter().zip(&left).map(|(share, left)| share * left[k]).sum();
                 sums[k + 1] = std::array::from_fn(|line| sums[k][line] + (before - left) * light[line]);
                 before = left;
             }
-            let total = sums[levels.len()];
-            photons.push(total.map(|x| x as f32));
+            photons.push(sums[levels.len()].map(|x| x as f32));
             for (kind, range) in HEIGHTS.iter().enumerate() {
-                let mut k = 0;
-                for part in 0..=PARTS {
-                    let wanted = total[kind] * part as f64 / PARTS as f64;
-                    while k + 1 < sums.len() && sums[k + 1][kind] < wanted {
-                        k += 1;
-                    }
-                    let rise = sums.get(k + 1).map_or(0.0, |next| next[kind] - sums[k][kind]);
-                    let inside = if rise > 0.0 { ((wanted - sums[k][kind]) / rise).clamp(0.0, 1.0) } else { 0.0 };
-                    let height = 500.0 + 0.5 * STEP - STEP * (k as f64 + inside);
-                    heights.push(height.clamp(range[1], range[0]) as f32);
-                }
+                heights.extend(equal_parts(&sums, kind).map(|height| height.clamp(range[1], range[0]) as f32));
             }
         }
         let delays = (0..DELAYS)
@@ -81,10 +108,25 @@ impl Quantiles {
             .collect();
         Quantiles { heights, photons, delays }
     }
+
+    /// All of them in the order in which shaders/aurora/streaks.wgsl reads them.
+    pub fn laid_out(&self) -> Vec<f32> {
+        let photons = self.photons.iter().flatten();
+        photons.chain(self.delays.iter().flatten()).chain(&self.heights).copied().collect()
+    }
 }
 
-impl Default for Quantiles {
-    fn default() -> Self {
-        Quantiles::new()
-    }
+/// Heights (km) between which equal parts of a line's light are made, from sums of it at [`STEP`]s down from 500 km.
+fn equal_parts(sums: &[[f64; 4]], line: usize) -> impl Iterator<Item = f64> {
+    let total = sums.last().map_or(0.0, |sum| sum[line]);
+    let mut k = 0;
+    (0..=PARTS).map(move |part| {
+        let wanted = total * part as f64 / PARTS as f64;
+        while k + 2 < sums.len() && sums[k + 1][line] < wanted {
+            k += 1;
+        }
+        let rise = sums[k + 1][line] - sums[k][line];
+        let inside = if rise > 0.0 { ((wanted - sums[k][line]) / rise).clamp(0.0, 1.0) } else { 0.0 };
+        500.0 + 0.5 * STEP - STEP * (k as f64 + inside)
+    })
 }
