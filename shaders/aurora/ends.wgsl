@@ -13,9 +13,16 @@ fn ray_noise(x: f32, channel: u32) -> f32 {
     return mix(a, b, s * s * (3.0 - 2.0 * s));
 }
 
-/// Rays: brightness along the curtain at a few kilometres, drifting, at a time in s.
-fn rays(arc: f32, time: f32) -> f32 {
-    return ray_noise(arc * 2.7 + 0.11 * time, 3u) * ray_noise(arc * 0.83 - 0.07 * time, 4u) * 4.0;
+/// The part of noise that is left where places so many of its values apart are looked at: what is finer than those is its mean.
+fn resolved(apart: f32) -> f32 {
+    return 1.0 - smoothstep(1.0, 3.0, apart);
+}
+
+/// Rays: brightness along the curtain at a few kilometres, drifting, at a time in s; seen at places `apart` nodes from one another.
+fn rays(arc: f32, time: f32, apart: f32) -> f32 {
+    let fine = mix(0.5, ray_noise(arc * 2.7 + 0.11 * time, 3u), resolved(2.7 * apart));
+    let coarse = mix(0.5, ray_noise(arc * 0.83 - 0.07 * time, 4u), resolved(0.83 * apart));
+    return fine * coarse * 4.0;
 }
 
 @compute @workgroup_size(64)
@@ -35,11 +42,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let wait = waits(streak, height);
     let age = wait + aurora.clock.y;
     let segment = segments[streak.segment];
-    let a = node_at(segment.range.y, age);
-    let b = node_at(segment.range.y + segment.range.w, age);
+    let nodes_along = streak.along * f32(segment.range.w);
+    let before = min(u32(nodes_along), segment.range.w - 1u);
+    let part = nodes_along - f32(before);
+    let a = node_at(segment.range.y + before, age);
+    let b = node_at(segment.range.y + before + 1u, age);
     let step = b.xy - a.xy;
-    let across = vec2<f32>(-step.y, step.x) / max(length(step), 1e-3) * (streak.across * segment.light.y);
-    let body = at_height(a.xy + step * streak.along + across, height, streak.south);
+    let place = a.xy + step * part;
+    let body = at_height(place, height, streak.south);
     let slot = end_index + select(0u, aurora.counts.y + 1u, streak.kind == RED);
     let reference = references[first_reference(streak.segment, streak.south, id.y) + slot];
     let middle = vec3<f32>(reference.east.w, reference.north.w, reference.up.w);
@@ -47,9 +57,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     var end: ChordEnd;
     let seen = reference.apparent.xyz + reference.east.xyz * aside.x + reference.north.xyz * aside.y + reference.up.xyz * aside.z;
     end.apparent = vec4<f32>(seen, reference.apparent.w);
-    let flux = mix(a.z, b.z, streak.along);
-    let arc = f32(segment.range.y) + streak.along * f32(segment.range.w);
-    end.east = vec4<f32>(reference.east.xyz, flux * mix(1.0, rays(arc, aurora.clock.z - wait), aurora.clock.w));
-    end.north = vec4<f32>(reference.north.xyz, flux);
+    // Along the curtain, in the directions east and north of the place (the plane's middle is the pole), and across it.
+    let pole = normalize(place + vec2<f32>(1e-6, 0.0));
+    let towards = step / max(length(step), 1e-6);
+    let turn = vec2<f32>(pole.x * towards.y - pole.y * towards.x, -dot(pole, towards));
+    let apart = streak.apart * f32(segment.range.w);
+    let node = f32(segment.range.y) + nodes_along;
+    let waited = mix(a.z, b.z, part) * mix(1.0, rays(node, aurora.clock.z - wait, apart), aurora.clock.w);
+    let now_a = node_at(segment.range.y + before, aurora.clock.y).z;
+    let now_b = node_at(segment.range.y + before + 1u, aurora.clock.y).z;
+    let prompt = mix(now_a, now_b, part) * mix(1.0, rays(node, aurora.clock.z, apart), aurora.clock.w);
+    end.along = vec4<f32>(reference.east.xyz * turn.x + reference.north.xyz * turn.y, waited);
+    end.across = vec4<f32>(reference.north.xyz * turn.x - reference.east.xyz * turn.y, prompt);
     chords[id.y * aurora.counts.x * ends + index] = end;
 }

@@ -1,7 +1,7 @@
-// Fourth pass of the aurora: luminous points added up as Gaussians, in kR of each of the four lines; each in its level of the pyramid. Depth is that
-// of the point.
+// Fourth pass of the aurora: strokes are added up, in kR of each of the four lines; each in its level of the pyramid. Depth is that of the stroke's middle.
 
 @group(1) @binding(0) var<uniform> level: Level;
+@group(1) @binding(1) var<storage, read> strokes: array<Stroke>;
 
 struct Level {
     /// From NDC of the screen to those of the level with its margin: xy times, zw plus.
@@ -10,18 +10,33 @@ struct Level {
 
 struct Spot {
     @builtin(position) position: vec4<f32>,
+    /// x: along the stroke, from 0 where it begins to 1 where all of its blur there has been passed; y: across it in standard deviations.
     @location(0) place: vec2<f32>,
     @location(1) @interpolate(flat) light: vec4<f32>,
+    @location(2) @interpolate(flat) length: f32,
 }
 
-/// `place` and `light` as in `Corner` of streaks.wgsl.
 @vertex
-fn vertex(@builtin(vertex_index) i: u32, @location(0) place: vec3<f32>, @location(1) light: vec4<f32>) -> Spot {
-    return Spot(vec4<f32>(place.xy * level.place.xy + level.place.zw, place.z, 1.0), corner_of(i % 3u), light);
+fn vertex(@builtin(vertex_index) i: u32) -> Spot {
+    let stroke = strokes[i / CORNERS];
+    let k = i % CORNERS;
+    let corner = vec2<f32>(select(-1.0, 1.0, (k & 1u) == 1u), select(-1.0, 1.0, (k >= 2u) & (k != 3u)));
+    let screen = vec2<f32>(stroke.middle[0], stroke.middle[1]) + vec2<f32>(stroke.along[0], stroke.along[1]) * corner.x
+        + vec2<f32>(stroke.across[0], stroke.across[1]) * corner.y;
+    let place = vec2<f32>(0.5 * (corner.x + 1.0) * (1.0 + stroke.length), SIGMAS * corner.y);
+    let light = vec4<f32>(unpack2x16float(stroke.light[0]), unpack2x16float(stroke.light[1]));
+    return Spot(vec4<f32>(screen * level.place.xy + level.place.zw, stroke.depth, 1.0), place, light, stroke.length);
+}
+
+/// An evenly bright line from 0 on, blurred over one: smoothstep is the blur by a parabola.
+fn end_of(x: f32) -> f32 {
+    let s = saturate(x);
+    return s * s * (3.0 - 2.0 * s);
 }
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    // exp(−r²/2): a driver reads a table no faster.
-    return in.light * exp2(-0.7213475 * dot(in.place, in.place));
+    let along = end_of(in.place.x) - end_of(in.place.x - in.length);
+    // exp(−y²/2): a driver reads a table no faster.
+    return in.light * (along * exp2(-0.7213475 * in.place.y * in.place.y));
 }

@@ -19,9 +19,9 @@ const AURORA_BOTH_POLES: u32 = 2u;
 
 /// A part of a curtain between two nodes.
 struct Segment {
-    /// x: its first streak, y: its first node, z: its streaks (a multiple of 4), w: nodes from there to its last.
+    /// x: its first streak, y: its first node, z: its streaks (a multiple of TURN for each pole), w: nodes from there to its last.
     range: vec4<u32>,
-    /// x: collisions of 35 eV in it (kR km²), y: width in km, zw unused.
+    /// x: collisions of 35 eV in it (kR km²), y: width and z: length in km, w unused.
     light: vec4<f32>,
 }
 
@@ -39,20 +39,10 @@ struct Reference {
 struct ChordEnd {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
     apparent: vec4<f32>,
-    /// Change of it for a km in two directions across the field; w: energy flux over its mean when the light seen there was made, with the rays
-    /// (first) and without (second).
-    east: vec4<f32>,
-    north: vec4<f32>,
-}
-
-/// One of the three corners of a splat, as a vertex. Drawn without instances: a driver spends more on an instance than on its three vertices.
-struct Corner {
-    /// NDC of the screen, and depth.
-    x: f32,
-    y: f32,
-    depth: f32,
-    /// kR in the splat's middle: the first two lines and the others, in halves.
-    light: array<u32, 2>,
+    /// Change of it for a km along the curtain; w: energy flux over its mean, with the rays, when the green or red light seen there was made.
+    along: vec4<f32>,
+    /// Change of it for a km across the curtain and the field; w: the flux for blue and crimson light, which does not wait.
+    across: vec4<f32>,
 }
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
@@ -60,11 +50,10 @@ struct Corner {
 /// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean.
 @group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
 @group(1) @binding(3) var<storage, read> segments: array<Segment>;
-/// Photons by row (ROWS × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
+/// Photons (ROWS × (PARTS + 1) × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
-/// Three of each splat.
-@group(1) @binding(6) var<storage, read_write> corners: array<Corner>;
+@group(1) @binding(6) var<storage, read_write> strokes: array<Stroke>;
 /// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then splats in each pair of levels.
 @group(1) @binding(7) var<storage, read_write> splat_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
@@ -78,16 +67,16 @@ const ROWS: u32 = 32u;
 const LEAST_FLUX: f32 = 0.05;
 const MOST_FLUX: f32 = 4.0;
 const PARTS: u32 = 32u;
-const KINDS: u32 = 3u;
+const KINDS: u32 = 2u;
 const DELAYS: u32 = 64u;
-const FIRST_DELAY: u32 = 128u;
-const FIRST_HEIGHT: u32 = 256u;
+const FIRST_DELAY: u32 = 4224u;
+const FIRST_HEIGHT: u32 = 4352u;
 const PLANET_RADIUS: f32 = 6371.0;
 const REFERENCE_HEIGHT: f32 = 110.0;
 
+/// Kinds of streaks: green with blue and crimson, and red.
 const GREEN: u32 = 0u;
-const PROMPT: u32 = 1u;
-const RED: u32 = 2u;
+const RED: u32 = 1u;
 
 /// Greatest and least height of a kind, km.
 fn height_range(kind: u32) -> vec2<f32> {
@@ -118,7 +107,7 @@ fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
     return min(u32((1.0 - select(left, sqrt(left), kind == RED)) * f32(count)), count - 1u);
 }
 
-/// Ends of chords at which a part of a curtain is projected: first those of green and prompt light, then those of red.
+/// Ends of chords at which a part of a curtain is projected: first those of green, then those of red.
 fn reference_room() -> u32 {
     return 3u * aurora.counts.y + 2u;
 }
@@ -131,9 +120,12 @@ fn first_reference(segment: u32, south: bool, placement: u32) -> u32 {
 
 struct Streak {
     segment: u32,
-    /// Of the segment from its first node, and across it in [−½, ½].
+    /// Of the segment from its first node.
     along: f32,
-    across: f32,
+    /// How far the next of its kind is, of the segment.
+    apart: f32,
+    /// Square of the standard deviation of its light along the curtain and across it, km².
+    spread: vec2<f32>,
     kind: u32,
     /// Its part of the light of its kind in the segment.
     share: f32,
@@ -142,10 +134,13 @@ struct Streak {
     wait: f32,
 }
 
-/// Steps of an even sequence in two dimensions: one over the plastic number, and its square.
-const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
+/// Distance between two streaks over the least standard deviation at which a row of Gaussians shows no ripple (2 exp(−2π²/1.6²) is 1/1000).
+const SMOOTH: f32 = 1.6;
+/// Streaks of which one is red; as in src/render/aurora/show.rs.
+const TURN: u32 = 5u;
+const GOLDEN: f32 = 0.618034;
 
-/// A streak by its number. Those of a kind lie evenly along their segment, and evenly across it and in their waits over a few of them.
+/// A streak by its number. Those of a kind lie evenly along their segment, and evenly in their waits over a few of them.
 fn streak_of(index: u32) -> Streak {
     var low = 0u;
     var high = aurora.history.y - 1u;
@@ -161,30 +156,29 @@ fn streak_of(index: u32) -> Streak {
     let number = index - range.x;
     var streak: Streak;
     streak.segment = low;
-    // Of four, two are green, one prompt and one red.
-    let turn = number & 3u;
-    streak.kind = select(select(PROMPT, RED, turn == 3u), GREEN, turn < 2u);
+    // Of five, one is red, which is faint and blurred by its wait.
+    let turn = number % TURN;
+    let many = TURN - 1u;
+    streak.kind = select(GREEN, RED, turn == many);
     let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
-    streak.south = both & (((number >> 2u) & 1u) == 1u);
+    streak.south = both & (((number / TURN) & 1u) == 1u);
     // Which of how many of its kind and pole.
-    let fours = number >> select(2u, 3u, both);
-    let many = select(1u, 2u, turn < 2u);
-    let own = many * fours + select(0u, turn, turn < 2u);
-    let all = many * max(range.z >> select(2u, 3u, both), 1u);
+    let turns = TURN * select(1u, 2u, both);
+    let own = select(many * (number / turns) + turn, number / turns, turn == many);
+    let all = select(many, 1u, turn == many) * max(range.z / turns, 1u);
     streak.share = select(1.0, 0.5, both) / f32(all);
-    streak.along = (f32(own) + 0.5) / f32(all);
-    // Segments and kinds go on with the sequence at places of their own.
-    let even = fract(EVEN * f32(own) + EVEN.yx * f32(low & 1023u) + 0.37 * f32(turn));
-    streak.across = even.x - 0.5;
-    streak.wait = even.y;
+    streak.apart = 1.0 / f32(all);
+    streak.along = (f32(own) + 0.5) * streak.apart;
+    // Spread over its part of the curtain.
+    let point = aurora.splats.x * aurora.splats.x;
+    let gap = segments[low].light.z * streak.apart / SMOOTH;
+    streak.spread = vec2<f32>(max(point, gap * gap), point + segments[low].light.y * segments[low].light.y / 12.0);
+    streak.wait = fract(GOLDEN * f32(own) + unit(hash(2u * low + streak.kind)));
     return streak;
 }
 
-/// Mean time in s that light of a kind waits at a height.
+/// Mean time in s that green or red light waits at a height.
 fn mean_wait(kind: u32, height: f32) -> f32 {
-    if kind == PROMPT {
-        return 0.0;
-    }
     let x = clamp((height - 80.0) / 420.0, 0.0, 1.0) * f32(DELAYS - 1u);
     let k = min(u32(x), DELAYS - 2u);
     let column = FIRST_DELAY + select(0u, 1u, kind == RED);
@@ -200,6 +194,20 @@ fn waits(streak: Streak, height: f32) -> f32 {
 fn fall_at(flux: f32) -> f32 {
     let first = sqrt(LEAST_FLUX);
     return (sqrt(clamp(flux, LEAST_FLUX, MOST_FLUX)) - first) / (sqrt(MOST_FLUX) - first) * f32(ROWS - 1u);
+}
+
+/// Photons of each line that a fall has made when `part` (0 to 1) of the light of a kind has been passed.
+fn photons_of(row: f32, kind: u32, part: f32) -> vec4<f32> {
+    let y = clamp(part, 0.0, 1.0) * f32(PARTS);
+    let j = min(u32(y), PARTS - 1u);
+    let i = min(u32(row), ROWS - 2u);
+    var made: vec4<f32>;
+    for (var k = 0u; k < 4u; k++) {
+        let at = 4u * (i * (PARTS + 1u) + j) + k;
+        let next = at + 4u * (PARTS + 1u);
+        made[k] = mix(mix(falls[at], falls[at + 4u], y - f32(j)), mix(falls[next], falls[next + 4u], y - f32(j)), row - f32(i));
+    }
+    return select(vec4<f32>(made.xy, 0.0, made.w), vec4<f32>(0.0, 0.0, made.z, 0.0), kind == RED);
 }
 
 /// Height below which `part` (0 to 1) of the light of a kind has been passed.

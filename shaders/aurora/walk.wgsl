@@ -45,8 +45,8 @@ fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
 const BEYOND: f32 = 30.0;
 
 /// Whether nothing of a streak can be seen: all its ends are beyond one edge of the screen, or behind what is drawn there.
-fn unseen(first: u32, count: u32) -> bool {
-    let reach_km = 3.0 * aurora.splats.x + BEYOND;
+fn unseen(spread: vec2<f32>, first: u32, count: u32) -> bool {
+    let reach_km = 3.0 * sqrt(max(spread.x, spread.y)) + BEYOND;
     // Beyond the right, the upper, the left and the lower edge.
     var beyond = vec4<bool>(true);
     var near = false;
@@ -54,7 +54,7 @@ fn unseen(first: u32, count: u32) -> bool {
     var nearest = 0.0;
     for (var k = 0u; k <= count; k++) {
         let end = chords[first + k];
-        let reach = reach_km * max(length(end.east.xyz), length(end.north.xyz));
+        let reach = reach_km * max(length(end.along.xyz), length(end.across.xyz));
         let clip = clip_position(end.apparent.xyz);
         // Distances from the four planes through the camera and the screen's edges, at least.
         let over = vec4<f32>(clip.xy, -clip.xy) - clip.w - reach * (frame.projection.xyxy + 1.0);
@@ -75,13 +75,18 @@ fn unseen(first: u32, count: u32) -> bool {
     return nearest < depths_in(around).x;
 }
 
-/// An even stretch of the fall has a twelfth of its length squared as variance; a little more closes the gaps between stretches.
-const STRETCH: f32 = 0.12;
-/// Parts of a streak are one splat as long as they reach over no more than this many standard deviations.
+/// Parts of a streak are one stroke as long as they reach over no more than this many standard deviations.
 const MERGED: f32 = 2.0;
+/// Half the width of a parabola over its standard deviation, √5: the blur of a stroke's ends.
+const END: f32 = 2.236068;
+/// A stroke's length over the half width of that blur, at least: a shorter one looks no different.
+const SHORTEST: f32 = 0.25;
+/// Nearer ends of a stroke are cut off, as a part of the farther one's distance: one may be behind the camera.
+const NEAREST: f32 = 0.1;
 
 /// Km along the fall that are as long on the screen as a splat is wide there (one standard deviation), about the upper end of the chord at a height.
-fn width_along(kind: u32, height: f32, first: u32, count: u32, focal: vec2<f32>) -> f32 {
+fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<f32>) -> f32 {
+    let kind = streak.kind;
     let chord = chord_at(kind, height, count);
     let a = chords[first + chord];
     let b = chords[first + chord + 1u];
@@ -89,10 +94,25 @@ fn width_along(kind: u32, height: f32, first: u32, count: u32, focal: vec2<f32>)
     // Whichever end is before the camera.
     let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.projection.z);
     let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
-    let east = screen_step(c, a.east.xyz, focal);
-    let north = screen_step(c, a.north.xyz, focal);
-    let wide = min(dot(east, east), dot(north, north)) * aurora.splats.x * aurora.splats.x + PIXEL_VARIANCE;
+    let along = screen_step(c, a.along.xyz, focal);
+    let across = screen_step(c, a.across.xyz, focal);
+    let wide = min(dot(along, along) * streak.spread.x, dot(across, across) * streak.spread.y) + PIXEL_VARIANCE;
     return sqrt(wide) / max(fallen, 1e-6);
+}
+
+/// The part of a streak's light that is above the beginning of its part `k` of `count`: less in the first and the last, where it is thin and they are long.
+fn light_above(k: u32, count: u32) -> f32 {
+    return smoothstep(0.0, f32(count), f32(k));
+}
+
+/// Where a streak is seen at a height: apparent place, homogeneous; w is 0 where it is not.
+fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
+    let chord = chord_at(kind, height, count);
+    let above = chord_height(kind, chord, count);
+    let s = clamp((above - height) / (above - chord_height(kind, chord + 1u, count)), 0.0, 1.0);
+    let a = chords[first + chord].apparent;
+    let b = chords[first + chord + 1u].apparent;
+    return vec4<f32>(mix(a.xyz, b.xyz, s), a.w * b.w);
 }
 
 @compute @workgroup_size(64)
@@ -104,33 +124,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let streak = streak_of(index);
     let chord_count = chords_of(streak.kind);
     let first = (id.y * aurora.counts.x + index) * chord_room();
-    if unseen(first, chord_count) {
+    if unseen(streak.spread, first, chord_count) {
         return;
     }
     let segment = segments[streak.segment];
     // How hard its electrons are, by the flux when those of the middle came down.
-    let fall = fall_at(chords[first + chord_count / 2u].north.w);
-    // Photons of its lines per 35 eV, and from them the light of this streak, in kR km².
-    let row = min(u32(fall), ROWS - 2u);
-    let part = fall - f32(row);
-    var photons: vec4<f32>;
-    for (var line = 0u; line < 4u; line++) {
-        photons[line] = mix(falls[4u * row + line], falls[4u * row + 4u + line], part);
-    }
-    var lines = vec4<f32>(0.0);
-    if streak.kind == GREEN {
-        lines.x = photons.x;
-    } else if streak.kind == PROMPT {
-        lines.y = photons.y;
-        lines.w = photons.w;
-    } else {
-        lines.z = photons.z;
-    }
-    let count = min(aurora.counts.z, arrayLength(&corners));
-    let light = max(lines.x + lines.y + lines.z + lines.w, 1e-12);
-    let power = light * streak.share * segment.light.x / f32(count);
-    lines /= light;
-
+    let fall = fall_at(chords[first + chord_count / 2u].along.w);
+    let count = min(aurora.counts.z, arrayLength(&strokes));
+    // Collisions of 35 eV, in kR km².
+    let collisions = streak.share * segment.light.x;
     let focal = frame.projection.xy * 0.5 * frame.size.xy;
     let range = height_range(streak.kind);
     let top = chords[first].apparent;
@@ -140,87 +142,92 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     var upper = height_of(fall, streak.kind, 0.0);
-    // Equal parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one splat.
+    var made = photons_of(fall, streak.kind, 0.0);
+    var begin = apparent_at(streak.kind, upper, first, chord_count);
+    // Parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one stroke.
     var k = 0u;
     while k < count {
         let start = upper;
         // A width holds for its own chord.
         let end = chord_height(streak.kind, chord_at(streak.kind, start, chord_count) + 1u, chord_count);
-        let most_km = min(MERGED * width_along(streak.kind, start, first, chord_count, focal), start - end);
-        // Parts, their heights from here and the squares of those.
-        var sums = vec3<f32>(0.0);
+        let most_km = min(MERGED * width_along(streak, start, first, chord_count, focal), start - end);
         loop {
-            let lower = height_of(fall, streak.kind, f32(k + 1u) / f32(count));
-            let middle = 0.5 * (upper + lower) - start;
-            let extent = upper - lower;
-            sums += vec3<f32>(1.0, middle, middle * middle + STRETCH * extent * extent);
-            upper = lower;
             k++;
-            if !(start - height_of(fall, streak.kind, f32(k + 1u) / f32(count)) < most_km) | (k >= count) {
+            upper = height_of(fall, streak.kind, light_above(k, count));
+            if !(start - height_of(fall, streak.kind, light_above(k + 1u, count)) < most_km) | (k >= count) {
                 break;
             }
         }
-        let parts = sums.x;
-        let height = start + sums.y / parts;
-        let stretch = max(sums.z / parts - (sums.y / parts) * (sums.y / parts), 0.0);
+        var high = begin;
+        var low = apparent_at(streak.kind, upper, first, chord_count);
+        begin = low;
+        let made_before = made;
+        made = photons_of(fall, streak.kind, light_above(k, count));
+        let height = 0.5 * (start + upper);
         let chord = chord_at(streak.kind, height, chord_count);
         let above = chord_height(streak.kind, chord, chord_count);
         let per_chord = above - chord_height(streak.kind, chord + 1u, chord_count);
         let a = chords[first + chord];
         let b = chords[first + chord + 1u];
-        if a.apparent.w * b.apparent.w == 0.0 {
+        if (high.w * low.w == 0.0) | (a.apparent.w * b.apparent.w == 0.0) {
             continue;
         }
-        let s = clamp((above - height) / per_chord, 0.0, 1.0);
+        if is_linear {
+            // Linear on the screen between top and foot, as in paper 3.
+            let t = (range.x - vec2<f32>(start, upper)) / (range.x - range.y);
+            high = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x) * -high.z, high.zw);
+            low = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.y) * -low.z, low.zw);
+        }
+        // What is behind the camera, or much nearer than the rest, is cut off.
+        let least = max(frame.projection.z, NEAREST * max(-high.z, -low.z));
+        if max(-high.z, -low.z) <= least {
+            continue;
+        }
+        let whole = low.z - high.z;
+        if -high.z < least {
+            high = mix(high, low, (-least - high.z) / whole);
+        }
+        if -low.z < least {
+            low = mix(high, low, (-least - high.z) / (low.z - high.z));
+        }
         // Homogeneous coordinates, linear between the ends.
-        var c = mix(a.apparent.xyz, b.apparent.xyz, s);
-        let down = (b.apparent.xyz - a.apparent.xyz) / per_chord;
-        if -c.z < frame.projection.z {
-            continue;
+        let c = 0.5 * (high.xyz + low.xyz);
+        let s = clamp((above - height) / per_chord, 0.0, 1.0);
+        let along = screen_step(c, mix(a.along.xyz, b.along.xyz, s), focal);
+        let across = screen_step(c, mix(a.across.xyz, b.across.xyz, s), focal);
+        let fallen = screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal);
+        // The blur of a point of it, seen through the derivative of the projection, J: J diag(σ²) Jᵀ.
+        let variance = vec3<f32>(streak.spread, aurora.splats.x * aurora.splats.x);
+        let x = vec3<f32>(along.x, across.x, fallen.x);
+        let y = vec3<f32>(along.y, across.y, fallen.y);
+        let blur = vec3<f32>(dot(variance, x * x), dot(variance, x * y), dot(variance, y * y)) + vec3<f32>(PIXEL_VARIANCE, 0.0, PIXEL_VARIANCE);
+        // The same along the stroke on the screen and to the left of it.
+        let ends = focal * (low.xy / -low.z - high.xy / -high.z);
+        let seen = length(ends);
+        var u = vec2<f32>(1.0, 0.0);
+        if seen > 1e-3 {
+            u = ends / seen;
         }
-        let east = screen_step(c, mix(a.east.xyz, b.east.xyz, s), focal);
-        let north = screen_step(c, mix(a.north.xyz, b.north.xyz, s), focal);
-        // Linear on the screen between top and foot, if paper 3's way is asked for.
-        let t = (range.x - height) / (range.x - range.y);
-        let p = mix(top.xy / -top.z, foot.xy / -foot.z, t);
-        let fallen = select(screen_step(c, down, focal), focal * (foot.xy / -foot.z - top.xy / -top.z) / (range.x - range.y), is_linear);
-        c = select(c, vec3<f32>(p * -c.z, c.z), is_linear);
-        // The blob, seen through the derivative of the projection: σ² J Jᵀ.
-        let j = vec3<f32>(dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.x, north.x, fallen.x)),
-            dot(vec3<f32>(east.x, north.x, fallen.x), vec3<f32>(east.y, north.y, fallen.y)),
-            dot(vec3<f32>(east.y, north.y, fallen.y), vec3<f32>(east.y, north.y, fallen.y)));
-        let blob = aurora.splats.x * aurora.splats.x;
-        let xx = blob * j.x + stretch * fallen.x * fallen.x + PIXEL_VARIANCE;
-        let xy = blob * j.y + stretch * fallen.x * fallen.y;
-        let yy = blob * j.z + stretch * fallen.y * fallen.y + PIXEL_VARIANCE;
-        let spread = sqrt(max(xx * yy - xy * xy, 1e-12));
-        // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km².
-        let area = sqrt(max(j.x * j.z - j.y * j.y, 0.0));
-        let peak = min(parts * power * mix(a.east.w, b.east.w, s) * area / (6.2831853 * spread), BRIGHTEST);
-        if !(peak > FAINTEST) {
-            continue;
-        }
-        // Half axes: eigenvectors of the covariance.
-        let mean = 0.5 * (xx + yy);
-        let gap = sqrt(max(0.25 * (xx - yy) * (xx - yy) + xy * xy, 0.0));
-        let major = min(sqrt(mean + gap), MOST_SIGMA);
-        let minor = min(sqrt(max(mean - gap, PIXEL_VARIANCE)), MOST_SIGMA);
-        var direction = vec2<f32>(1.0, 0.0);
-        if gap > 1e-6 * mean {
-            // Of the two ways to write the eigenvector, the longer is exact.
-            let u = vec2<f32>(mean + gap - yy, xy);
-            let v = vec2<f32>(xy, mean + gap - xx);
-            direction = normalize(select(v, u, dot(u, u) > dot(v, v)));
-        }
-        let clip = clip_position(c);
-        let place = clip.xyz / clip.w;
-        let pixel = (vec2<f32>(0.5, -0.5) * place.xy + 0.5) * frame.size.xy;
-        let axes = vec4<f32>(direction * major, vec2<f32>(-direction.y, direction.x) * minor);
+        let v = vec2<f32>(-u.y, u.x);
+        let uu = blur.x * u.x * u.x + 2.0 * blur.y * u.x * u.y + blur.z * u.y * u.y;
+        let vv = blur.x * v.x * v.x + 2.0 * blur.y * v.x * v.y + blur.z * v.y * v.y;
+        let uv = blur.x * u.x * v.x + blur.y * (u.x * v.y + u.y * v.x) + blur.z * u.y * v.y;
+        // How narrow all of it is at its narrowest: the lesser eigenvalue, with the variance of the line.
+        let total = uu + seen * seen / 12.0;
+        let gap = sqrt(0.25 * (total - vv) * (total - vv) + uv * uv);
+        let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
         // The level at which it is three quarters to one and a half pixels narrow.
         let coarsest = max(u32(aurora.splats.y), 1u) - 1u;
         var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
-        // All but 1 % of the light is within three standard deviations, and two pixels of its level further where that is enlarged.
-        let reach = 3.0 * sqrt(axes.xy * axes.xy + axes.zw * axes.zw) + select(1.0, 2.0 * f32(1u << level), level > 0u);
+        let clip = clip_position(c);
+        let high_clip = clip_position(high.xyz);
+        let low_clip = clip_position(low.xyz);
+        let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
+        let depth = clip.z / clip.w;
+        let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
+        // How far it goes: the line and three standard deviations, and two pixels of its level further where that is enlarged.
+        let reach = 0.5 * abs(ends) + SIGMAS * sqrt(min(blur.xz, vec2<f32>(MOST_SIGMA * MOST_SIGMA)))
+            + select(1.0, 2.0 * f32(1u << level), level > 0u);
         let around = vec4<f32>(pixel - reach, pixel + reach);
         if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
             continue;
@@ -228,28 +235,34 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if level > 0u {
             let range = depths_in(around);
             // Behind all that is there (depth is reversed); and what an outline crosses is tested pixel by pixel.
-            if place.z < range.x {
+            if depth < range.x {
                 continue;
             }
-            level = select(0u, level, place.z >= range.y);
+            level = select(0u, level, depth >= range.y);
+        }
+        // Enlarging widens it, so it is added narrower by that.
+        let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
+        let narrower = max(vec2<f32>(uu, vv) - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
+        let sigma_v = min(sqrt(narrower.y), MOST_SIGMA);
+        let sigma_u = min(sqrt(max(narrower.x - uv * uv / narrower.y, 0.1 * narrower.x)), MOST_SIGMA);
+        let blurred = END * sigma_u;
+        let stretch = max(seen, SHORTEST * blurred);
+        // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km². (2.5066 is √2π.)
+        let area = length(cross(x, y));
+        let waited = mix(a.along.w, b.along.w, s);
+        let prompt = mix(a.across.w, b.across.w, s);
+        let photons = (made - made_before) * collisions * vec4<f32>(waited, prompt, waited, prompt);
+        let light = min(photons * (area / (FILLED * stretch * 2.5066283 * sigma_v)), vec4<f32>(BRIGHTEST));
+        if !(light.x + light.y + light.z + light.w > FAINTEST) {
+            continue;
         }
         let room = room_of(id.y, &level);
         if room == 0xffffffffu {
             return;
         }
-        // Enlarging widens it, so it is added narrower by that.
-        let size = 1.0 / f32(1u << level);
-        let widening = 0.25 * (1.0 - size * size);
-        let wide = size * vec2<f32>(major, minor);
-        let narrower = sqrt(wide * wide - widening);
-        let shrink = narrower / wide;
-        let kilorayleighs = lines * (peak / (shrink.x * shrink.y));
-        let halves = array<u32, 2>(pack2x16float(kilorayleighs.xy), pack2x16float(kilorayleighs.zw));
-        let ndc = axes * shrink.xxyy * 2.0 / frame.size.xyxy;
-        for (var n = 0u; n < 3u; n++) {
-            let corner = corner_of(n);
-            let at = place.xy + ndc.xy * corner.x + ndc.zw * corner.y;
-            corners[room + n] = Corner(at.x, at.y, place.z, halves);
-        }
+        let half = u * (0.5 * stretch + blurred) * 2.0 / frame.size.xy;
+        let side = (v + u * (uv / narrower.y)) * SIGMAS * sigma_v * 2.0 / frame.size.xy;
+        let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
+        strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, stretch / (2.0 * blurred), halves);
     }
 }

@@ -10,7 +10,7 @@ use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
 use crate::render::layout::{
-    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster, raster_of,
+    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster,
 };
 use crate::render::method::Method;
 use crate::render::shaders::Pass;
@@ -19,17 +19,10 @@ use crate::render::types::Placement;
 
 /// Image orders that may show it.
 const ORDERS: usize = 3;
-/// Bytes of `ChordEnd`, `Reference`, and of a splat's three `Corner`s in WGSL.
+/// Bytes of `ChordEnd`, `Reference` and `Stroke` in WGSL.
 const CHORD_END_BYTES: u64 = 48;
 const REFERENCE_BYTES: u64 = 64;
-const SPLAT_BYTES: u64 = 3 * CORNER_BYTES;
-const CORNER_BYTES: u64 = 20;
-/// `Corner` in WGSL.
-const CORNER: wgpu::VertexBufferLayout = wgpu::VertexBufferLayout {
-    array_stride: CORNER_BYTES,
-    step_mode: wgpu::VertexStepMode::Vertex,
-    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float16x4],
-};
+const STROKE_BYTES: u64 = 40;
 
 /// Ends at which a part of a curtain is projected, as in streaks.wgsl.
 fn reference_room(chords: u32) -> u32 {
@@ -62,7 +55,7 @@ pub struct Aurora {
     segments: Growing,
     falls: Growing,
     chords: Growing,
-    splats: Growing,
+    strokes: Growing,
     references: Growing,
     draws: wgpu::Buffer,
     colours: [wgpu::Buffer; ORDERS],
@@ -97,7 +90,7 @@ impl Aurora {
         let device = &gpu.device;
         let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
-        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform]);
+        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform, Read]);
         let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
         let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
         let one = wgpu::BlendComponent {
@@ -116,7 +109,7 @@ impl Aurora {
         let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
         let splat = |depth| {
             let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
-            raster_of(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)], &[CORNER])
+            raster(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)])
         };
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
@@ -132,7 +125,7 @@ impl Aurora {
             segments: Growing::new(device, "aurora segments", BufferUsages::STORAGE),
             falls: Growing::new(device, "aurora falls", BufferUsages::STORAGE),
             chords: Growing::new(device, "aurora chords", BufferUsages::STORAGE),
-            splats: Growing::new(device, "aurora splats", BufferUsages::STORAGE | BufferUsages::VERTEX),
+            strokes: Growing::new(device, "aurora strokes", BufferUsages::STORAGE),
             references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
             draws: buffer(device, "aurora draws", DRAWS_BYTES * ORDERS as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
             colours: std::array::from_fn(|_| uniform("aurora colours", 64)),
@@ -165,7 +158,7 @@ impl Aurora {
         let mut settings = frame.settings;
         let [streaks, chords, ..] = settings.counts;
         // All of them must fit into a buffer, with the quarter more that it grows by.
-        let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (SPLAT_BYTES * orders as u64 * 2);
+        let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (STROKE_BYTES * orders as u64 * 2);
         // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
         settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
         let in_use = (settings.splats[1] as u32).clamp(1, PYRAMID);
@@ -184,7 +177,7 @@ impl Aurora {
         self.uploaded = Some((frame.nodes.clone(), frame.falls.clone()));
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
-        replaced |= self.splats.reserve(device, SPLAT_BYTES * rooms.all() * orders as u64);
+        replaced |= self.strokes.reserve(device, STROKE_BYTES * rooms.all() * orders as u64);
         let poles = if settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
         self.projected = settings.history[1] * poles * reference_room(chords);
         replaced |= self.references.reserve(device, REFERENCE_BYTES * u64::from(self.projected) * orders as u64);
@@ -215,13 +208,13 @@ impl Aurora {
             &self.segments.buffer,
             &self.falls.buffer,
             &self.chords.buffer,
-            &self.splats.buffer,
+            &self.strokes.buffer,
             &self.draws,
             &self.references.buffer,
         ];
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
-        let splat = levels.places.iter().map(|place| bind(device, "aurora splat", &self.splat_layout, &[place.as_entire_binding()]));
+        let splat = levels.places.iter().map(|place| bind(device, "aurora splat", &self.splat_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding())));
         // A level, or black where it is not in use.
         let light = |level: u32| {
             let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);
@@ -298,7 +291,6 @@ impl Aurora {
         }
         pass.set_pipeline(&self.splat[usize::from(level > 0)]);
         pass.set_bind_group(1, &bound.splat[level as usize], &[]);
-        pass.set_vertex_buffer(0, self.splats.buffer.slice(..));
         pass.draw_indirect(&self.draws, DRAWS_BYTES * u64::from(image) + 16 * u64::from(level));
     }
 

@@ -6,6 +6,9 @@ use super::levels::PYRAMID;
 /// Bytes of the numbers of one image: draw arguments of each level, then splats in each pair of levels.
 pub const DRAWS_BYTES: u64 = 16 * (PYRAMID as u64 + 1);
 
+/// Vertices of a stroke; as in stroke.wgsl.
+pub const CORNERS: u32 = 6;
+
 /// The rooms of all images of a frame; as in shaders/aurora/rooms.wgsl.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rooms {
@@ -31,7 +34,7 @@ impl Rooms {
         let image = |image: u32| {
             let level = move |level: u32| {
                 let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
-                [0, 1, 3 * first as u32, 0]
+                [0, 1, CORNERS * first as u32, 0]
             };
             (0..PYRAMID).map(level).chain([[0; 4]])
         };

@@ -39,8 +39,10 @@ const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
 /// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
-const PER_PIXEL: f64 = 10.0;
+const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
+/// Streaks of which one is red, and the others of all other lines; as in streaks.wgsl.
+const TURN: u32 = 5;
 /// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always twelve to a standard
 /// deviation of the curtain's length, so that what is filled is bounded by the picture's size.
 const WIDE: f64 = 1.2;
@@ -313,9 +315,8 @@ impl Show {
         for window in motion.starts().windows(2) {
             let last = window[1].saturating_sub(1);
             for (k, weight) in weights.iter_mut().enumerate().take(last).skip(window[0]) {
-                let place = |k: usize| DVec2::new(f64::from(row[k][0]), f64::from(row[k][1]));
-                let here = centre + attitude * (on_field_line(place(k), REFERENCE_HEIGHT) * scale);
-                let length = place(k).distance(place(k + 1)) * scale;
+                let here = centre + attitude * (on_field_line(node_place(row, k), REFERENCE_HEIGHT) * scale);
+                let length = node_place(row, k).distance(node_place(row, k + 1)) * scale;
                 let per_pixel = (here - view.camera.position).length().max(100.0 * scale) * view.pixel;
                 let sigma = self.config.radius * scale / per_pixel;
                 *weight = length / per_pixel * WIDE / sigma.max(WIDE);
@@ -324,8 +325,8 @@ impl Show {
         }
         let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.25, 1.0);
         let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
-        // Four electrons make a part; on the small, several pairs of nodes make one.
-        let least = if both { 8 } else { 4 };
+        // On the small, several pairs of nodes make one.
+        let least = if both { 2 * TURN } else { TURN };
         let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
         let mut segments = Vec::new();
         let mut first = 0;
@@ -335,14 +336,16 @@ impl Show {
             let mut k = 0;
             while k < pairs {
                 let span = stride.min(pairs - k);
-                let weight: f64 = weights[window[0] + k..window[0] + k + span].iter().sum();
+                let first_node = window[0] + k;
+                let weight: f64 = weights[first_node..first_node + span].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
+                let kilometres: f64 = (first_node..first_node + span).map(|k| node_place(row, k).distance(node_place(row, k + 1))).sum();
                 // erg cm⁻² s⁻¹ → collisions of 35 eV in kR km²: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
                 let energy =
                     self.config.flux * self.planet.aurora_flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
                 segments.push(Segment {
-                    range: [first, (window[0] + k) as u32, count, span as u32],
-                    light: [energy as f32, curve.width as f32, 0.0, 0.0],
+                    range: [first, first_node as u32, count, span as u32],
+                    light: [energy as f32, curve.width as f32, kilometres as f32, 0.0],
                 });
                 first += count;
                 k += span;
@@ -359,6 +362,11 @@ impl Show {
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
         kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
+}
+
+/// Where a node of a row of the history is, km in the plane across the field.
+fn node_place(row: &[[f32; 4]], node: usize) -> DVec2 {
+    DVec2::new(f64::from(row[node][0]), f64::from(row[node][1]))
 }
 
 /// Falls of electrons with the energies that the keys ask for.

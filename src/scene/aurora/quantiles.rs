@@ -15,10 +15,12 @@ pub const ROWS: usize = 32;
 pub const PARTS: usize = 32;
 /// Energy flux over its mean of the first and the last row; beyond them falls stay the same.
 pub const FLUXES: [f64; 2] = [0.05, 4.0];
-/// Kinds of light, each with heights and waits of its own: green, prompt (blue and crimson), red.
-pub const KINDS: usize = 3;
+/// Kinds of light, each with heights of its own: green with blue and crimson, and red, which is made higher up and waits too long to be where they are.
+pub const KINDS: usize = 2;
+/// The lines of each kind: 1 for those that it has of green, blue, red, crimson.
+const LINES: [[f64; 4]; KINDS] = [[1.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]];
 /// For each kind the greatest and the least height at which it is drawn, km.
-pub const HEIGHTS: [[f64; 2]; KINDS] = [[340.0, 84.0], [340.0, 84.0], [480.0, 130.0]];
+pub const HEIGHTS: [[f64; 2]; KINDS] = [[340.0, 84.0], [480.0, 130.0]];
 /// Steps of height of the integrals, km.
 const STEP: f64 = 0.5;
 /// Reaches µR(E) whose falls are mixed, evenly spaced in their logarithm: how many, the first and the last, g cm⁻².
@@ -34,7 +36,7 @@ const THERMALS: f64 = 16.0;
 pub struct Quantiles {
     /// Heights (km) by row, kind and part: PARTS + 1 each, falling.
     pub heights: Vec<f32>,
-    /// Photons per 35 eV that come down, by row: green, blue, red, crimson.
+    /// Photons of green, blue, red and crimson above those heights, of red above those of its kind, per 35 eV that come down; by row and part.
     pub photons: Vec<[f32; 4]>,
     /// Mean wait (s) of green and red at 64 heights from 80 to 500 km; the molecules do not wait.
     pub delays: Vec<[f32; 2]>,
@@ -84,7 +86,7 @@ impl Quantiles {
         let reach = |k: usize| REACH_ENDS[0] * (REACH_ENDS[1] / REACH_ENDS[0]).powf(k as f64 / (REACHES - 1) as f64);
         let left: Vec<Vec<f64>> = (0..REACHES).map(|k| overheads.iter().map(|over| share_left(*over, reach(k))).collect()).collect();
         let mut heights = Vec::with_capacity(ROWS * KINDS * (PARTS + 1));
-        let mut photons = Vec::with_capacity(ROWS);
+        let mut photons = Vec::with_capacity(ROWS * (PARTS + 1));
         for row in 0..ROWS {
             let shares = shares(&Spectrum { accelerated: spectrum.accelerated * flux(row).sqrt(), ..*spectrum });
             let mut sums = vec![[0.0; 4]; levels.len() + 1];
@@ -94,10 +96,14 @@ impl Quantiles {
                 sums[k + 1] = std::array::from_fn(|line| sums[k][line] + (before - left) * light[line]);
                 before = left;
             }
-            photons.push(sums[levels.len()].map(|x| x as f32));
-            for (kind, range) in HEIGHTS.iter().enumerate() {
-                heights.extend(equal_parts(&sums, kind).map(|height| height.clamp(range[1], range[0]) as f32));
+            let mut made = [[0.0; 4]; PARTS + 1];
+            for (lines, range) in LINES.iter().zip(HEIGHTS) {
+                for (part, made) in equal_parts(&sums, *lines).zip(&mut made) {
+                    heights.push(part.height.clamp(range[1], range[0]) as f32);
+                    *made = std::array::from_fn(|line| made[line] + (lines[line] * part.made[line]) as f32);
+                }
             }
+            photons.extend(made);
         }
         let delays = (0..DELAYS)
             .map(|k| {
@@ -116,17 +122,28 @@ impl Quantiles {
     }
 }
 
-/// Heights (km) between which equal parts of a line's light are made, from sums of it at [`STEP`]s down from 500 km.
-fn equal_parts(sums: &[[f64; 4]], line: usize) -> impl Iterator<Item = f64> {
-    let total = sums.last().map_or(0.0, |sum| sum[line]);
+/// Where one equal part of the light ends and the next begins.
+struct Part {
+    /// km.
+    height: f64,
+    /// Photons above it, by line.
+    made: [f64; 4],
+}
+
+/// Equal parts of the light of some lines, from sums of each line at [`STEP`]s down from 500 km: their PARTS + 1 ends.
+fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4]) -> impl Iterator<Item = Part> {
+    let of = move |sum: &[f64; 4]| -> f64 { sum.iter().zip(&lines).map(|(sum, line)| sum * line).sum() };
+    let total = sums.last().map_or(0.0, of);
     let mut k = 0;
     (0..=PARTS).map(move |part| {
         let wanted = total * part as f64 / PARTS as f64;
-        while k + 2 < sums.len() && sums[k + 1][line] < wanted {
+        while k + 2 < sums.len() && of(&sums[k + 1]) < wanted {
             k += 1;
         }
-        let rise = sums[k + 1][line] - sums[k][line];
-        let inside = if rise > 0.0 { ((wanted - sums[k][line]) / rise).clamp(0.0, 1.0) } else { 0.0 };
-        500.0 + 0.5 * STEP - STEP * (k as f64 + inside)
+        let (above, below) = (&sums[k], &sums[k + 1]);
+        let rise = of(below) - of(above);
+        let inside = if rise > 0.0 { ((wanted - of(above)) / rise).clamp(0.0, 1.0) } else { 0.0 };
+        let made = std::array::from_fn(|line| above[line] + inside * (below[line] - above[line]));
+        Part { height: 500.0 + 0.5 * STEP - STEP * (k as f64 + inside), made }
     })
 }
