@@ -122,6 +122,9 @@ pub struct ChartFrameArgs {
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
+    /// Hold the aurora to its share of a frame, as in the window.
+    #[arg(long)]
+    rationed: bool,
     /// Frames of each scene.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     frames: u32,
@@ -212,7 +215,7 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at };
+    let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
     match bench::run(&request, &config, &mut io::stdout().lock()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),

@@ -132,15 +132,18 @@ struct Streak {
     south: bool,
     /// In [0, 1): which part of the light that is made at its place is seen so late.
     wait: f32,
+    /// In [−½, ½): by how much of a part those in which it is drawn begin elsewhere than its neighbours'.
+    phase: f32,
 }
 
 /// Distance between two streaks over the least standard deviation at which a row of Gaussians shows no ripple (2 exp(−2π²/1.6²) is 1/1000).
 const SMOOTH: f32 = 1.6;
 /// Streaks of which one is red; as in src/render/aurora/show.rs.
 const TURN: u32 = 5u;
-const GOLDEN: f32 = 0.618034;
+/// Steps of a sequence that is even in two dimensions: one over the plastic number, and its square.
+const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
 
-/// A streak by its number. Those of a kind lie evenly along their segment, and evenly in their waits over a few of them.
+/// A streak by its number. Those of a kind lie evenly along their segment, and evenly in their waits and phases over a few of them.
 fn streak_of(index: u32) -> Streak {
     var low = 0u;
     var high = aurora.history.y - 1u;
@@ -173,7 +176,9 @@ fn streak_of(index: u32) -> Streak {
     let point = aurora.splats.x * aurora.splats.x;
     let gap = segments[low].light.z * streak.apart / SMOOTH;
     streak.spread = vec2<f32>(max(point, gap * gap), point + segments[low].light.y * segments[low].light.y / 12.0);
-    streak.wait = fract(GOLDEN * f32(own) + unit(hash(2u * low + streak.kind)));
+    let even = fract(EVEN * f32(own) + unit(hash(2u * low + streak.kind)));
+    streak.wait = even.x;
+    streak.phase = even.y - 0.5;
     return streak;
 }
 

@@ -101,8 +101,9 @@ fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<
 }
 
 /// The part of a streak's light that is above the beginning of its part `k` of `count`: less in the first and the last, where it is thin and they are long.
-fn light_above(k: u32, count: u32) -> f32 {
-    return smoothstep(0.0, f32(count), f32(k));
+/// `phase` lets parts of neighbours begin at different heights, so that no layers are seen.
+fn light_above(k: u32, count: u32, phase: f32) -> f32 {
+    return smoothstep(0.0, f32(count), f32(k) + select(phase, 0.0, (k == 0u) | (k >= count)));
 }
 
 /// Where a streak is seen at a height: apparent place, homogeneous; w is 0 where it is not.
@@ -153,8 +154,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let most_km = min(MERGED * width_along(streak, start, first, chord_count, focal), start - end);
         loop {
             k++;
-            upper = height_of(fall, streak.kind, light_above(k, count));
-            if !(start - height_of(fall, streak.kind, light_above(k + 1u, count)) < most_km) | (k >= count) {
+            upper = height_of(fall, streak.kind, light_above(k, count, streak.phase));
+            if !(start - height_of(fall, streak.kind, light_above(k + 1u, count, streak.phase)) < most_km) | (k >= count) {
                 break;
             }
         }
@@ -162,7 +163,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         var low = apparent_at(streak.kind, upper, first, chord_count);
         begin = low;
         let made_before = made;
-        made = photons_of(fall, streak.kind, light_above(k, count));
+        made = photons_of(fall, streak.kind, light_above(k, count, streak.phase));
         let height = 0.5 * (start + upper);
         let chord = chord_at(streak.kind, height, chord_count);
         let above = chord_height(streak.kind, chord, chord_count);

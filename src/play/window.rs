@@ -162,7 +162,7 @@ const TITLE_TURN: f64 = 0.02;
 #[allow(clippy::too_many_arguments)]
 fn make_frame(
     session: Res<Session>,
-    staged: Option<Res<Staged>>,
+    (staged, renderer): (Option<Res<Staged>>, Option<Res<SharedRenderer>>),
     clock: Res<Clock>,
     fixed: Res<Time<Fixed>>,
     real: Res<Time<Real>>,
@@ -200,6 +200,9 @@ fn make_frame(
         on_ship(&state, seat.view, attitude, length(&session, me), field_of_view)
     };
 
+    if let Some(renderer) = &renderer {
+        staged.0.ration_aurora(renderer.lock().timing().latest());
+    }
     let mut settings = settings(config);
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };

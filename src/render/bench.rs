@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use crate::scene::{self, GameConfig};
 
+use super::aurora::ration::shares;
 use super::readback::PictureError;
 use super::renderer::Surroundings;
 use super::shot::{Moment, ShotError, surroundings};
@@ -25,7 +26,12 @@ pub struct Request {
     pub frames: u32,
     /// T of the frames, in r_s/c.
     pub at: f64,
+    /// Whether the aurora is held to its share of a frame, as in the window; it is given [`SETTLING`] frames more for that.
+    pub rationed: bool,
 }
+
+/// Frames in which a rationed aurora comes to its share: from all of its streaks to a sixteenth are a dozen steps.
+const SETTLING: u32 = 24;
 
 /// One scene's times, in milliseconds.
 #[derive(Clone, Debug)]
@@ -62,7 +68,9 @@ impl fmt::Display for FrameTimes {
             write!(f, "\n  {label:<12} {time:8.2} ms")?;
         }
         write!(f, "\n  {}", self.counters)?;
-        if let Some(splats) = &self.splats {
+        let passes: Vec<(&str, f32)> = self.passes.iter().map(|&(label, time)| (label, time as f32)).collect();
+        if let ([aurora, rest], Some(splats)) = (shares(&passes), &self.splats) {
+            write!(f, "\n  the aurora takes {:.2} of the passes' time", aurora / (aurora + rest))?;
             let levels: Vec<String> = splats.iter().map(u32::to_string).collect();
             write!(f, "\n  {} splats of the aurora (each level of half the size: {})", splats.iter().sum::<u32>(), levels.join(", "))?;
         }
@@ -105,7 +113,8 @@ pub fn frame_times(
     let mut passes: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut first = 0.0;
     let mut spent = None;
-    for number in 0..request.frames + 2 {
+    let settling = 2 + if request.rationed { SETTLING } else { 0 };
+    for number in 0..request.frames + settling {
         let begin = Instant::now();
         let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
         renderer.prepare(&frame);
@@ -115,10 +124,13 @@ pub fn frame_times(
         gpu.queue.submit([encoder.finish()]);
         gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let latest = renderer.timing().latest();
+        if request.rationed {
+            stage.ration_aurora(latest);
+        }
         if number == 0 {
             first = start.elapsed().as_secs_f64() * 1e3;
         }
-        if number < 2 {
+        if number < settling {
             spent = processor_time();
             continue;
         }

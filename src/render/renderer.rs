@@ -282,7 +282,7 @@ impl Renderer {
         }
         if self.aurora.images() > 0 {
             // It asks what is before and behind of it.
-            self.aurora.ranges(encoder, group);
+            self.aurora.ranges(encoder, &mut self.timing, group);
             let label = "aurora walk";
             let timestamp_writes = self.timing.compute(label);
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });

@@ -114,6 +114,13 @@ impl Stage {
         }
     }
 
+    /// Lets the aurora follow the times (ms) of all passes of an earlier frame: it takes no more than `aurora.share` of them.
+    pub fn ration_aurora(&self, passes: &[(&str, f32)]) {
+        if let Some(show) = self.show.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            show.ration(passes);
+        }
+    }
+
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
     pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Camera {
         let view = self.camera.viewpoint(time, ships);

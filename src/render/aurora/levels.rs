@@ -10,6 +10,7 @@ use crate::render::Gpu;
 use crate::render::layout::{Raster, Slot, bind, buffer, layout, module, raster};
 use crate::render::shaders::Pass;
 use crate::render::targets::target;
+use crate::render::timing::Timing;
 
 /// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl. In the coarsest the widest splat (160 pixels) is 2.5 pixels wide.
 pub const PYRAMID: u32 = 7;
@@ -145,7 +146,7 @@ impl Ranges {
     }
 
     /// Finds them, after all that has depth has been drawn. `frame` is the group of the frame.
-    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup) {
+    pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
         for (step, (view, group)) in self.steps.iter().enumerate() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("aurora ranges"),
@@ -155,6 +156,7 @@ impl Ranges {
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
                 })],
+                timestamp_writes: timing.render("aurora ranges"),
                 ..Default::default()
             });
             pass.set_pipeline(if step == 0 { &self.first } else { &self.next });

@@ -7,6 +7,7 @@
 mod levels;
 mod pass;
 pub mod race;
+pub mod ration;
 pub mod rooms;
 mod show;
 pub mod veil;

@@ -15,6 +15,7 @@ use crate::render::layout::{
 use crate::render::method::Method;
 use crate::render::shaders::Pass;
 use crate::render::targets::Targets;
+use crate::render::timing::Timing;
 use crate::render::types::Placement;
 
 /// Image orders that may show it.
@@ -269,8 +270,8 @@ impl Aurora {
     }
 
     /// The depths by tiles, which the walk asks for, once all that has depth has been drawn.
-    pub fn ranges(&self, encoder: &mut wgpu::CommandEncoder, frame: &wgpu::BindGroup) {
-        self.ranges.encode(encoder, frame);
+    pub fn ranges(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
+        self.ranges.encode(encoder, timing, frame);
     }
 
     /// The textures in which light is added up, the coarsest first, and whether each is tested by depth.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 
 use super::levels::PYRAMID;
+use super::ration::Ration;
 use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, veil};
 use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
@@ -96,6 +97,8 @@ pub struct Show {
     /// Whether it is watched as it goes: then no frame makes more than [`MOST_ROWS`], and what was missed out of sight is not made up for. Else each
     /// frame is what its time says, whatever came before.
     watched: bool,
+    /// The part of its streaks that it is drawn with.
+    ration: Ration,
     /// Of a watched aurora: how far its time (s) is ahead of what the game's clock says.
     offset: f64,
     /// The pace before it was changed, until the next frame.
@@ -142,6 +145,7 @@ impl Show {
             newest: 0.0,
             laid_out: None,
             watched: false,
+            ration: Ration::default(),
             offset: 0.0,
             old_pace: None,
         })
@@ -170,6 +174,11 @@ impl Show {
         }
         self.config = config.clone();
         true
+    }
+
+    /// Follows the times (ms) of all passes of an earlier frame: the aurora takes no more than `share` of them, with fewer and wider streaks if need be.
+    pub fn ration(&mut self, passes: &[(&str, f32)]) {
+        self.ration.follow(passes, self.config.share);
     }
 
     /// What the frame at T = `time` shows; None while the aurora is out of sight or too small to see, and then nothing is simulated. `back` is
@@ -324,7 +333,7 @@ impl Show {
             }
         }
         let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.25, 1.0);
-        let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks));
+        let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks)) * self.ration.part();
         // On the small, several pairs of nodes make one.
         let least = if both { 2 * TURN } else { TURN };
         let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
