@@ -6,19 +6,20 @@ use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, 
 use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
-use lensrunner::render::aurora::rooms::{DRAWS_BYTES, Rooms};
-use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, fall_table, planet_history, veil};
+use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, Rooms};
+use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::placements::against_static;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::render::{Renderer, layout, readback};
+use lensrunner::scene::aurora::air;
 use lensrunner::scene::aurora::dipole::on_field_line;
 use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines::{self, Line};
+use lensrunner::scene::aurora::quantiles::Quantiles;
 use lensrunner::scene::aurora::random;
-use lensrunner::scene::aurora::{air, quantiles};
 use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::light::{self, Branch, Order};
 use std::sync::Arc;
@@ -47,71 +48,89 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
     }
 }
 
-/// What [`Pass::AuroraWalk`] reads of the settings: energies, and the rest nought.
-fn energies(accelerated: f32, thermal: f32) -> wgpu::Buffer {
-    let settings = AuroraSettings { electrons: [accelerated, thermal, 0.8, 1.0], ..AuroraSettings::default() };
-    let buffer = layout::buffer(&GPU.device, "settings", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
-    GPU.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&settings));
-    buffer
+/// The tables of the fall as the shaders read them.
+fn falls(spectrum: Spectrum) -> wgpu::Buffer {
+    layout::storage(&GPU, "falls", &Quantiles::new(&spectrum).laid_out())
 }
+
+/// Electrons as the game has them where the flux is the mean.
+const SPECTRUM: Spectrum = Spectrum { accelerated: 4.0, thermal: 1.5 };
 
 #[test]
-fn electrons_of_the_shader_fall_as_those_of_the_physics() {
-    let (accelerated, thermal) = (4.0, 1.5);
-    let settings = energies(accelerated, thermal);
-    let falls = layout::storage(&GPU, "falls", &fall_table());
-    let body = "var streak: Streak; streak.key = hash(id.x); let fall = fall_of(streak, row.x); \
-                twin_out[2u * id.x] = vec4<f32>(fall, height_of(fall.x, GREEN, row.y), height_of(fall.x, RED, row.y)); \
-                let k = hash(id.x); twin_out[2u * id.x + 1u] = vec4<f32>(unit(hash(k + 3u)), unit(hash(k + 4u)), unit(hash(k + 5u)), unit(hash(k + 6u)));";
-    let rows: Vec<[f32; 4]> = (0..600).map(|k| [0.02 * (k % 250) as f32, (k % 11) as f32 / 10.0, 0.0, 0.0]).collect();
-    let got = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(0, &settings), (4, &falls)], &rows, 2);
-    for (row, got) in rows.iter().zip(got.chunks(2)) {
-        let ([index, energy, green, red], random) = (got[0], got[1].map(f64::from));
+fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
+    let falls = falls(SPECTRUM);
+    // Kinds as in streaks.wgsl.
+    let body = "let fall = fall_at(row.x); let kind = u32(row.z); let whole = photons_of(fall, kind, 1.0); \
+                twin_out[2u * id.x] = vec4<f32>(fall, height_of(fall, kind, row.y), 0.0, 0.0); \
+                twin_out[2u * id.x + 1u] = photons_of(fall, kind, row.y);";
+    let fluxes = [0.05, 0.3, 1.0, 2.2, 4.0, 9.0];
+    let parts = [0.1, 0.35, 0.6, 0.85, 1.0];
+    let all = |kind: f32| fluxes.iter().flat_map(move |&flux| parts.map(|part| [flux, part, kind, 0.0]));
+    let rows: Vec<[f32; 4]> = all(0.0).chain(all(1.0)).collect();
+    let got = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 2);
+    for (row, got) in rows.chunks(parts.len()).zip(got.chunks(2 * parts.len())) {
         // Brighter parts are harder: the potential goes as the square root of the flux, between a twentieth and four times its mean.
-        let spectrum =
-            Spectrum { accelerated: f64::from(accelerated) * f64::from(row[0]).clamp(0.05, 4.0).sqrt(), thermal: f64::from(thermal) };
-        let want = spectrum.energy(1.0 - random[0], 1.0 - random[2], random[1]);
-        // 1 − u is a multiple of 2⁻²⁴, and its logarithm is known to 1e-5 of the thermal energy at the worst.
-        assert!((f64::from(energy) / want - 1.0).abs() < 1e-4, "{row:?}: {energy} keV on the GPU, {want} in Rust");
-        let reach = fall::slope(random[3]) * fall::range(want);
-        let last = (quantiles::ROWS - 1) as f64;
-        let along = (reach / quantiles::reach(0)).ln() / (quantiles::reach(quantiles::ROWS - 1) / quantiles::reach(0)).ln();
-        let place = along.clamp(0.0, 1.0) * last;
-        // 1e-4 of the reach is a thousandth of a row.
-        assert!((f64::from(index) - place).abs() < 2e-3, "{row:?}: row {index} on the GPU, {place} in Rust");
-        for (height, line, range) in [(green, 0, quantiles::HEIGHTS[0]), (red, 2, quantiles::HEIGHTS[2])] {
-            let want = height_by_integral(reach.clamp(quantiles::reach(0), quantiles::reach(quantiles::ROWS - 1)), line, row[1]);
-            let want = want.clamp(range[1], range[0]);
-            // Between 96 rows and 32 parts heights are linear: a kilometre or two where the light is, ten in the thin tail above it.
-            let allowed = if row[1] < 0.05 { 30.0 } else { 0.02 * want + 1.0 };
-            assert!((f64::from(height) - want).abs() < allowed, "{row:?}, line {line}: {height} km on the GPU, {want} by the integral");
+        let potential = SPECTRUM.accelerated * f64::from(row[0][0]).clamp(0.05, 4.0).sqrt();
+        let made = light_of_electrons(&Spectrum { accelerated: potential, ..SPECTRUM });
+        let whole: [f64; 4] = made[made.len() - 1];
+        let red = row[0][2] == 1.0;
+        for (row, got) in row.iter().zip(got.chunks(2)) {
+            let [index, height, ..] = got[0];
+            assert!((0.0..=31.0).contains(&index), "{row:?}: row {index}");
+            let lines: &[usize] = if red { &[2] } else { &[0, 1, 3] };
+            let of = |sums: &[f64; 4]| lines.iter().map(|&line| sums[line]).sum::<f64>();
+            // The part of the light of 4,000 electrons that is above that height: to 2 %, where 32 rows and 32 parts and half a kilometre lie between.
+            let k = ((500.0 - f64::from(height)) / LEVEL).round() as usize;
+            let above = of(&made[k.min(made.len() - 1)]) / of(&whole);
+            let bottom = if red { 130.0 } else { 84.0 };
+            assert!(
+                (above - f64::from(row[1])).abs() < 0.02 || (row[1] == 1.0 && f64::from(height) <= bottom + 12.0),
+                "{row:?}: {above} of the light is above {height} km"
+            );
+            for line in 0..4 {
+                let want = if lines.contains(&line) { made[k.min(made.len() - 1)][line] } else { 0.0 };
+                let off = (f64::from(got[1][line]) - want).abs();
+                assert!(off < 0.03 * whole[line] + 1e-6, "{row:?}, line {line}: {} photons, {want} of electrons", got[1][line]);
+            }
         }
     }
 }
 
-/// The height (km) above which `part` of a line's light is made by electrons of this reach, by a plain sum.
-fn height_by_integral(reach: f64, line: usize, part: f32) -> f64 {
-    let levels = || (0..4200).map(|k| 500.0 - 0.1 * f64::from(k));
-    let made = |z: f64| {
-        (fall::share_left(air::overhead(z), reach) - fall::share_left(air::overhead(z - 0.1), reach)) * lines::photons(z - 0.05)[line]
-    };
-    let total: f64 = levels().map(made).sum();
-    let mut sum = 0.0;
-    for z in levels() {
-        sum += made(z);
-        if sum >= f64::from(part) * total && sum > 0.0 {
-            return z - 0.05;
+/// Km between the levels of [`light_of_electrons`].
+const LEVEL: f64 = 0.5;
+
+/// Photons of each line above levels from 500 km down, for each 35 eV that 4,000 electrons drawn one by one bring down, each falling by itself.
+fn light_of_electrons(spectrum: &Spectrum) -> Vec<[f64; 4]> {
+    let levels: Vec<(f64, [f64; 4])> =
+        (0..840).map(|k| 500.0 - LEVEL * f64::from(k)).map(|z| (air::overhead(z), lines::photons(z))).collect();
+    let mut sums = vec![[0.0; 4]; levels.len()];
+    let mut brought = 0.0;
+    for electron in 0..4000u32 {
+        let draw = |k: u32| (f64::from(random::hash(electron.wrapping_mul(7) + random::hash(k)) >> 8) + 0.5) / 16_777_216.0;
+        let energy = spectrum.energy(draw(1), draw(2), draw(3));
+        let reach = fall::slope(draw(4)) * fall::range(energy);
+        brought += energy;
+        let mut sum = [0.0; 4];
+        let mut before = 1.0;
+        for ((overhead, photons), sums) in levels.iter().zip(&mut sums) {
+            let left = fall::share_left(*overhead, reach);
+            for line in 0..4 {
+                sum[line] += energy * (before - left) * photons[line];
+                sums[line] += sum[line];
+            }
+            before = left;
         }
     }
-    80.0
+    sums.iter().map(|sum| sum.map(|light| light / brought)).collect()
 }
 
 #[test]
 fn red_lags_in_the_shader_as_its_lifetime_says() {
-    let falls = layout::storage(&GPU, "falls", &fall_table());
-    // Kinds as in streaks.wgsl: green, prompt, red; each electron draws its own wait.
-    let body = "var streak: Streak; streak.kind = u32(row.x); streak.key = hash(id.x); twin_out[id.x] = vec4<f32>(waits(streak, row.y), 0.0, 0.0, 0.0);";
-    for (kind, line) in [(0, Line::Green), (1, Line::Blue), (2, Line::Red)] {
+    let falls = falls(SPECTRUM);
+    // Kinds as in streaks.wgsl: green, red; streaks have waits that are even over many of them.
+    let body = "var streak: Streak; streak.kind = u32(row.x); streak.wait = unit(hash(id.x)); \
+                twin_out[id.x] = vec4<f32>(waits(streak, row.y), 0.0, 0.0, 0.0);";
+    for (kind, line) in [(0, Line::Green), (1, Line::Red)] {
         for height in [110.0, 160.0, 220.0, 300.0] {
             let rows = vec![[kind as f32, height, 0.0, 0.0]; 8000];
             let waits = run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 1);
@@ -127,7 +146,7 @@ fn red_lags_in_the_shader_as_its_lifetime_says() {
 #[test]
 fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
     // A curtain that moves evenly is drawn, at a height between two ends of chords, as old as the ends' mean waits say between them.
-    let falls = layout::storage(&GPU, "falls", &fall_table());
+    let falls = falls(SPECTRUM);
     let body = "let count = u32(row.y); let chord = chord_at(RED, row.x, count); let above = chord_height(RED, chord, count); \
                 let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
                 twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
@@ -145,7 +164,7 @@ fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
 #[test]
 fn the_clock_of_the_rays_starts_again_without_a_jump() {
     let rows: Vec<[f32; 4]> = (0..400).map(|k| [0.37 * k as f32, 0.0, 0.0, 0.0]).collect();
-    let body = "twin_out[id.x] = vec4<f32>(rays(row.x, 0.0), rays(row.x, 102400.0), rays(row.x, -3.0), rays(row.x, 102397.0));";
+    let body = "twin_out[id.x] = vec4<f32>(rays(row.x, 0.0, 0.0), rays(row.x, 102400.0, 0.0), rays(row.x, -3.0, 0.0), rays(row.x, 102397.0, 0.0));";
     for (row, got) in rows.iter().zip(run(Pass::AuroraEnds, body, [&[], &[]], &rows, 1)) {
         // Late in the day a number of f32 is a hundredth of a second.
         assert!((got[0] - got[1]).abs() < 0.03 && (got[2] - got[3]).abs() < 0.03, "{row:?}: {got:?}");
@@ -187,9 +206,9 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
     let aurora = frame.aurora.as_ref().expect("the aurora is in sight");
     let streaks = aurora.settings.counts[0];
-    // Each segment has at least its eight.
-    assert!(streaks <= 3000 + 8 * aurora.segments.len() as u32, "{streaks}");
-    assert!(aurora.segments.iter().all(|segment| segment.range[2] % 8 == 0 && segment.light[0].is_finite()));
+    // Each segment has at least its ten: five in the north and five in the south.
+    assert!(streaks <= 3000 + 10 * aurora.segments.len() as u32, "{streaks}");
+    assert!(aurora.segments.iter().all(|segment| segment.range[2] % 10 == 0 && segment.light[0].is_finite()));
     let picture = renderer.picture(&frame, false).unwrap();
     assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
     let shines = green(&picture);
@@ -383,7 +402,7 @@ fn the_pyramid_changes_no_picture() {
         let levels = renderer.aurora_splats().unwrap().unwrap();
         let coarse: u32 = levels[1..].iter().sum();
         assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
-        frame.aurora.as_mut().unwrap().settings.electrons[3] = 1.0;
+        frame.aurora.as_mut().unwrap().settings.splats[1] = 1.0;
         let want = renderer.picture(&frame, false).unwrap();
         assert_eq!(renderer.aurora_splats().unwrap().unwrap().len(), 1);
         let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
@@ -411,7 +430,7 @@ fn rooms_of_splats_do_not_overlap() {
         for image in numbers.chunks(PYRAMID as usize + 1) {
             for pair in 0..levels.div_ceil(2) {
                 // As many as room_of lets in, from the beginning of the first level's and from the end of the second's.
-                let room = 3 * (finest >> pair) as u32;
+                let room = CORNERS * (finest >> pair) as u32;
                 let level = 2 * pair as usize;
                 assert_eq!(image[level][2], after, "{rooms:?}, level {level}");
                 // The coarsest has a room of its own.
@@ -419,7 +438,7 @@ fn rooms_of_splats_do_not_overlap() {
                 after += room;
             }
         }
-        assert_eq!(u64::from(after), 3 * rooms.all() * u64::from(images));
+        assert_eq!(u64::from(after), u64::from(CORNERS) * rooms.all() * u64::from(images));
     }
 }
 

@@ -384,7 +384,9 @@ impl Renderer {
         let draws: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         let levels = self.aurora.levels().count();
         let all = draws.chunks(super::aurora::PYRAMID as usize + 1).take(self.aurora.images() as usize);
-        Ok(Some(all.fold(vec![0; levels], |sum, image| sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / super::aurora::rooms::CORNERS).collect())))
+        Ok(Some(all.fold(vec![0; levels], |sum, image| {
+            sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / super::aurora::rooms::CORNERS).collect()
+        })))
     }
 
     /// The geometry stages, for tests that read their buffers.

@@ -191,7 +191,9 @@ impl Pass {
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw => vec![TYPES, BINDINGS],
             Pass::AuroraSplat => vec![STROKE],
-            Pass::AuroraProject => vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STROKE, STREAKS],
+            Pass::AuroraProject => {
+                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STROKE, STREAKS]
+            }
             Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STROKE, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, ROOMS],
             Pass::AuroraRanges => vec![],

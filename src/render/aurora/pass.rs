@@ -9,14 +9,13 @@ use super::rooms::{DRAWS_BYTES, Rooms};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
-use crate::render::layout::{
-    Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster,
-};
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster};
 use crate::render::method::Method;
 use crate::render::shaders::Pass;
 use crate::render::targets::Targets;
 use crate::render::timing::Timing;
 use crate::render::types::Placement;
+use crate::scene::blackbody::xyz_to_rgb;
 
 /// Image orders that may show it.
 const ORDERS: usize = 3;
@@ -93,7 +92,7 @@ impl Aurora {
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
         let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform, Read]);
         let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
-        let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
+        let resolve_layout = layout(device, "aurora resolve", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
         let one = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,
@@ -194,7 +193,14 @@ impl Aurora {
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
-            gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(colours));
+            gpu.queue.write_buffer(
+                buffer,
+                0,
+                bytemuck::cast_slice(&colours.map(|[x, y, z, _]| {
+                    let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
+                    [r as f32, g as f32, b as f32, 0.0]
+                })),
+            );
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];
@@ -215,7 +221,9 @@ impl Aurora {
         ];
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
-        let splat = levels.places.iter().map(|place| bind(device, "aurora splat", &self.splat_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding())));
+        let splat = levels.places.iter().map(|place| {
+            bind(device, "aurora splat", &self.splat_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding()))
+        });
         // A level, or black where it is not in use.
         let light = |level: u32| {
             let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);

@@ -333,7 +333,8 @@ impl Show {
             }
         }
         let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.25, 1.0);
-        let wanted = (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks)) * self.ration.part();
+        let wanted =
+            (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks)) * self.ration.part();
         // On the small, several pairs of nodes make one.
         let least = if both { 2 * TURN } else { TURN };
         let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
