@@ -144,7 +144,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var upper = height_of(fall, streak.kind, 0.0);
     var made = photons_of(fall, streak.kind, 0.0);
-    var begin = apparent_at(streak.kind, upper, first, chord_count);
     // Parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one stroke.
     var k = 0u;
     while k < count {
@@ -152,19 +151,29 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // A width holds for its own chord.
         let end = chord_height(streak.kind, chord_at(streak.kind, start, chord_count) + 1u, chord_count);
         let most_km = min(MERGED * width_along(streak, start, first, chord_count, focal), start - end);
+        // Light of the parts that are one, times their heights from here and the squares of those.
+        var sums = vec3<f32>(0.0);
         loop {
+            let passed = light_above(k, count, streak.phase);
             k++;
-            upper = height_of(fall, streak.kind, light_above(k, count, streak.phase));
+            let below = light_above(k, count, streak.phase);
+            let lower = height_of(fall, streak.kind, below);
+            let middle = 0.5 * (upper + lower) - start;
+            let extent = upper - lower;
+            sums += (below - passed) * vec3<f32>(1.0, middle, middle * middle + extent * extent / 12.0);
+            upper = lower;
             if !(start - height_of(fall, streak.kind, light_above(k + 1u, count, streak.phase)) < most_km) | (k >= count) {
                 break;
             }
         }
-        var high = begin;
-        var low = apparent_at(streak.kind, upper, first, chord_count);
-        begin = low;
+        // An evenly bright line with the mean and the variance of them all.
+        let mean = sums.y / sums.x;
+        let height = start + mean;
+        let half_km = sqrt(3.0 * max(sums.z / sums.x - mean * mean, 0.0));
+        var high = apparent_at(streak.kind, height + half_km, first, chord_count);
+        var low = apparent_at(streak.kind, height - half_km, first, chord_count);
         let made_before = made;
         made = photons_of(fall, streak.kind, light_above(k, count, streak.phase));
-        let height = 0.5 * (start + upper);
         let chord = chord_at(streak.kind, height, chord_count);
         let above = chord_height(streak.kind, chord, chord_count);
         let per_chord = above - chord_height(streak.kind, chord + 1u, chord_count);
@@ -175,7 +184,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         }
         if is_linear {
             // Linear on the screen between top and foot, as in paper 3.
-            let t = (range.x - vec2<f32>(start, upper)) / (range.x - range.y);
+            let t = (range.x - height - vec2<f32>(half_km, -half_km)) / (range.x - range.y);
             high = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x) * -high.z, high.zw);
             low = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.y) * -low.z, low.zw);
         }

@@ -27,7 +27,7 @@ const STEP: f64 = 0.5;
 const REACHES: usize = 96;
 const REACH_ENDS: [f64; 2] = [1e-8, 2e-2];
 /// Slopes, and energies above that of the potential, over which the spectrum is summed; the latter up to so many thermal energies.
-const SLOPES: usize = 16;
+const SLOPES: usize = 64;
 const ENERGIES: usize = 96;
 const THERMALS: f64 = 16.0;
 
