@@ -86,11 +86,13 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     let pixels = 0.5 * frame.size.xy / seen.z;
     let aside = (across.xy - seen.xy * (across.z / seen.z)) * pixels;
     let ahead = (along.xy - seen.xy * (along.z / seen.z)) * pixels;
-    let half = abs(aside.x * ahead.y - aside.y * ahead.x) / max(length(ahead), 1e-12);
-    let spread = clamp(ceil(LEAST_HALF / max(half, 1e-12)), 1.0, MOST_SPREAD);
+    let normal = vec2<f32>(-ahead.y, ahead.x) / max(length(ahead), 1e-12);
+    let half = dot(aside, normal);
+    let spread = clamp(ceil(LEAST_HALF / max(abs(half), 1e-12)), 1.0, MOST_SPREAD);
     if spread > 1.0 {
-        // So far off that its depth is nothing, but not so many times that.
-        across = vec3<f32>(spread * aside / pixels, 0.0);
+        // Straight across, for where the plane is seen edge on rings lie beside one another along their length; each is whole wherever its spots are. A
+        // narrow spot is so far off that its own depth is nothing, but not so many times that.
+        across = vec3<f32>(spread * half * normal / pixels, 0.0);
     }
     let extent = abs(across) + abs(along);
     if any(abs(seen.xy) - extent.xy > vec2<f32>(seen.z + extent.z)) {
