@@ -46,7 +46,8 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
         return nothing;
     }
     let theta = theta_at(sprite.sigma);
-    let step = sprite.step / sigma_slope(theta);
+    // Not by the slope there: near the axis behind the hole that would lead to the other side of the image.
+    let step = theta_at(sprite.sigma + sprite.step) - theta;
     let turn = select(1.0, -1.0, order == 2u);
     let apart = select(RINGS_APART, 1.0, order == 1u);
     var ray: LensRay;
