@@ -132,9 +132,9 @@ fn the_picture_of_sprites_is_the_exact_one() {
     let sprites = with("sprites", |_| ());
     let mut renderer = renderer(size);
     let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
-    // About 2 dB less than was measured, and twice the light that was too much.
+    // About 2 dB less than was measured, and no less light: between spots it goes straight, which is up to 0.023 too much.
     for (l, degrees, least, most) in
-        [(27.0, 0.0, 40.0, 0.03), (27.0, 30.0, 40.0, 0.03), (27.0, 80.0, 44.0, 0.03), (27.0, 88.0, 40.0, 0.03), (6.5, 87.0, 36.0, 0.03)]
+        [(27.0, 0.0, 40.0, 0.03), (27.0, 30.0, 38.0, 0.03), (27.0, 80.0, 43.0, 0.03), (27.0, 88.0, 40.0, 0.03), (6.5, 87.0, 37.5, 0.03)]
     {
         let camera = camera(l, degrees, 60f64.to_radians());
         let got = drawn(&mut renderer, &sprites, camera, 2);
