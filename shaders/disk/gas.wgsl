@@ -74,12 +74,10 @@ struct Shape {
     square: f32,
 }
 
-/// For a pixel at `place` in the pattern. The square of its texel's side is half the square of the pixel's width, as a texel shows more than
+/// For a pixel with the sides `a` and `b` in the pattern. The square of its texel's side is half the square of the pixel's width, as a texel shows more than
 /// itself; `share` of its length's at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as long as the
 /// pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
-fn shape_of(place: vec2<f32>, share: f32) -> Shape {
-    let a = dpdx(place);
-    let b = dpdy(place);
+fn shape_of(a: vec2<f32>, b: vec2<f32>, share: f32) -> Shape {
     let along = dot(a, a);
     let down = dot(b, b);
     let area = (a.x * b.y - a.y * b.x) * PATTERN_SIZE;
@@ -87,22 +85,31 @@ fn shape_of(place: vec2<f32>, share: f32) -> Shape {
     return Shape(select(a, b, down > along), long, max(0.5 * (PATTERN_SIZE * PATTERN_SIZE) * (area * area) / max(long, 1e-30), long * share));
 }
 
+/// Where in the pattern gas of a generation is, `height` up in it.
+fn place_in(generation: vec4<f32>, height: f32) -> vec2<f32> {
+    return generation.xy + vec2<f32>(-disk_rate(height) * generation.z, height);
+}
+
 /// Where in the pattern a pixel is, in both generations, and how much of it it covers. A texel is no shorter than
 /// its length over `most`.
 fn streaks_of(in: Gas, most: f32) -> Streaks {
     // Neighbours outside the triangle may be anywhere; their places are part of the differences.
     let height = 0.25 * log2(max(in.slope.w, 1.0));
-    let rate = disk_rate(height);
     let share = 1.0 / (most * most);
+    let even = place_in(in.even, height);
+    let odd = place_in(in.odd, height);
+    // Differences of each by itself: neighbouring pixels may choose differently.
+    return streaks_at(in, even, odd, shape_of(dpdx(even), dpdy(even), share), shape_of(dpdx(odd), dpdy(odd), share));
+}
+
+/// The same for what is at `even` and `odd` in the pattern and covers that much of it.
+fn streaks_at(in: Gas, even_place: vec2<f32>, odd_place: vec2<f32>, even: Shape, odd: Shape) -> Streaks {
     var result: Streaks;
-    result.even = in.even.xy + vec2<f32>(-rate * in.even.z, height);
-    result.odd = in.odd.xy + vec2<f32>(-rate * in.odd.z, height);
+    result.even = even_place;
+    result.odd = odd_place;
     // One size does for both: that of the younger, if it shows at all. Across a triangle where one dies and the next but one is born its place is nowhere.
     let even_shows = in.even.w > LEAST_SHARE * in.odd.w;
     let odd_shows = in.odd.w > LEAST_SHARE * in.even.w;
-    // Differences of each by itself: neighbouring pixels may choose differently.
-    let even = shape_of(result.even, share);
-    let odd = shape_of(result.odd, share);
     result.even_side = even.side;
     result.odd_side = odd.side;
     result.long = max(even.long, odd.long);
@@ -180,7 +187,11 @@ fn far_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
 /// The same at two places, as many as pay from far: four take a sixth more of the time of the disk and leave five sixths of the error. A short pixel is
 /// looked up at its middle twice: a loop that some pixels leave earlier costs a software driver more.
 fn far_look(in: Gas) -> Cooling {
-    let at = streaks_of(in, 2.0 * STEP);
+    return two_looks(in, streaks_of(in, 2.0 * STEP));
+}
+
+/// For what covers that much of the pattern.
+fn two_looks(in: Gas, at: Streaks) -> Cooling {
     let level = far_level(at);
     let t = select(0.0, 0.25, at.long > STEP * STEP * max(at.square, 0.25));
     let a = power_along(in, at, -t, level);

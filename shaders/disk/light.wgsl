@@ -16,7 +16,7 @@ fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
     let rgb = blackbody_rgb(exp(shown));
     // The temperature that brightness follows, and with it the slope: another than that of the colour where one of both is switched off.
     let felt = select(ln_temperature, shifted, beaming);
-    var gain = disk.sprites.y;
+    var gain = disk.light.x;
     var glow = rgb;
     if (doppler != beaming) & (ln_g != 0.0) {
         glow = blackbody_rgb(exp(felt));

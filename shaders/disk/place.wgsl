@@ -1,39 +1,5 @@
 // Where a point of the disk is seen, and what its light becomes.
 
-/// σ = θ + δ(θ)/2, the mean of θ and of the angle round the axis at which the point is seen. Where the disk passes behind the hole
-/// the one hardly moves while the other takes half a turn; in σ the image is smooth everywhere.
-fn sigma(theta: f32) -> f32 {
-    let h = disk.upwards.w;
-    let s = sin(theta);
-    let c = cos(theta);
-    return theta + 0.5 * atan2((1.0 - h) * s * c, h * c * c + s * s);
-}
-
-/// θ between a and b at the fraction t of σ between them: Newton, held in the bracket.
-fn theta_between(a: f32, b: f32, t: f32) -> f32 {
-    let h = disk.upwards.w;
-    let wanted = mix(sigma(a), sigma(b), t);
-    var low = a;
-    var high = b;
-    var theta = mix(a, b, t);
-    // The ends are known. No constant: compilers unroll loops of a known length.
-    let steps = select(0u, 16u, t > 0.0 && t < 1.0);
-    for (var i = 0u; i < steps; i++) {
-        let miss = sigma(theta) - wanted;
-        // What rounding leaves of a sum near π.
-        if abs(miss) < 3e-7 {
-            break;
-        }
-        if miss > 0.0 { high = theta; } else { low = theta; }
-        let s = sin(theta);
-        let c = cos(theta);
-        let slope = 0.5 + 0.5 * h / max(h * h * c * c + s * s, 1e-12);
-        let next = theta - miss / slope;
-        theta = select(0.5 * (low + high), next, next > low && next < high);
-    }
-    return theta;
-}
-
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 

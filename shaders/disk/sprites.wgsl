@@ -1,64 +1,132 @@
-// The disk of sprites, projected: one thread per bit of gas and order. It is seen at its own emission time, by fixed point: gas on orbits outside
-// r = 3 moves at half the speed of light at most, so each step halves the error or better.
+// The disk of sprites, projected: one thread per spot, one dispatch per image order. A spot is a place that gas flows through, as an arc is. It reaches to
+// its neighbours' middles, as the camera sees them: two lookups beside its own.
 
-@group(1) @binding(0) var<uniform> disk: DiskFrame;
-/// Radius and azimuth at T = 0.
-@group(1) @binding(2) var<storage, read> sprites: array<vec2<f32>>;
-@group(1) @binding(3) var<storage, read_write> seen_sprites: array<SeenSprite>;
-@group(1) @binding(4) var<storage, read_write> sprite_draw: SpriteDraw;
-
-struct SpriteDraw {
-    vertices: u32,
-    instances: atomic<u32>,
-    first_vertex: u32,
-    first_instance: u32,
+/// Radius in r_s; where it is on its ring, even in σ, in rad; from there to the next.
+struct Sprite {
+    radius: f32,
+    sigma: f32,
+    step: f32,
 }
 
-const STEPS: u32 = 3u;
+@group(1) @binding(2) var<storage, read> sprites: array<Sprite>;
+/// Those of this order, each in its own place: what is drawn over what is the same in every frame.
+@group(1) @binding(3) var<storage, read_write> seen_sprites: array<SeenSprite>;
+@group(1) @binding(4) var<uniform> image: SpriteImage;
+
+struct SpriteImage {
+    /// The image order.
+    order: u32,
+    /// From one ring to the next, in r_s.
+    ring_width: f32,
+    /// Sprites.
+    count: u32,
+    /// Where the last ring ends, in r_s.
+    end: f32,
+}
+
+/// Rings to the place by which the width of a spot is told, in orders 2 and 3: their images are so narrow that rounding shows between two rings.
+const RINGS_APART: f32 = 4.0;
+/// Half the width, in pixels, below which a spot is spread over more than its own: what is narrower would be seen or not seen by chance.
+const LEAST_HALF: f32 = 0.5;
+/// A spot is spread over this many times its width at most: the least light that this leaves still counts in half precision.
+const MOST_SPREAD: f32 = 4096.0;
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= arrayLength(&sprites) {
-        return;
+    if id.x < image.count {
+        seen_sprites[id.x] = seen_sprite(sprites[id.x], image.order);
     }
-    let order = id.y + 1u;
-    let sprite = sprites[id.x];
-    let r = sprite.x;
+}
+
+fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
+    let nothing = SeenSprite(vec4<f32>(0.0, 0.0, 1.0, 1.0), vec4<f32>(0.0), vec4<f32>(0.0), vec4<f32>(0.0));
+    let r = sprite.radius;
     let gas = radial_gas(r);
-    let rate = 0.70710678 * pow(max(r, 3.0), -1.5);
-    let origin = atan2(disk.towards.y, disk.towards.x);
+    if gas.a.y < 1e-3 {
+        return nothing;
+    }
+    let theta = theta_at(sprite.sigma);
+    // Not by the slope there: near the axis behind the hole that would lead to the other side of the image.
+    let step = theta_at(sprite.sigma + sprite.step) - theta;
     let turn = select(1.0, -1.0, order == 2u);
-    var path = frame.radial.w;
+    let apart = select(RINGS_APART, 1.0, order == 1u);
     var ray: LensRay;
-    var side = vec3<f32>(0.0);
-    for (var k = 0u; k < STEPS; k++) {
-        let theta = sprite.y + rate * (frame.projection.w - path) - origin;
-        let s = sin(theta);
-        let c = cos(theta);
+    var apparent = vec3<f32>(0.0);
+    // x, y and w in clip space of the middle, the next ring and the next spot of this ring.
+    var seen = vec3<f32>(0.0);
+    var next_ring = vec3<f32>(0.0);
+    var next_spot = vec3<f32>(0.0);
+    // The lookup is called from this one place: the neighbours first.
+    for (var k = 0u; k < 3u; k++) {
+        let there = r + select(0.0, apart * image.ring_width, k == 0u);
+        let at = theta + select(0.0, step, k == 1u);
+        let s = sin(at);
+        let c = cos(at);
         let up = -disk.towards.w * c;
         let reach = sqrt(up * up + s * s);
-        side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
-        ray = lens_lookup_at(r * c * disk.sideways.w - frame.radial.w, r * reach, r * c * disk.sideways.w, order);
-        path = ray.delay;
+        let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
+        ray = lens_lookup_at(there * c * disk.sideways.w - frame.radial.w, there * reach, there * c * disk.sideways.w, order);
+        let look = frame.radial.xyz * ray.cos_psi + side * (turn * ray.sin_psi);
+        apparent = (frame.camera_from_rain * vec4<f32>(look * ray.delay, -ray.delay)).xyz;
+        if !ray.valid || ray.delay <= 0.0 || !finite_vector(apparent) {
+            return nothing;
+        }
+        seen = clip_position(apparent).xyw;
+        if k == 0u {
+            next_ring = seen;
+        } else if k == 1u {
+            next_spot = seen;
+        }
     }
-    if !ray.valid || path <= 0.0 || gas.a.y < 1e-3 {
-        return;
+    if seen.z <= 1e-3 {
+        return nothing;
     }
-    let look = frame.radial.xyz * ray.cos_psi + side * (turn * ray.sin_psi);
-    let apparent = (frame.camera_from_rain * vec4<f32>(look * path, -path)).xyz;
-    if apparent.z >= -1e-3 || !finite_vector(apparent) {
-        return;
+    var across = (next_ring - seen) / apart;
+    let along = next_spot - seen;
+    // The same in pixels, and half the width of the spot across its length.
+    let pixels = 0.5 * frame.size.xy / seen.z;
+    let aside = (across.xy - seen.xy * (across.z / seen.z)) * pixels;
+    let ahead = (along.xy - seen.xy * (along.z / seen.z)) * pixels;
+    let normal = vec2<f32>(-ahead.y, ahead.x) / max(length(ahead), 1e-12);
+    let half = dot(aside, normal);
+    let spread = clamp(ceil(LEAST_HALF / max(abs(half), 1e-12)), 1.0, MOST_SPREAD);
+    if spread > 1.0 {
+        // Straight across, for where the plane is seen edge on rings lie beside one another along their length; each is whole wherever its spots are. A
+        // narrow spot is so far off that its own depth is nothing, but not so many times that.
+        across = vec3<f32>(spread * half * normal / pixels, 0.0);
     }
-    let clip = clip_position(apparent);
-    let ndc = clip.xyz / clip.w;
-    if any(abs(ndc.xy) > vec2<f32>(1.1)) {
-        return;
+    let extent = abs(across) + abs(along);
+    if any(abs(seen.xy) - extent.xy > vec2<f32>(seen.z + extent.z)) {
+        return nothing;
     }
+
     let ratio = gas_ratio(apparent, r, ray.emission_slope > 0.0, gas);
-    let alpha = 1.0 - exp(-gas.a.y * disk_slant(ratio.y, path, gas.b.y));
-    let light = gas_light(gas.a.x, log(ratio.x)).rgb;
-    // Spots that together cover the disk about once, face on.
-    let radius = clamp(disk.sprites.x / path / frame.size.z, 0.5, 32.0);
-    let slot = atomicAdd(&sprite_draw.instances, 1u);
-    seen_sprites[slot] = SeenSprite(vec4<f32>(ndc, radius), vec4<f32>(light * alpha, alpha));
+    let depth = gas.a.y * disk_slant(ratio.y, ray.delay, gas.b.y);
+    let turns = (theta + atan2(disk.towards.y, disk.towards.x) - gas.b.x) / (2.0 * HALF_TURN);
+    let there = gas_at(vec4<f32>(0.0), turns, gas.b.z, ray.delay, depth, gas_light(gas.a.x, log(ratio.x)), vec2<f32>(0.0, 1e6), ratio.y);
+    // What the spot has of the pattern: as much as lies between two rings, and between two spots or as long as a pixel.
+    let outer = radial_gas(r + image.ring_width);
+    let width = vec2<f32>((gas.b.x - outer.b.x) / (2.0 * HALF_TURN), outer.b.z - gas.b.z);
+    let long = vec2<f32>(step / (2.0 * HALF_TURN) * max(1.0, 1.0 / max(length(ahead), 1e-3)), 0.0);
+    let cooling = two_looks(there, covered(there, gas.b.z, width, long));
+    let colour = gas_colour(there.light.rgb, there.slope.xyz, there.light.w, cooling);
+    let beyond = round((image.end - r) / image.ring_width - 0.5);
+    return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0), vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
+}
+
+/// θ at σ: both are the same at every quarter of a turn.
+fn theta_at(sigma: f32) -> f32 {
+    let before = floor(sigma / (0.5 * HALF_TURN)) * (0.5 * HALF_TURN);
+    return theta_of(sigma, before, before + 0.5 * HALF_TURN, sigma, true);
+}
+
+/// Where in the pattern the gas `there` is, `height` up, and how much of it a spot covers that has these sides where it is not sheared.
+fn covered(there: Gas, height: f32, width: vec2<f32>, long: vec2<f32>) -> Streaks {
+    let even = place_in(there.even, height);
+    let odd = place_in(there.odd, height);
+    let ahead = vec2<f32>(width.x, 0.0);
+    let share = 1.0 / (4.0 * STEP * STEP);
+    let even_shape = shape_of(place_in(there.even, height + width.y) - even + ahead, long, share);
+    let odd_shape = shape_of(place_in(there.odd, height + width.y) - odd + ahead, long, share);
+    return streaks_at(there, even, odd, even_shape, odd_shape);
 }

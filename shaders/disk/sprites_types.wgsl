@@ -1,8 +1,12 @@
-// A bit of gas as the camera sees it.
+// A spot of gas as the camera sees it.
 
 struct SeenSprite {
-    /// Clip position over w, and the radius of the spot in pixels in w; depth in z.
+    /// The middle: x, y and w of clip space; w: over how many times its own width across the orbits the spot is spread (a whole number).
     place: vec4<f32>,
-    /// Premultiplied light and opacity.
+    /// From there to its ends across the orbits and along them, in the same; w of the first: rings beyond its own, of the second unused. Nothing where the spot
+    /// is not seen.
+    across: vec4<f32>,
+    along: vec4<f32>,
+    /// Light, and opacity, of the gas there.
     colour: vec4<f32>,
 }

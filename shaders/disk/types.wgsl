@@ -20,8 +20,8 @@ struct DiskFrame {
     /// x: vertices that there is room for; y: orders up to this one have a close look (finest octaves, slant in each pixel); z: half height over radius
     /// (bits of an f32); w unused.
     room: vec4<u32>,
-    /// x: radius of a sprite in r_s; y: the scene's unit of light over the black body's; z, w unused.
-    sprites: vec4<f32>,
+    /// x: the scene's unit of light over the black body's; y, z, w unused.
+    light: vec4<f32>,
     /// x, y: where in the pattern the first generation begins; z, w: from each to the next.
     offset: vec4<f32>,
 }

@@ -34,6 +34,7 @@ const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
 const DISK_TYPES: &str = include_str!("../../shaders/disk/types.wgsl");
 const DISK_BINDINGS: &str = include_str!("../../shaders/disk/bindings.wgsl");
 const DISK_PLACE: &str = include_str!("../../shaders/disk/place.wgsl");
+const DISK_SIGMA: &str = include_str!("../../shaders/disk/sigma.wgsl");
 const DISK_RADIAL: &str = include_str!("../../shaders/disk/radial.wgsl");
 const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.wgsl");
 const DISK_LIGHT: &str = include_str!("../../shaders/disk/light.wgsl");
@@ -202,7 +203,20 @@ impl Pass {
             Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices => {
-                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_BINDINGS, DISK_PLACE]
+                vec![
+                    TYPES,
+                    BINDINGS,
+                    SEES_OUTSIDE,
+                    LENSING,
+                    RESIDUALS,
+                    LENSING_CAMERA,
+                    CLIP,
+                    DISK,
+                    DISK_TYPES,
+                    DISK_BINDINGS,
+                    DISK_SIGMA,
+                    DISK_PLACE,
+                ]
             }
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],
@@ -220,6 +234,8 @@ impl Pass {
                     DISK,
                     DISK_TYPES,
                     DISK_SPRITES_TYPES,
+                    DISK_GAS,
+                    DISK_SIGMA,
                     DISK_LIGHT,
                     DISK_RADIAL,
                 ]

@@ -53,12 +53,6 @@ impl Disk {
         Disk { gas, arcs, config: disk, min_width: config.render.min_width }
     }
 
-    /// The radius, in r_s, with which the sprites together have the area of the disk.
-    pub fn sprite_radius(&self) -> f64 {
-        let [start, end] = self.gas.extent();
-        ((end * end - start * start) / f64::from(self.config.sprites)).sqrt()
-    }
-
     /// Two rows for each radius, as `shaders/disk/radial.wgsl` reads them.
     fn radial_table(&self) -> Vec<[f32; 4]> {
         let radial = &self.gas.radial;
@@ -106,7 +100,7 @@ impl DiskPasses {
         use wgpu::BindingResource::{Sampler, TextureView};
         let textures = Textures::new(gpu);
         let slots = [Slot::Uniform, Slot::Texture, Slot::Texture, Slot::Sampler];
-        let gas_layout = layout(&gpu.device, "gas", ShaderStages::VERTEX_FRAGMENT, &slots);
+        let gas_layout = layout(&gpu.device, "gas", ShaderStages::VERTEX_FRAGMENT | ShaderStages::COMPUTE, &slots);
         let frame = buffer(&gpu.device, "disk frame", size_of::<DiskFrame>() as u64, BufferUsages::UNIFORM);
         let resources =
             [frame.as_entire_binding(), TextureView(&textures.far), TextureView(&textures.near), Sampler(&textures.near_sampler)];
@@ -124,7 +118,7 @@ impl DiskPasses {
         let radial = || storage(gpu, "radial", &disk.radial_table());
         self.representation = match disk.config.representation.as_str() {
             "polygons" => Representation::Polygons(Box::new(PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial(), &disk))),
-            "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.frame, &radial(), &disk)),
+            "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.gas_layout, &self.frame, &radial(), &disk)),
             _ => Representation::Arcs,
         };
         self.straight = None;
@@ -156,7 +150,7 @@ impl DiskPasses {
             _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input)),
             Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
             Representation::Polygons(polygons) => polygons.prepare(gpu, input),
-            Representation::Sprites(sprites) => sprites.prepare(gpu),
+            Representation::Sprites(sprites) => sprites.prepare(&view),
         }
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));
     }
@@ -167,7 +161,10 @@ impl DiskPasses {
             _ if self.is_straight => self.straight.iter().for_each(|polygons| polygons.compute(pass)),
             Representation::Arcs => self.arcs.compute(pass),
             Representation::Polygons(polygons) => polygons.compute(pass),
-            Representation::Sprites(sprites) => sprites.compute(pass),
+            Representation::Sprites(sprites) => {
+                pass.set_bind_group(2, &self.gas_group, &[]);
+                sprites.compute(pass);
+            }
         }
     }
 

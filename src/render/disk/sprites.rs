@@ -1,72 +1,109 @@
-//! The disk of point sprites: projected in one stage of compute, drawn as spots.
+//! The disk of point sprites: projected in one stage of compute, drawn as soft spots, for each image order.
 
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
 use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
-use crate::scene::disk::sprites::sprites;
+use crate::scene::disk::sprites::Sprites;
 
 use super::Disk;
 use super::types::SEEN_SPRITE_BYTES;
+use super::view::DiskView;
 
-/// Orders that sprites are drawn in: a third is lost among them.
-const ORDERS: u32 = 2;
+/// Which share of the sprites orders 1, 2 and 3 are drawn with: one of so many. The images behind the first are many times as narrow.
+const SHARES: [u32; 3] = [1, 4, 4];
 
 /// The sprites and the two passes over them.
 #[derive(Debug)]
 pub struct SpritePass {
-    count: u32,
     project: wgpu::ComputePipeline,
-    project_group: wgpu::BindGroup,
     draw: wgpu::RenderPipeline,
-    draw_group: wgpu::BindGroup,
-    arguments: wgpu::Buffer,
+    /// Of orders 1, 2 and 3.
+    images: [Image; 3],
+    /// Which of them are drawn in this frame.
+    drawn: [bool; 3],
+}
+
+/// The sprites of one order, and room for them as it shows them. Each has its place in it, whether it is seen or not: so what lies over what is the same in every frame.
+#[derive(Debug)]
+struct Image {
+    count: u32,
+    project: wgpu::BindGroup,
+    draw: wgpu::BindGroup,
 }
 
 impl SpritePass {
     /// Uploads the sprites of `disk`; `frame` and `radial` are the buffers that all representations share.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, frame: &wgpu::Buffer, radial: &wgpu::Buffer, disk: &Disk) -> SpritePass {
-        use Slot::{Read, Write};
+    pub fn new(
+        gpu: &Gpu,
+        frame_layout: &wgpu::BindGroupLayout,
+        gas_layout: &wgpu::BindGroupLayout,
+        frame: &wgpu::Buffer,
+        radial: &wgpu::Buffer,
+        disk: &Disk,
+    ) -> SpritePass {
+        use Slot::{Read, Uniform, Write};
         let device = &gpu.device;
-        let all: Vec<[f32; 2]> =
-            sprites(&disk.config, &disk.gas.radial).iter().map(|sprite| [sprite.radius as f32, sprite.azimuth as f32]).collect();
-        let places = storage(gpu, "sprites", &all);
-        let seen = buffer(device, "seen sprites", SEEN_SPRITE_BYTES * all.len() as u64 * u64::from(ORDERS), BufferUsages::STORAGE);
-        let arguments = buffer(device, "sprite draw", 16, BufferUsages::STORAGE | BufferUsages::INDIRECT);
-        let project_layout = layout(device, "sprites", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Write, Write]);
-        let resources = [frame, radial, &places, &seen, &arguments].map(|buffer| buffer.as_entire_binding());
+        let project_layout = layout(device, "sprites", ShaderStages::COMPUTE, &[Uniform, Read, Read, Write, Uniform]);
         let draw_layout = layout(device, "sprites draw", ShaderStages::VERTEX, &[Read]);
+        let images = [1u32, 2, 3].map(|order| {
+            let most = disk.config.sprites / SHARES[order as usize - 1];
+            let Sprites { all, width } = Sprites::new(most, &disk.config, &disk.gas.radial);
+            let all: Vec<[f32; 3]> =
+                all.iter().map(|sprite| [sprite.radius, sprite.sigma, sprite.step].map(|value| value as f32)).collect();
+            let places = storage(gpu, "sprites", &all);
+            let seen = buffer(device, "seen sprites", SEEN_SPRITE_BYTES * all.len() as u64, BufferUsages::STORAGE);
+            let told = buffer(device, "image of sprites", 16, BufferUsages::UNIFORM);
+            gpu.queue.write_buffer(
+                &told,
+                0,
+                bytemuck::cast_slice(&[order, (width as f32).to_bits(), all.len() as u32, (disk.gas.extent()[1] as f32).to_bits()]),
+            );
+            let resources = [frame, radial, &places, &seen, &told].map(|buffer| buffer.as_entire_binding());
+            Image {
+                count: all.len() as u32,
+                project: bind(device, "sprites", &project_layout, &resources),
+                draw: bind(device, "sprites draw", &draw_layout, &[seen.as_entire_binding()]),
+            }
+        });
         let shader = module(device, "sprites draw", Pass::DiskSpritesDraw);
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
+        let project_groups = [Some(frame_layout), Some(&project_layout), Some(gas_layout)];
         SpritePass {
-            // What the buffer has room for; the least buffer is larger than none.
-            count: all.len() as u32,
-            project: compute(device, "sprites", Pass::DiskSprites, "main", &[Some(frame_layout), Some(&project_layout)]),
-            project_group: bind(device, "sprites", &project_layout, &resources),
+            project: compute(device, "sprites", Pass::DiskSprites, "main", &project_groups),
             draw: raster(device, "sprites draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]),
-            draw_group: bind(device, "sprites draw", &draw_layout, &[seen.as_entire_binding()]),
-            arguments,
+            images,
+            drawn: [false; 3],
         }
     }
 
-    /// Empties the list of seen sprites.
-    pub fn prepare(&self, gpu: &Gpu) {
-        gpu.queue.write_buffer(&self.arguments, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+    /// Draws the orders of `view`.
+    pub fn prepare(&mut self, view: &DiskView) {
+        self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring[2] == order));
+    }
+
+    /// The orders that are drawn, the farthest first.
+    fn drawn(&self) -> impl Iterator<Item = &Image> {
+        self.images.iter().zip(self.drawn).rev().filter_map(|(image, drawn)| drawn.then_some(image))
     }
 
     /// Projects them.
     pub fn compute(&self, pass: &mut wgpu::ComputePass) {
         pass.set_pipeline(&self.project);
-        pass.set_bind_group(1, &self.project_group, &[]);
-        pass.dispatch_workgroups(self.count.div_ceil(64), ORDERS, 1);
+        for image in self.drawn() {
+            pass.set_bind_group(1, &image.project, &[]);
+            pass.dispatch_workgroups(image.count.div_ceil(64), 1, 1);
+        }
     }
 
-    /// Draws those that are seen.
+    /// Draws them, each order over what is behind it.
     pub fn draw(&self, pass: &mut wgpu::RenderPass) {
         pass.set_pipeline(&self.draw);
-        pass.set_bind_group(1, &self.draw_group, &[]);
-        pass.draw_indirect(&self.arguments, 0);
+        for image in self.drawn() {
+            pass.set_bind_group(1, &image.draw, &[]);
+            pass.draw(0..3 * image.count, 0..1);
+        }
     }
 }

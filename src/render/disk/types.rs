@@ -15,7 +15,7 @@ pub struct DiskFrame {
     pub sizes: [u32; 4],
     pub regions: [u32; 4],
     pub room: [u32; 4],
-    pub sprites: [f32; 4],
+    pub light: [f32; 4],
     pub offset: [f32; 4],
 }
 
@@ -78,4 +78,4 @@ pub const ARGUMENTS_DRAW: u64 = 16;
 /// Bytes between the draws of two orders.
 pub const ARGUMENTS_DRAW_STEP: u64 = 32;
 /// Bytes of `SeenSprite` in WGSL.
-pub const SEEN_SPRITE_BYTES: u64 = 32;
+pub const SEEN_SPRITE_BYTES: u64 = 64;

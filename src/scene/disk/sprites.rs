@@ -1,29 +1,53 @@
-//! The disk as point sprites (paper 2, section 2.2), for the chart: bits of gas at random places, each a small spot.
+//! The disk as point sprites (paper 2, section 2.2), for the chart: small spots, ring by ring.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::scene::config;
 
 use super::noise::hash;
 use super::radial::Radial;
 
-/// One bit of gas.
+/// How many times as long as wide a spot is: streaks are some ten times as long. Pictures of 480 × 270 pixels from 0°, 30° and 80° are off by 2.1, 1.7 and 1.3
+/// times as much with round ones.
+const LENGTH: f64 = 3.0;
+
+/// One spot: a place that gas flows through.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sprite {
     /// Radius in r_s.
     pub radius: f64,
-    /// Azimuth at T = 0, in rad.
-    pub azimuth: f64,
+    /// Where on its ring it is, in rad from the camera's azimuth: in σ, in which the disk's image is smooth all round (`shaders/disk/sigma.wgsl`).
+    pub sigma: f64,
+    /// To the next of the same ring, in rad.
+    pub step: f64,
 }
 
-/// `disk.sprites` sprites, evenly over the disk's area.
-pub fn sprites(disk: &config::Disk, radial: &Radial) -> Vec<Sprite> {
-    let [start, end] = radial.extent();
-    (0..u64::from(disk.sprites))
-        .map(|k| {
-            let bits = hash(k, u64::from(disk.seed) << 8 | 2);
-            let [a, b] = [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64].map(|half| half / 4_294_967_296.0);
-            Sprite { radius: (start * start + a * (end * end - start * start)).sqrt(), azimuth: b * TAU }
-        })
-        .collect()
+/// Sprites of a disk.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sprites {
+    /// Ring by ring outwards, each along the rotation.
+    pub all: Vec<Sprite>,
+    /// From one ring to the next, in r_s.
+    pub width: f64,
+}
+
+impl Sprites {
+    /// `most` of them at most, evenly over the disk's area: rings of one width, each beginning at an azimuth of its own.
+    pub fn new(most: u32, disk: &config::Disk, radial: &Radial) -> Sprites {
+        let most = f64::from(most);
+        let [start, end] = radial.extent();
+        let area = PI * (end * end - start * start);
+        let wanted = (area / (most * LENGTH)).sqrt();
+        let rings = ((end - start) / wanted).round().max(1.0);
+        let width = (end - start) / rings;
+        let mut all = Vec::new();
+        for ring in 0..rings as u64 {
+            let radius = start + (ring as f64 + 0.5) * width;
+            let count = (most * TAU * radius * width / area).floor();
+            let step = TAU / count;
+            let first = hash(ring, u64::from(disk.seed) << 8 | 2) as f64 / 2f64.powi(64);
+            all.extend((0..count as u64).map(|k| Sprite { radius, sigma: (k as f64 + first) * step, step }));
+        }
+        Sprites { all, width }
+    }
 }
