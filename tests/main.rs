@@ -47,6 +47,8 @@ mod render_pictures;
 #[cfg(feature = "game")]
 mod render_shaders;
 #[cfg(feature = "game")]
+mod render_ration;
+#[cfg(feature = "game")]
 mod render_sprites;
 #[cfg(feature = "game")]
 mod render_stars;

@@ -1,0 +1,113 @@
+//! A watched aurora that takes too much of a frame is drawn with fewer streaks, until it does not; and what that does to the picture.
+
+use lensrunner::lensing;
+use lensrunner::render::Renderer;
+use lensrunner::render::aurora::ration::{Ration, shares};
+use lensrunner::render::frame::FrameInput;
+use lensrunner::render::readback::Picture;
+use lensrunner::render::renderer::Surroundings;
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::scene::{self, GameConfig};
+use std::sync::Arc;
+
+use crate::render_shaders::GPU;
+
+/// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells frames apart: times
+/// waver by a thousandth.
+fn times(part: f64, fixed: f64, streaks: f64, rest: f64, number: u32) -> [(&'static str, f32); 4] {
+    let waver = 1.0 + 0.001 * f64::from(number % 3);
+    let walk = (0.1 * part * streaks) as f32;
+    [("draw", (rest * waver) as f32), ("aurora walk", walk), ("aurora splat", (0.9 * part * streaks) as f32), ("aurora resolve", fixed as f32)]
+}
+
+#[test]
+fn an_aurora_comes_to_its_share_and_stays_there() {
+    // What streaks cost (ms beside 10 ms of everything else): nothing to speak of, a bit too much, ten times too much.
+    for streaks in [0.5, 7.0, 50.0] {
+        let mut ration = Ration::default();
+        let mut parts = Vec::new();
+        for number in 0..60 {
+            ration.follow(&times(ration.part(), 0.2, streaks, 10.0, number), 0.33);
+            parts.push(ration.part());
+        }
+        let share = |part: f64| {
+            let [aurora, rest] = shares(&times(part, 0.2, streaks, 10.0, 0));
+            aurora / (aurora + rest)
+        };
+        assert!(share(ration.part()) <= 0.332, "{streaks} ms of streaks: {:?} of them, {} of the frame", ration, share(ration.part()));
+        // No more is taken away than must be.
+        assert!(ration.part() == 1.0 || share(ration.part()) > 0.33 * 0.6, "{streaks} ms of streaks: {ration:?}");
+        // It stands still in the end, and no step of it is a jump.
+        assert!(parts[50..].windows(2).all(|pair| (pair[0] - pair[1]).abs() < 0.02 * pair[0]), "{parts:?}");
+        assert!(parts.windows(2).all(|pair| (0.79..1.11).contains(&(pair[1] / pair[0]))), "{parts:?}");
+    }
+}
+
+#[test]
+fn an_aurora_that_has_become_cheap_has_all_its_streaks_again() {
+    let mut ration = Ration::default();
+    (0..40).for_each(|number| ration.follow(&times(ration.part(), 0.2, 200.0, 10.0, number), 0.33));
+    assert!(ration.part() < 0.1, "{ration:?}");
+    // Far away it costs little.
+    (0..60).for_each(|number| ration.follow(&times(ration.part(), 0.1, 1.0, 10.0, number), 0.33));
+    assert_eq!(ration.part(), 1.0);
+    // The same times again are not looked at twice, and a frame without an aurora says nothing about it.
+    let late = times(1.0, 0.2, 200.0, 10.0, 0);
+    ration.follow(&late, 0.33);
+    let once = ration.clone();
+    ration.follow(&late, 0.33);
+    ration.follow(&[("draw", 10.0)], 0.33);
+    ration.follow(&[], 0.33);
+    ration.follow(&[("draw", f32::NAN), ("aurora splat", 1.0)], 0.33);
+    assert_eq!(ration, once);
+    // Nothing can make it less than a sixteenth, or none.
+    (0..200).for_each(|number| ration.follow(&times(1.0, 1e6, 1e6, 1e-3, number), 0.33));
+    assert_eq!(ration.part(), 1.0 / 16.0);
+}
+
+fn light(picture: &Picture) -> [f64; 3] {
+    [0, 1, 2].map(|k| picture.linear.iter().map(|pixel| f64::from(pixel[k])).sum())
+}
+
+/// The aurora alone, of a scene's own camera.
+fn alone(stage: &Stage, size: [u32; 2], config: &GameConfig) -> FrameInput {
+    let mut settings = settings(config);
+    (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
+    let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);
+    frame.placed.clear();
+    frame
+}
+
+#[test]
+fn fewer_streaks_are_wider_and_as_bright() {
+    let size = [320, 180];
+    let surroundings = Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut config = GameConfig::default();
+    config.aurora.streaks = 200_000;
+    config.aurora.share = 0.02;
+    for (name, limits) in [("aurora-side", [0.12, 0.3]), ("aurora-below", [0.12, 0.3]), ("aurora-orbit", [0.12, 0.3])] {
+        let scene = scene::load(name).unwrap();
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let all = alone(&stage, size, &config);
+        let whole = renderer.picture(&all, false).unwrap();
+        let mut number = 0;
+        for (quarter, limit) in [0.5, 0.25].into_iter().zip(limits) {
+            // Until so many are left.
+            let count = |frame: &FrameInput| frame.aurora.as_ref().unwrap().settings.counts[0];
+            while f64::from(count(&alone(&stage, size, &config))) > quarter * f64::from(count(&all)) && number < 40 {
+                number += 1;
+                stage.ration_aurora(&times(1.0, 1.0, 1.0, 1.0, number));
+            }
+            let fewer = renderer.picture(&alone(&stage, size, &config), false).unwrap();
+            let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
+            let off: f64 = fewer.linear.iter().zip(&whole.linear).map(|(p, q)| square(p, q)).sum();
+            let sum: f64 = whole.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
+            println!("{name}, {quarter}: off by {}, {:?} of {:?}", (off / sum).sqrt(), light(&fewer), light(&whole));
+            assert!((off / sum).sqrt() < limit, "{name}: a picture of {quarter} of the streaks is off by {}", (off / sum).sqrt());
+            for (fewer, whole) in light(&fewer).into_iter().zip(light(&whole)) {
+                assert!((fewer / whole - 1.0).abs() < 0.03, "{name}: {fewer} of the light of {whole}");
+            }
+        }
+    }
+}
