@@ -37,11 +37,9 @@ fn theta_between(a: f32, b: f32, t: f32) -> f32 {
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Half widths in pixels between which that ends: it moves the gas aside, and a wide image needs it no more, as the gas thins out towards its edges.
-const WIDE: vec2<f32> = vec2<f32>(1.5, 5.0);
-
-/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles. What is thinner is
-/// drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots.
+/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, and is no longer drawn wider.
+/// What is thinner is drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots. A wide image needs that no more, as
+/// the gas thins out towards its edges, and it would move the gas aside.
 const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
 
 /// Circles whose mean a thin image shows; as in src/render/disk/view.rs.
@@ -116,7 +114,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         let pixel = frame.size.z * camera_doppler_of(seen_at);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(WIDE.x, WIDE.y, half));
+        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(MEAN.x, MEAN.y, half));
         let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
         thin = vec2<f32>(d, half);
         let moved = middle + d * pixel;
@@ -176,5 +174,5 @@ fn cuts_origin() -> f32 {
 /// Frequency in the camera's frame over that in the rain frame, of light from `look`: angles there are smaller by it.
 fn camera_doppler_of(look: vec3<f32>) -> f32 {
     let m = frame.camera_from_rain;
-    return 1.0 / max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
+    return max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
 }
