@@ -174,5 +174,5 @@ fn cuts_origin() -> f32 {
 /// Frequency in the camera's frame over that in the rain frame, of light from `look`: angles there are smaller by it.
 fn camera_doppler_of(look: vec3<f32>) -> f32 {
     let m = frame.camera_from_rain;
-    return max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
+    return 1.0 / max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
 }
