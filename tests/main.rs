@@ -35,6 +35,8 @@ mod render_contestant;
 #[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
+mod render_disk_near;
+#[cfg(feature = "game")]
 mod render_horizon;
 #[cfg(feature = "game")]
 mod render_lookup;

@@ -43,12 +43,10 @@ fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
     return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
 }
 
-/// The pattern with its finest octaves.
+/// The pattern without its finest octaves, without a grain. Those are the same, eight times finer.
 fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
     // A texel that is smaller than a pixel is filtered as it is.
-    let coarse = textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
-    let fine = 8.0 * uv;
-    return coarse + 0.35 * textureSampleLevel(near_pattern, near_sampler, select(fine, smooth_place(fine), level < -3.0), level + 3.0).x;
+    return textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
 }
 
 /// Places along a pixel that streaks are looked up at, at most, from near: low over the plane pixels are longest.
@@ -57,15 +55,43 @@ const CLOSE_TAPS: u32 = 16u;
 /// is left to be seen, and each place costs half as much.
 const LONG: vec2<f32> = vec2<f32>(1.5, 3.0);
 
+/// From one place along a pixel to the next that the finest octaves are looked up at without a grain, in texels of the pattern: their cells are half a texel
+/// by a quarter, and one place in a longer pixel is a coincidence, which made stairs and dashes of streaks.
+const FINE_STEP: f32 = 0.5;
+/// Such places, at most.
+const FINE_TAPS: f32 = 4.0;
+/// The finest octaves over the others.
+const FINE: f32 = 0.35;
+
+/// The streaks of both generations without a grain: once, and the finest octaves at `taps` places along a pixel. What differs there has one colour, by its
+/// mean and its variance.
+fn near_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
+    let level = 0.5 * log2(max(at.square, 1e-12));
+    let share = 1.0 / f32(max(taps, 1u));
+    var sum = 0.0;
+    var squares = 0.0;
+    for (var k = 0u; k < taps; k++) {
+        let t = (f32(k) + 0.5) * share - 0.5;
+        let even = close_pattern(8.0 * (at.even + t * at.even_side), level + 3.0);
+        let odd = close_pattern(8.0 * (at.odd + t * at.odd_side), level + 3.0);
+        let power = FINE * (in.even.w * even + in.odd.w * odd);
+        sum += power;
+        squares += power * power;
+    }
+    let mean = sum * share;
+    let power = in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level);
+    return Cooling(power + mean, unseen_of(in, unseen_variance(level)) + 0.48045301 * max(squares * share - mean * mean, 0.0));
+}
+
 /// From near: the slant in each pixel, streaks without a grain.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let at = streaks_of(in, STEP * f32(CLOSE_TAPS));
-    let share = smoothstep(LONG.x, LONG.y, sqrt(at.long));
+    let long = sqrt(at.long);
+    let share = smoothstep(LONG.x, LONG.y, long);
     // Places that do not count are not looked at.
-    let far = far_along(in, at, select(1u, taps_of(at, CLOSE_TAPS), share > 0.0));
-    let level = 0.5 * log2(max(at.square, 1e-12));
-    let near = Cooling(in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level), unseen_of(in, unseen_variance(level)));
+    let far = far_along(in, at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
+    let near = near_along(in, at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
     return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);

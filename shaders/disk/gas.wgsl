@@ -167,11 +167,11 @@ fn unseen_of(in: Gas, variance: f32) -> f32 {
     return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
 }
 
-/// The streaks of both generations from far, at `taps` places along a pixel: what is seen there has one colour, by its mean and its variance, as what is not
+/// The streaks of both generations from far, at `taps` places along a pixel (of none: nothing): what is seen there has one colour, by its mean and its variance, as what is not
 /// seen at all.
 fn far_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
     let level = far_level(at);
-    let share = 1.0 / f32(taps);
+    let share = 1.0 / f32(max(taps, 1u));
     var sum = 0.0;
     var squares = 0.0;
     for (var k = 0u; k < taps; k++) {

@@ -3,11 +3,9 @@
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Half widths in pixels between which that ends: it moves the gas aside, and a wide image needs it no more, as the gas thins out towards its edges.
-const WIDE: vec2<f32> = vec2<f32>(1.5, 5.0);
-
-/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles. What is thinner is
-/// drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots.
+/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, and is no longer drawn wider.
+/// What is thinner is drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots. A wide image needs that no more, as
+/// the gas thins out towards its edges, and it would move the gas aside.
 const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
 
 /// Circles whose mean a thin image shows; as in src/render/disk/view.rs.
@@ -16,6 +14,20 @@ const THIN_SAMPLES: u32 = 8u;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f32 = 26160.0;
 
+/// The variance of the pattern and its finest octaves: 1 and 0.35².
+const VARIANCE: f32 = 1.1225;
+
+/// ln of the light of gas at GREEN/T = `x` in the mean over streaks by which ln T has the variance `v`: what gas_colour makes of it.
+fn mean_light(x: f32, v: f32) -> f32 {
+    return 0.5 * v * (x * x - x) / (1.0 + v * x) - x;
+}
+
+/// The inverse: x of gas whose light has the logarithm `light` in the mean.
+fn mean_light_of(light: f32, v: f32) -> f32 {
+    let b = 1.0 + v * (0.5 + light);
+    return -2.0 * light / (b + sqrt(b * b - 2.0 * v * light));
+}
+
 /// The gas that is as bright as an image is in the mean over its width, where that is thin: all of it is seen by the same ray. x: ln of the temperature
 /// that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera, `observed` its frequency there.
 fn mean_gas(first: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
@@ -23,6 +35,8 @@ fn mean_gas(first: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> v
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    // Streaks brighten cold gas more than warm gas: the mean is that of light with them.
+    let v = VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
     var light = 0.0;
     var stopped = 0.0;
     for (var k = first; k < min(first + THIN_SAMPLES, arrayLength(&circles)); k++) {
@@ -31,11 +45,12 @@ fn mean_gas(first: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> v
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
         let temperature = exp(there.gas.z) * select(1.0, clamp(observed / found.x, 1e-3, 1e3), shifts);
         let stops = 1.0 - exp(-there.gas.w / max(found.y, LEAST_COSINE));
-        light += stops * exp(-GREEN / temperature);
+        light += stops * exp(mean_light(GREEN / temperature, v));
         stopped += stops;
     }
     let own = max(stopped, 1e-6);
-    return vec2<f32>(log(GREEN / -log(clamp(light / own, 1e-37, 0.999))), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)));
+    let x = mean_light_of(log(clamp(light / own, 1e-37, 0.999)), v);
+    return vec2<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)));
 }
 
 /// The vertex of `row` at θ.
@@ -82,7 +97,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         let pixel = frame.size.z * camera_doppler_of(seen_at);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(WIDE.x, WIDE.y, half));
+        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(MEAN.x, MEAN.y, half));
         let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
         thin = vec2<f32>(d, half);
         let moved = middle + d * pixel;

@@ -41,13 +41,19 @@ pub struct Crossing {
 
 /// Linear light (red, green, blue) of the disk alone, row by row from the top, black where it is not; `samples`² samples a pixel in a regular grid.
 pub fn picture(gas: &Gas, eye: &Eye, size: [u32; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
+    part(gas, eye, size, [[0; 2], size], time, orders, samples)
+}
+
+/// A part of that picture: the pixel where it begins, from the left and the top, and its width and height.
+pub fn part(gas: &Gas, eye: &Eye, size: [u32; 2], part: [[u32; 2]; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
     let colours = blackbody::table(4096, 200.0, 2.0e6);
     let samples = samples.max(1);
     let step = 1.0 / f64::from(samples);
-    (0..size[0] * size[1])
+    let [[left, top], [width, height]] = part;
+    (0..width * height)
         .into_par_iter()
         .map(|index| {
-            let (x, y) = (f64::from(index % size[0]), f64::from(index / size[0]));
+            let (x, y) = (f64::from(left + index % width), f64::from(top + index / width));
             let mut sum = [0.0; 3];
             for k in 0..samples * samples {
                 let at = [x + (f64::from(k % samples) + 0.5) * step, y + (f64::from(k / samples) + 0.5) * step];

@@ -8,4 +8,4 @@ pub mod places;
 pub mod script;
 
 pub use error::{PictureError, compare, peak};
-pub use exact::{Eye, picture};
+pub use exact::{Eye, part, picture};

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::frame::{Camera, FrameInput};
-use crate::scene::disk::radial::smoothstep;
+use crate::scene::disk::radial::{LAST_ORBIT, smoothstep};
 use crate::scene::disk::{DISK_UNIT, LEAST_COSINE, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
@@ -38,6 +38,11 @@ const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, st
 const MEAN: [f64; 2] = [0.25, 1.0];
 /// Circles whose mean a thin image shows, as in shaders/disk/place.wgsl.
 const THIN_SAMPLES: usize = 8;
+/// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
+/// the first two misses the lag by 0.02 rad.
+const FALL_STEP: f64 = 0.05;
+/// Circles nearer to one another than this, in r_s, are one.
+const LEAST_RING: f64 = 1e-3;
 /// Azimuths at which that is tried, on one side, for both sides are alike.
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
@@ -99,7 +104,8 @@ impl DiskView {
                 continue;
             }
             let first = circles.len() as u32;
-            let seen: Vec<SeenCircle> = disk.arcs.circles.iter().map(|&r| SeenCircle::new(disk, camera, slice, order, r)).collect();
+            let seen: Vec<SeenCircle> =
+                radii(disk, order <= close).into_iter().map(|r| SeenCircle::new(disk, camera, slice, order, r)).collect();
             let (rows, pairs) = rows(disk, camera, &seen, width, order, if order <= close { FROM_NEAR } else { FROM_FAR });
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
@@ -145,11 +151,25 @@ impl DiskView {
     }
 }
 
+/// The radii to choose from, ascending, in r_s: the arcs' circles, and from near more of them in the falling gas. By how much its pattern is ahead grows as
+/// the root of the way from the last orbit, which the straight line between two arcs' circles missed by up to a tenth of a radian; and at that orbit the
+/// pattern has a kink.
+fn radii(disk: &Disk, close: bool) -> Vec<f64> {
+    let mut radii = disk.arcs.circles.clone();
+    let [start, _] = disk.gas.extent();
+    if close && disk.config.gap <= 0.0 && start < LAST_ORBIT {
+        let falling = (0..).map(|k| LAST_ORBIT - (FALL_STEP * f64::from(k)).powi(2));
+        radii.extend(falling.take_while(|&r| r > start));
+        radii.sort_by(f64::total_cmp);
+        radii.dedup_by(|next, r| *next - *r < LEAST_RING);
+    }
+    radii
+}
+
 /// The radii to draw in an order and the pairs of them with gas between.
 fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32, within: Straight) -> (Vec<f64>, Vec<[u32; 2]>) {
-    let circles = &disk.arcs.circles;
     if disk.config.gap > 0.0 {
-        return (circles.clone(), disk.arcs.rings.clone());
+        return (disk.arcs.circles.clone(), disk.arcs.rings.clone());
     }
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
@@ -170,14 +190,14 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
         })
     };
     let mut chosen = vec![0];
-    for k in 1..circles.len() {
+    for k in 1..seen.len() {
         let last = *chosen.last().unwrap_or(&0);
-        if k + 1 == circles.len() || !straight(last, k + 1) {
+        if k + 1 == seen.len() || !straight(last, k + 1) {
             chosen.push(k);
         }
     }
     let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
-    (chosen.into_iter().map(|k| circles[k]).collect(), pairs)
+    (chosen.into_iter().map(|k| seen[k].radius).collect(), pairs)
 }
 
 /// Sets heat and depth of circles at `radii` so that what goes straight between them is off by as little as can be in the mean, and not by nothing on
