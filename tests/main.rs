@@ -47,9 +47,9 @@ mod render_outside;
 #[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
-mod render_shaders;
-#[cfg(feature = "game")]
 mod render_ration;
+#[cfg(feature = "game")]
+mod render_shaders;
 #[cfg(feature = "game")]
 mod render_sprites;
 #[cfg(feature = "game")]

@@ -182,12 +182,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (high.w * low.w == 0.0) | (a.apparent.w * b.apparent.w == 0.0) {
             continue;
         }
-        if is_linear {
-            // Linear on the screen between top and foot, as in paper 3.
-            let t = (range.x - height - vec2<f32>(half_km, -half_km)) / (range.x - range.y);
-            high = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x) * -high.z, high.zw);
-            low = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.y) * -low.z, low.zw);
-        }
+        // Linear on the screen between top and foot, if paper 3's way is asked for.
+        let t = (range.x - height - vec2<f32>(half_km, -half_km)) / (range.x - range.y);
+        let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
+        high = vec4<f32>(select(high.xy, screen.xy * -high.z, is_linear), high.zw);
+        low = vec4<f32>(select(low.xy, screen.zw * -low.z, is_linear), low.zw);
         // What is behind the camera, or much nearer than the rest, is cut off.
         let least = max(frame.projection.z, NEAREST * max(-high.z, -low.z));
         if max(-high.z, -low.z) <= least {

@@ -435,10 +435,8 @@ fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
 
 /// Φ of `order` for the point at `at`.
 fn swept(at: Place, order: u32) -> f32 {
-    if order == 2u {
-        return 2.0 * HALF_TURN - at.phi;
-    }
-    return select(at.phi, 2.0 * HALF_TURN + at.phi, order == 3u);
+    // No branch: where the order is the same for a whole pass a driver would compile it anew for each.
+    return select(at.phi, select(2.0 * HALF_TURN - at.phi, 2.0 * HALF_TURN + at.phi, order == 3u), order != 1u);
 }
 
 /// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the
