@@ -6,7 +6,7 @@ use lensrunner::measure::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, 
 use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
-use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, Rooms};
+use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
 use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::placements::against_static;
@@ -435,7 +435,7 @@ fn rooms_of_splats_do_not_overlap() {
         let numbers = rooms.empty(images);
         assert_eq!(16 * numbers.len() as u64, u64::from(images) * DRAWS_BYTES);
         let mut after = 0;
-        for image in numbers.chunks(PYRAMID as usize + 1) {
+        for image in numbers.chunks(FOURS) {
             for pair in 0..levels.div_ceil(2) {
                 // As many as room_of lets in, from the beginning of the first level's and from the end of the second's.
                 let room = CORNERS * (finest >> pair) as u32;

@@ -1,10 +1,14 @@
 // Last pass of the aurora: the spectrum becomes a colour, and is added to the picture.
 
 @group(1) @binding(0) var accumulated: texture_2d<f32>;
-/// Linear sRGB of a kilorayleigh of each line, seen with this image's Doppler shift, in the unit of the picture's luminance.
+/// Linear sRGB of a kilorayleigh of each line, seen with this image's Doppler shift, in the unit of the picture's luminance. w of the first: where the rows
+/// of this image begin in `lit_rows`; of the second: height of a row in NDC.
 @group(1) @binding(1) var<uniform> line_colours: array<vec4<f32>, 4>;
 /// The next coarser level of the pyramid, with all that is in those coarser still.
 @group(1) @binding(2) var coarse: texture_2d<f32>;
+
+/// A bit for each row of the screen that may have light, among other numbers.
+@group(1) @binding(3) var<storage, read> lit_rows: array<u32>;
 
 /// Colours go along from the vertices: a software driver reads a uniform in every pixel anew.
 struct Screen {
@@ -17,8 +21,12 @@ struct Screen {
 
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> Screen {
-    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
-    let position = vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0);
+    // Two triangles for each row, or none.
+    let row = i / 6u;
+    let k = i % 6u;
+    let lit = (lit_rows[u32(line_colours[0].w) + row / 32u] >> (row & 31u)) & 1u;
+    let corner = vec2<f32>(select(-1.0, 1.0, (k & 1u) == 1u), select(0.0, 1.0, (k >= 2u) & (k != 3u)));
+    let position = vec4<f32>(corner.x, 1.0 - (f32(row) + corner.y * f32(lit)) * line_colours[1].w, 0.0, 1.0);
     return Screen(position, line_colours[0].xyz, line_colours[1].xyz, line_colours[2].xyz, line_colours[3].xyz);
 }
 

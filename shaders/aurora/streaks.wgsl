@@ -54,7 +54,8 @@ struct ChordEnd {
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
 @group(1) @binding(6) var<storage, read_write> strokes: array<Stroke>;
-/// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then splats in each pair of levels.
+/// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then strokes in each pair of levels,
+/// and a bit for each row of the screen that may be lit.
 @group(1) @binding(7) var<storage, read_write> splat_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
 /// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.

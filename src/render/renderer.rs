@@ -383,7 +383,7 @@ impl Renderer {
         let bytes = readback::buffer(&self.gpu, self.aurora.draws())?;
         let draws: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         let levels = self.aurora.levels().count();
-        let all = draws.chunks(super::aurora::PYRAMID as usize + 1).take(self.aurora.images() as usize);
+        let all = draws.chunks(super::aurora::rooms::FOURS).take(self.aurora.images() as usize);
         Ok(Some(all.fold(vec![0; levels], |sum, image| {
             sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / super::aurora::rooms::CORNERS).collect()
         })))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use wgpu::{BufferUsages, ShaderStages};
 
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
-use super::rooms::{DRAWS_BYTES, Rooms};
+use super::rooms::{DRAWS_BYTES, ROWS, Rooms};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -92,7 +92,8 @@ impl Aurora {
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
         let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform, Read]);
         let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
-        let resolve_layout = layout(device, "aurora resolve", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers]);
+        let resolve_layout =
+            layout(device, "aurora resolve", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers, Read]);
         let one = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,
@@ -192,15 +193,16 @@ impl Aurora {
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
-        for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
-            gpu.queue.write_buffer(
-                buffer,
-                0,
-                bytemuck::cast_slice(&colours.map(|[x, y, z, _]| {
-                    let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
-                    [r as f32, g as f32, b as f32, 0.0]
-                })),
-            );
+        let row = targets.size[1].div_ceil(ROWS) as f32 * 2.0 / targets.size[1] as f32;
+        for (image, (buffer, colours)) in self.colours.iter().zip(&frame.colours).enumerate() {
+            let mut colours = colours.map(|[x, y, z, _]| {
+                let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
+                [r as f32, g as f32, b as f32, 0.0]
+            });
+            // The rows of an image are the last of its numbers.
+            colours[0][3] = (DRAWS_BYTES / 4 * (image as u64 + 1) - 4) as f32;
+            colours[1][3] = row;
+            gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&colours));
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];
@@ -229,10 +231,14 @@ impl Aurora {
             let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);
             wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
         };
-        let resolve = self
-            .colours
-            .iter()
-            .map(|colours| bind(device, "aurora resolve", &self.resolve_layout, &[light(0), colours.as_entire_binding(), light(1)]));
+        let resolve = self.colours.iter().map(|colours| {
+            bind(
+                device,
+                "aurora resolve",
+                &self.resolve_layout,
+                &[light(0), colours.as_entire_binding(), light(1), self.draws.as_entire_binding()],
+            )
+        });
         let spread = (1..self.rooms.levels).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
         Some(Groups {
             walk: bind(device, "aurora walk", &self.walk_layout, &walk),
@@ -309,7 +315,7 @@ impl Aurora {
         pass.set_pipeline(&self.resolve);
         pass.set_bind_group(1, &bound.resolve[image as usize], &[]);
         self.within(pass, image, |part| part);
-        pass.draw(0..3, 0..1);
+        pass.draw(0..6 * ROWS, 0..1);
     }
 
     /// Only where the image may be; `level` says where that is in a level.

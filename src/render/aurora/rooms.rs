@@ -3,8 +3,12 @@
 
 use super::levels::PYRAMID;
 
-/// Bytes of the numbers of one image: draw arguments of each level, then splats in each pair of levels.
-pub const DRAWS_BYTES: u64 = 16 * (PYRAMID as u64 + 1);
+/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each of [`ROWS`] whether light may be there.
+pub const FOURS: usize = PYRAMID as usize + 2;
+/// Bytes of them.
+pub const DRAWS_BYTES: u64 = 16 * FOURS as u64;
+/// Rows of equal height that the screen is divided into: the last pass leaves out those without light. As in rooms.wgsl.
+pub const ROWS: u32 = 128;
 
 /// Vertices of a stroke; as in stroke.wgsl.
 pub const CORNERS: u32 = 6;
@@ -36,7 +40,7 @@ impl Rooms {
                 let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
                 [0, 1, CORNERS * first as u32, 0]
             };
-            (0..PYRAMID).map(level).chain([[0; 4]])
+            (0..PYRAMID).map(level).chain([[0; 4]; 2])
         };
         (0..images).flat_map(image).collect()
     }
