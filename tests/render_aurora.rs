@@ -407,12 +407,12 @@ fn the_pyramid_changes_no_picture() {
         let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings(&config));
         (frame.settings.stars, frame.settings.milky_way, frame.settings.bloom) = (false, false, 0.0);
         let got = renderer.picture(&frame, false).unwrap();
-        let levels = renderer.aurora_splats().unwrap().unwrap();
+        let levels = renderer.aurora_strokes().unwrap().unwrap();
         let coarse: u32 = levels[1..].iter().sum();
         assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
-        frame.aurora.as_mut().unwrap().settings.splats[1] = 1.0;
+        frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
         let want = renderer.picture(&frame, false).unwrap();
-        assert_eq!(renderer.aurora_splats().unwrap().unwrap().len(), 1);
+        assert_eq!(renderer.aurora_strokes().unwrap().unwrap().len(), 1);
         let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
         let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
         let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
@@ -429,7 +429,7 @@ fn the_pyramid_changes_no_picture() {
 }
 
 #[test]
-fn rooms_of_splats_do_not_overlap() {
+fn rooms_of_strokes_do_not_overlap() {
     for (finest, levels, images) in [(8, 1, 3), (800, PYRAMID, 2), (64, 4, 3)] {
         let rooms = Rooms { finest, levels };
         let numbers = rooms.empty(images);
@@ -451,7 +451,7 @@ fn rooms_of_splats_do_not_overlap() {
 }
 
 #[test]
-fn parts_of_a_streak_that_are_one_splat_change_no_picture() {
+fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
     let size = [192, 108];
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
     let mut config = GameConfig::default();
@@ -465,8 +465,8 @@ fn parts_of_a_streak_that_are_one_splat_change_no_picture() {
             let streaks = settings.counts[0];
             (settings.counts[2], settings.history[2]) = (parts, 48 * streaks);
             let picture = renderer.picture(&frame, false).unwrap();
-            let splats: u32 = renderer.aurora_splats().unwrap().unwrap().iter().sum();
-            assert!(f64::from(splats) < 0.8 * f64::from(parts * streaks), "{name}: {splats} splats, {parts} parts");
+            let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
+            assert!(f64::from(strokes) < 0.8 * f64::from(parts * streaks), "{name}: {strokes} strokes, {parts} parts");
             picture
         });
         let [few, many] = &drawn;

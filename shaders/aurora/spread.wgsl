@@ -1,4 +1,4 @@
-// Between the splats of two levels of the aurora's pyramid: what was added up in the coarser one is enlarged into the finer.
+// Between the strokes of two levels of the aurora's pyramid: what was added up in the coarser one is enlarged into the finer.
 
 @group(1) @binding(0) var coarse: texture_2d<f32>;
 

@@ -2,14 +2,14 @@
 // planet, in the axes of its magnetic dipole (+z north); see src/scene/aurora for the physics, and src/render/aurora for who fills what.
 
 struct AuroraSettings {
-    /// x: streaks, y: chords of a streak that is not red, z: splats of a streak, w: nodes in a row of the history.
+    /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: rows of the history, y: segments, z: room for splats of one placement in the two finest levels (see room_of), w: AURORA_*.
+    /// x: rows of the history, y: segments, z: room for strokes of one placement in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
     /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw unused.
-    splats: vec4<f32>,
+    strokes: vec4<f32>,
 };
 
 /// The paper's walk: linear on the screen.
@@ -56,7 +56,7 @@ struct ChordEnd {
 @group(1) @binding(6) var<storage, read_write> strokes: array<Stroke>;
 /// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then strokes in each pair of levels,
 /// and a bit for each row of the screen that may be lit.
-@group(1) @binding(7) var<storage, read_write> splat_draws: array<atomic<u32>>;
+@group(1) @binding(7) var<storage, read_write> stroke_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
 /// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;
@@ -174,7 +174,7 @@ fn streak_of(index: u32) -> Streak {
     streak.apart = 1.0 / f32(all);
     streak.along = (f32(own) + 0.5) * streak.apart;
     // Spread over its part of the curtain.
-    let point = aurora.splats.x * aurora.splats.x;
+    let point = aurora.strokes.x * aurora.strokes.x;
     let gap = segments[low].light.z * streak.apart / SMOOTH;
     streak.spread = vec2<f32>(max(point, gap * gap), point + segments[low].light.y * segments[low].light.y / 12.0);
     let even = fract(EVEN * f32(own) + unit(hash(2u * low + streak.kind)));

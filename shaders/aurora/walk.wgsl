@@ -2,13 +2,13 @@
 // ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Paper 3 steps linearly on the
 // screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
-/// Variance that a pixel itself has, and the least that a splat may have: light must not depend on where in its pixel a point is.
+/// Variance that a pixel itself has, and the least that a stroke may have: light must not depend on where in its pixel a point is.
 const PIXEL_VARIANCE: f32 = 0.35;
-/// The widest a splat may be, pixels: one just before the camera is large, and faint.
+/// The widest a stroke may be, pixels: one just before the camera is large, and faint.
 const MOST_SIGMA: f32 = 160.0;
-/// The brightest that the middle of one splat may be, kR: sums of them must stay within half floats.
+/// The brightest that the middle of one stroke may be, kR: sums of them must stay within half floats.
 const BRIGHTEST: f32 = 1e4;
-/// Fainter splats are left out, kR.
+/// Fainter strokes are left out, kR.
 const FAINTEST: f32 = 1e-4;
 
 /// Pixels that the apparent place `c` moves by when it changes by `v`.
@@ -17,7 +17,7 @@ fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
     return focal * (v.xy + c.xy * (v.z * inverse)) * inverse;
 }
 
-/// Splats whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more: less would be too narrow for
+/// Strokes whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more: less would be too narrow for
 /// the coarse pixels once what enlarging adds has been taken off.
 const NARROW: f32 = 1.5;
 /// Sizes of the tiles whose depths are known: 8 pixels, 16, and so on.
@@ -41,7 +41,7 @@ fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
     return range;
 }
 
-/// Km around the ends of a streak that its splats may reach, beside their spread: the longest stretch goes half its length beyond them.
+/// Km around the ends of a streak that its strokes may reach, beside their spread: the longest stretch goes half its length beyond them.
 const BEYOND: f32 = 30.0;
 
 /// Whether nothing of a streak can be seen: all its ends are beyond one edge of the screen, or behind what is drawn there.
@@ -84,7 +84,7 @@ const SHORTEST: f32 = 0.25;
 /// Nearer ends of a stroke are cut off, as a part of the farther one's distance: one may be behind the camera.
 const NEAREST: f32 = 0.1;
 
-/// Km along the fall that are as long on the screen as a splat is wide there (one standard deviation), about the upper end of the chord at a height.
+/// Km along the fall that are as long on the screen as a stroke is wide there (one standard deviation), about the upper end of the chord at a height.
 fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<f32>) -> f32 {
     let kind = streak.kind;
     let chord = chord_at(kind, height, count);
@@ -206,7 +206,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let across = screen_step(c, mix(a.across.xyz, b.across.xyz, s), focal);
         let fallen = screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal);
         // The blur of a point of it, seen through the derivative of the projection, J: J diag(σ²) Jᵀ.
-        let variance = vec3<f32>(streak.spread, aurora.splats.x * aurora.splats.x);
+        let variance = vec3<f32>(streak.spread, aurora.strokes.x * aurora.strokes.x);
         let x = vec3<f32>(along.x, across.x, fallen.x);
         let y = vec3<f32>(along.y, across.y, fallen.y);
         let blur = vec3<f32>(dot(variance, x * x), dot(variance, x * y), dot(variance, y * y)) + vec3<f32>(PIXEL_VARIANCE, 0.0, PIXEL_VARIANCE);
@@ -226,7 +226,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let gap = sqrt(0.25 * (total - vv) * (total - vv) + uv * uv);
         let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
         // The level at which it is three quarters to one and a half pixels narrow.
-        let coarsest = max(u32(aurora.splats.y), 1u) - 1u;
+        let coarsest = max(u32(aurora.strokes.y), 1u) - 1u;
         var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
         let clip = clip_position(c);
         let high_clip = clip_position(high.xyz);

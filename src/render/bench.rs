@@ -51,8 +51,8 @@ pub struct FrameTimes {
     pub passes: Vec<(&'static str, f64)>,
     /// What the stages of the geometry counted in the last frame.
     pub counters: Counters,
-    /// Splats of the aurora in it, by level of the pyramid.
-    pub splats: Option<Vec<u32>>,
+    /// Strokes of the aurora in it, by level of the pyramid.
+    pub strokes: Option<Vec<u32>>,
 }
 
 impl fmt::Display for FrameTimes {
@@ -69,10 +69,10 @@ impl fmt::Display for FrameTimes {
         }
         write!(f, "\n  {}", self.counters)?;
         let passes: Vec<(&str, f32)> = self.passes.iter().map(|&(label, time)| (label, time as f32)).collect();
-        if let ([aurora, rest], Some(splats)) = (shares(&passes), &self.splats) {
+        if let ([aurora, rest], Some(strokes)) = (shares(&passes), &self.strokes) {
             write!(f, "\n  the aurora takes {:.2} of the passes' time", aurora / (aurora + rest))?;
-            let levels: Vec<String> = splats.iter().map(u32::to_string).collect();
-            write!(f, "\n  {} splats of the aurora (each level of half the size: {})", splats.iter().sum::<u32>(), levels.join(", "))?;
+            let levels: Vec<String> = strokes.iter().map(u32::to_string).collect();
+            write!(f, "\n  {} strokes of the aurora (each level of half the size: {})", strokes.iter().sum::<u32>(), levels.join(", "))?;
         }
         Ok(())
     }
@@ -160,7 +160,7 @@ pub fn frame_times(
         processor,
         passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
         counters: renderer.counters()?,
-        splats: renderer.aurora_splats()?,
+        strokes: renderer.aurora_strokes()?,
     })
 }
 

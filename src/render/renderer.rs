@@ -375,8 +375,8 @@ impl Renderer {
         Ok(*bytemuck::from_bytes(&bytes[..size_of::<Counters>()]))
     }
 
-    /// Splats of the aurora in the last frame, by level of its pyramid, all images together; None if none was prepared.
-    pub fn aurora_splats(&self) -> Result<Option<Vec<u32>>, PictureError> {
+    /// Strokes of the aurora in the last frame, by level of its pyramid, all images together; None if none was prepared.
+    pub fn aurora_strokes(&self) -> Result<Option<Vec<u32>>, PictureError> {
         if self.aurora.images() == 0 {
             return Ok(None);
         }
@@ -422,7 +422,7 @@ fn draw_aurora(
             run(&mut pass);
         };
         for (level, light) in aurora.levels() {
-            draw("aurora splat", light, true, level == 0, &|pass| aurora.splat(pass, image, level));
+            draw("aurora strokes", light, true, level == 0, &|pass| aurora.draw(pass, image, level));
         }
         draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
     }

@@ -75,7 +75,7 @@ pub enum Pass {
     /// Walks between the ends of chords.
     AuroraWalk,
     /// Adds up the aurora's light.
-    AuroraSplat,
+    AuroraDraw,
     /// Enlarges a coarse picture of it into the next finer one.
     AuroraSpread,
     /// Makes it a colour.
@@ -124,7 +124,7 @@ impl Pass {
         Pass::AuroraEnds,
         Pass::AuroraRanges,
         Pass::AuroraWalk,
-        Pass::AuroraSplat,
+        Pass::AuroraDraw,
         Pass::AuroraSpread,
         Pass::AuroraResolve,
         Pass::Compose,
@@ -168,7 +168,7 @@ impl Pass {
             Pass::AuroraEnds => include_str!("../../shaders/aurora/ends.wgsl"),
             Pass::AuroraRanges => include_str!("../../shaders/aurora/ranges.wgsl"),
             Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
-            Pass::AuroraSplat => include_str!("../../shaders/aurora/splat.wgsl"),
+            Pass::AuroraDraw => include_str!("../../shaders/aurora/draw.wgsl"),
             Pass::AuroraSpread => include_str!("../../shaders/aurora/spread.wgsl"),
             Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
@@ -191,7 +191,7 @@ impl Pass {
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw => vec![TYPES, BINDINGS],
-            Pass::AuroraSplat => vec![STROKE],
+            Pass::AuroraDraw => vec![STROKE],
             Pass::AuroraProject => {
                 vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STROKE, STREAKS]
             }

@@ -192,7 +192,7 @@ config! {
         enabled: bool = true, Switch, "", "the aurora is simulated and drawn";
         walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in paper 3";
         streaks: u32 = 24_000u32, integer(64, 200_000), "streaks", "most streaks drawn; fewer when the aurora is small on the screen";
-        splats: u32 = 8u32, integer(4, 48), "splats", "parts in which the light along a streak is drawn";
+        parts: u32 = 8u32, integer(4, 48), "parts", "parts in which the light along a streak is drawn";
         share: f64 = 0.33, number(0.02, 1.0), "", "most of a frame's time that it takes in the window: streaks become fewer and wider";
         radius: f64 = 0.8, number(0.05, 50.0), "km", "spread of a luminous point (the planet's radius is 6371 km)";
         energy: f64 = 4.0, number(0.1, 100.0), "keV", "energy that electrons gain in the potential above the aurora";

@@ -1,8 +1,8 @@
-//! The pyramid of pictures in which the aurora's light is added up. A wide splat goes to the level where it is three quarters to one and a half pixels narrow; each level
-//! is enlarged into the next finer one before the splats of that one are added. Levels but the finest have a texel of margin on each side, so that
+//! The pyramid of pictures in which the aurora's light is added up. A wide stroke goes to the level where it is three quarters to one and a half pixels narrow; each level
+//! is enlarged into the next finer one before the strokes of that one are added. Levels but the finest have a texel of margin on each side, so that
 //! enlarging reads no texel outside.
 //!
-//! Coarse levels know no depth: only splats that are before everything in their box go there (shaders/aurora/walk.wgsl), by [`Ranges`].
+//! Coarse levels know no depth: only strokes that are before everything in their box go there (shaders/aurora/walk.wgsl), by [`Ranges`].
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -12,12 +12,12 @@ use crate::render::shaders::Pass;
 use crate::render::targets::target;
 use crate::render::timing::Timing;
 
-/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl. In the coarsest the widest splat (160 pixels) is 2.5 pixels wide.
+/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl. In the coarsest the widest stroke (160 pixels) is 2.5 pixels wide.
 pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
 
-/// In what light is added up: full floats where the adapter blends them. Halves have 11 bits; thousands of faint splats in one of them are rounded one by one, in
+/// In what light is added up: full floats where the adapter blends them. Halves have 11 bits; thousands of faint strokes in one of them are rounded one by one, in
 /// the order in which threads appended them, so that the same frame drawn again wavers by some per cent.
 pub fn light_format(device: &wgpu::Device) -> wgpu::TextureFormat {
     let full = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE);
@@ -33,7 +33,7 @@ pub struct Levels {
     pub lights: Vec<wgpu::TextureView>,
     /// What is enlarged where there is no coarser level: black.
     pub nothing: wgpu::TextureView,
-    /// `Level` of splat.wgsl.
+    /// `Level` of stroke.wgsl.
     pub places: Vec<wgpu::Buffer>,
 }
 

@@ -1,4 +1,4 @@
-//! The aurora: electrons on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), splats are added up
+//! The aurora: its light on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), strokes are added up
 //! line by line, and the spectrum becomes a colour at the end.
 //!
 //! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
@@ -26,7 +26,7 @@ pub struct AuroraSettings {
     pub counts: [u32; 4],
     pub history: [u32; 4],
     pub clock: [f32; 4],
-    pub splats: [f32; 4],
+    pub strokes: [f32; 4],
 }
 
 /// `Segment` in WGSL.

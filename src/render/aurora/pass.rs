@@ -42,11 +42,11 @@ pub struct Aurora {
     walk: wgpu::ComputePipeline,
     ranges: Ranges,
     /// Into the finest level, tested by depth, and into the others.
-    splat: [wgpu::RenderPipeline; 2],
+    draw: [wgpu::RenderPipeline; 2],
     spread: wgpu::RenderPipeline,
     resolve: wgpu::RenderPipeline,
     walk_layout: wgpu::BindGroupLayout,
-    splat_layout: wgpu::BindGroupLayout,
+    draw_layout: wgpu::BindGroupLayout,
     spread_layout: wgpu::BindGroupLayout,
     resolve_layout: wgpu::BindGroupLayout,
     settings: wgpu::Buffer,
@@ -77,7 +77,7 @@ pub struct Aurora {
 struct Groups {
     walk: wgpu::BindGroup,
     /// By level.
-    splat: Vec<wgpu::BindGroup>,
+    draw: Vec<wgpu::BindGroup>,
     /// Of the next coarser level into each but the finest.
     spread: Vec<wgpu::BindGroup>,
     resolve: Vec<wgpu::BindGroup>,
@@ -90,7 +90,7 @@ impl Aurora {
         let device = &gpu.device;
         let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
-        let splat_layout = layout(device, "aurora splat", ShaderStages::VERTEX, &[Uniform, Read]);
+        let draw_layout = layout(device, "aurora strokes", ShaderStages::VERTEX, &[Uniform, Read]);
         let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
         let resolve_layout =
             layout(device, "aurora resolve", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers, Read]);
@@ -107,17 +107,17 @@ impl Aurora {
         };
         let groups = [Some(frame_layout), Some(&walk_layout)];
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
-        let splat_module = module(device, "aurora splat", Pass::AuroraSplat);
-        let splat = |depth| {
+        let draw_module = module(device, "aurora strokes", Pass::AuroraDraw);
+        let draw_strokes = |depth| {
             let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
-            raster(device, "aurora splat", &splat_module, stage, &[Some(frame_layout), Some(&splat_layout)])
+            raster(device, "aurora strokes", &draw_module, stage, &[Some(frame_layout), Some(&draw_layout)])
         };
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
             ends: compute(device, "aurora ends", Pass::AuroraEnds, "main", &groups),
             walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
             ranges: Ranges::new(device, frame_layout),
-            splat: [Some(false), None].map(splat),
+            draw: [Some(false), None].map(draw_strokes),
             spread: draw("aurora spread", Pass::AuroraSpread, &[(light, None)], None, &spread_layout),
             resolve: draw("aurora resolve", Pass::AuroraResolve, &[(HDR_FORMAT, sum)], None, &resolve_layout),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
@@ -138,7 +138,7 @@ impl Aurora {
             rooms: Rooms::default(),
             uploaded: None,
             walk_layout,
-            splat_layout,
+            draw_layout,
             spread_layout,
             resolve_layout,
         }
@@ -162,8 +162,8 @@ impl Aurora {
         let most = device.limits().max_storage_buffer_binding_size * 4 / 5 / (STROKE_BYTES * orders as u64 * 2);
         // Rooms of coarser levels are half as large each, so all of them together are less than twice the finest.
         settings.history[2] = (u64::from(settings.history[2]).min(most) as u32).next_multiple_of(8);
-        let in_use = (settings.splats[1] as u32).clamp(1, PYRAMID);
-        settings.splats[1] = in_use as f32;
+        let in_use = (settings.strokes[1] as u32).clamp(1, PYRAMID);
+        settings.strokes[1] = in_use as f32;
         let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
         let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
         self.rooms = rooms;
@@ -223,8 +223,8 @@ impl Aurora {
         ];
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
-        let splat = levels.places.iter().map(|place| {
-            bind(device, "aurora splat", &self.splat_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding()))
+        let draw_strokes = levels.places.iter().map(|place| {
+            bind(device, "aurora strokes", &self.draw_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding()))
         });
         // A level, or black where it is not in use.
         let light = |level: u32| {
@@ -242,7 +242,7 @@ impl Aurora {
         let spread = (1..self.rooms.levels).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
         Some(Groups {
             walk: bind(device, "aurora walk", &self.walk_layout, &walk),
-            splat: splat.collect(),
+            draw: draw_strokes.collect(),
             spread: spread.collect(),
             resolve: resolve.collect(),
         })
@@ -270,7 +270,7 @@ impl Aurora {
         self.compute(pass, &self.ends, (streaks * chord_room(chords)).div_ceil(64), orders);
     }
 
-    /// From chords to splats.
+    /// From chords to strokes.
     pub fn walk(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, _, orders] = self.drawn;
         self.compute(pass, &self.walk, streaks.div_ceil(64), orders);
@@ -294,8 +294,8 @@ impl Aurora {
         (0..).zip(lights.take(self.rooms.levels as usize)).collect::<Vec<_>>().into_iter().rev()
     }
 
-    /// Adds up the splats of one image in a level, after those of coarser levels. The finest level has the frame's depth.
-    pub fn splat(&self, pass: &mut wgpu::RenderPass, image: u32, level: u32) {
+    /// Adds up the strokes of one image in a level, after those of coarser levels. The finest level has the frame's depth.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, image: u32, level: u32) {
         let Some((bound, levels)) = self.groups.as_ref().zip(self.levels.as_ref()) else { return };
         self.within(pass, image, |part| levels.part(part, level));
         // The coarsest has nothing to take over.
@@ -304,8 +304,8 @@ impl Aurora {
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
             pass.draw(0..3, 0..1);
         }
-        pass.set_pipeline(&self.splat[usize::from(level > 0)]);
-        pass.set_bind_group(1, &bound.splat[level as usize], &[]);
+        pass.set_pipeline(&self.draw[usize::from(level > 0)]);
+        pass.set_bind_group(1, &bound.draw[level as usize], &[]);
         pass.draw_indirect(&self.draws, DRAWS_BYTES * u64::from(image) + 16 * u64::from(level));
     }
 
@@ -326,13 +326,13 @@ impl Aurora {
         }
     }
 
-    /// Splats of the last frame by image and level, as in [`Rooms::empty`].
+    /// Strokes of the last frame by image and level, as in [`Rooms::empty`].
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws
     }
 }
 
-/// Pixels that splats reach over the edge of where their middles are.
+/// Pixels that strokes reach over the edge of where their middles are.
 const EDGE: f64 = 16.0;
 
 /// The pixels of a part of the screen: left, top, width, height.

@@ -1,5 +1,5 @@
-//! Where the splats of an image are kept until they are drawn: by pairs of levels of the pyramid, which share a room. One of a pair fills it from the
-//! beginning and the other from the end, so that it does not matter which of them splats go to. Coarser pairs have half as much room each.
+//! Where the strokes of an image are kept until they are drawn: by pairs of levels of the pyramid, which share a room. One of a pair fills it from the
+//! beginning and the other from the end, so that it does not matter which of them strokes go to. Coarser pairs have half as much room each.
 
 use super::levels::PYRAMID;
 
@@ -16,24 +16,24 @@ pub const CORNERS: u32 = 6;
 /// The rooms of all images of a frame; as in shaders/aurora/rooms.wgsl.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rooms {
-    /// Splats in the room of the two finest levels; a multiple of 8, so that coarser ones are whole.
+    /// Strokes in the room of the two finest levels; a multiple of 8, so that coarser ones are whole.
     pub finest: u64,
     /// Levels in use.
     pub levels: u32,
 }
 
 impl Rooms {
-    /// Splats before the room of a pair of levels of an image: those of all finer pairs.
+    /// Strokes before the room of a pair of levels of an image: those of all finer pairs.
     fn before(&self, pair: u32) -> u64 {
         2 * self.finest - ((2 * self.finest) >> pair)
     }
 
-    /// Splats that one image has room for.
+    /// Strokes that one image has room for.
     pub fn all(&self) -> u64 {
         self.before(self.levels.div_ceil(2))
     }
 
-    /// The numbers of some images when there are no splats as yet.
+    /// The numbers of some images when there are no strokes as yet.
     pub fn empty(&self, images: u32) -> Vec<[u32; 4]> {
         let image = |image: u32| {
             let level = move |level: u32| {

@@ -1,4 +1,4 @@
-//! What the aurora looks like now: the simulation of its curtains, and how many electrons are drawn where.
+//! What the aurora looks like now: the simulation of its curtains, and how many streaks are drawn where.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -47,13 +47,13 @@ const TURN: u32 = 5;
 /// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always twelve to a standard
 /// deviation of the curtain's length, so that what is filled is bounded by the picture's size.
 const WIDE: f64 = 1.2;
-/// Splats per pixel of a streak's length: their standard deviation is at least half a pixel; and the fewest of a streak.
-const SPLATS_PER_PIXEL: f64 = 1.2;
-const LEAST_SPLATS: u32 = 2;
+/// Parts per pixel of a streak's length: what they are blurred by is at least half a pixel; and the fewest of a streak.
+const PARTS_PER_PIXEL: f64 = 1.2;
+const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = 400.0;
-/// Room for splats: more are not drawn in one order.
-pub const MOST_SPLATS: usize = 1 << 20;
+/// Room for strokes: more are not drawn in one order.
+pub const MOST_STROKES: usize = 1 << 20;
 
 /// Where no point is wider (pixels, one standard deviation, as if space were flat), none is put into coarser levels of the pyramid; the walk does so from 1.5 on.
 const NARROW: f64 = 1.0;
@@ -71,7 +71,7 @@ pub struct AuroraFrame {
     pub behind: Vec<bool>,
     /// CIE XYZ of a kilorayleigh of each line in each of those orders.
     pub colours: Vec<[[f32; 4]; 4]>,
-    /// Parts of the curtains with their electrons.
+    /// Parts of the curtains with their streaks.
     pub segments: Vec<Segment>,
     /// Rows of nodes, newest first.
     pub nodes: Arc<Vec<[f32; 4]>>,
@@ -235,8 +235,8 @@ impl Show {
         let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.
         let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * drawn_out;
-        let splats = self.config.splats.min(((SPLATS_PER_PIXEL * length).ceil() as u32).max(LEAST_SPLATS));
-        let room = (streaks as usize * splats as usize).min(MOST_SPLATS);
+        let parts = self.config.parts.min(((PARTS_PER_PIXEL * length).ceil() as u32).max(LEAST_PARTS));
+        let room = (streaks as usize * parts as usize).min(MOST_STROKES);
         // As wide as a point may be seen where the aurora is nearest.
         let nearest = distance - object.reach;
         let widest = self.config.radius * scale / (nearest * view.pixel) * drawn_out;
@@ -246,10 +246,10 @@ impl Show {
             flags |= BOTH_POLES;
         }
         frame.settings = AuroraSettings {
-            counts: [streaks, chords, splats, row as u32],
+            counts: [streaks, chords, parts, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
-            splats: [self.config.radius as f32, levels as f32, 0.0, 0.0],
+            strokes: [self.config.radius as f32, levels as f32, 0.0, 0.0],
         };
         frame.segments = segments;
         frame.falls = self.falls.clone();
@@ -312,13 +312,13 @@ impl Show {
         self.newest - now
     }
 
-    /// Parts of the curtains, each with as many electrons as its length on the screen asks for.
+    /// Parts of the curtains, each with as many streaks as its length on the screen asks for.
     fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, pixels: f64) -> Vec<Segment> {
         let scale = self.planet.radius / PLANET_RADIUS;
         let Some((motion, row)) = self.motion.as_ref().zip(self.rows.front()) else { return Vec::new() };
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2.0 } else { 1.0 };
-        // Length on the screen of each pair of nodes, in pixels, as if space were flat, less where splats are wide; no nearer than the top of the aurora.
+        // Length on the screen of each pair of nodes, in pixels, as if space were flat, less where strokes are wide; no nearer than the top of the aurora.
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
         for window in motion.starts().windows(2) {
@@ -392,7 +392,7 @@ fn move_on(motion: &mut Motion) {
 }
 
 /// How much longer the hole's lensing makes the image of a planet behind it: the point lens of weak fields, μ = (u² + 2)/(u √(u² + 4)) with u the
-/// angle from the axis over Einstein's angle. Only for how many electrons are drawn.
+/// angle from the axis over Einstein's angle. Only for how many streaks are drawn.
 fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
     let (l, r) = (view.camera.radius(), centre.length());
     let behind = -centre.dot(view.camera.position) / l;
