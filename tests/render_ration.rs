@@ -105,6 +105,8 @@ fn fewer_streaks_are_wider_and_as_bright() {
                 number += 1;
                 stage.ration_aurora(&times(1.0, 1.0, 1.0, 1.0, number));
             }
+            let left = f64::from(count(&alone(&stage, size, &config))) / f64::from(count(&all));
+            assert!((0.7 * part..=part).contains(&left), "{name}: {left} of the streaks are left, not {part}");
             let fewer = renderer.picture(&alone(&stage, size, &config), false).unwrap();
             let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
             let off: f64 = fewer.linear.iter().zip(&whole.linear).map(|(p, q)| square(p, q)).sum();

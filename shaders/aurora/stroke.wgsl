@@ -9,7 +9,7 @@ struct Stroke {
     depth: f32,
     /// Its length without the blur over that which the blur takes from nothing to all at an end.
     length: f32,
-    /// kR where it is brightest: the first two lines and the others, in halves.
+    /// kR of the line where its ends are far: the first two lines and the others, in halves.
     light: array<u32, 2>,
 }
 

@@ -1,12 +1,10 @@
-// Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through equal parts of its light; between the
+// Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through parts of its light; between the
 // ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Paper 3 steps linearly on the
 // screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
 /// Variance that a pixel itself has, and the least that a stroke may have: light must not depend on where in its pixel a point is.
 const PIXEL_VARIANCE: f32 = 0.35;
-/// The widest a stroke may be, pixels: one just before the camera is large, and faint.
-const MOST_SIGMA: f32 = 160.0;
-/// The brightest that the middle of one stroke may be, kR: sums of them must stay within half floats.
+/// The brightest that a stroke may be, kR, before its ends are blurred: it is handed on in half floats.
 const BRIGHTEST: f32 = 1e4;
 /// Fainter strokes are left out, kR.
 const FAINTEST: f32 = 1e-4;
@@ -129,7 +127,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let segment = segments[streak.segment];
-    // How hard its electrons are, by the flux when those of the middle came down.
+    // How hard its electrons are, by the flux when those of the middle came down; rays are where more of them come, and harder ones.
     let fall = fall_at(chords[first + chord_count / 2u].along.w);
     let count = min(aurora.counts.z, arrayLength(&strokes));
     // Collisions of 35 eV, in kR km².
@@ -192,14 +190,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if max(-high.z, -low.z) <= least {
             continue;
         }
-        let whole = low.z - high.z;
+        // Homogeneous coordinates are linear between the ends, and so is the light that is left.
+        var left = 1.0;
         if -high.z < least {
-            high = mix(high, low, (-least - high.z) / whole);
+            let t = (-least - high.z) / (low.z - high.z);
+            high = mix(high, low, t);
+            left = 1.0 - t;
         }
         if -low.z < least {
-            low = mix(high, low, (-least - high.z) / (low.z - high.z));
+            let t = (-least - high.z) / (low.z - high.z);
+            low = mix(high, low, t);
+            left *= t;
         }
-        // Homogeneous coordinates, linear between the ends.
         let c = 0.5 * (high.xyz + low.xyz);
         let s = clamp((above - height) / per_chord, 0.0, 1.0);
         let along = screen_step(c, mix(a.along.xyz, b.along.xyz, s), focal);
@@ -234,8 +236,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
         let depth = clip.z / clip.w;
         let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
-        // How far it goes: the line and three standard deviations, and two pixels of its level further where that is enlarged.
-        let reach = 0.5 * abs(ends) + SIGMAS * sqrt(min(blur.xz, vec2<f32>(MOST_SIGMA * MOST_SIGMA)))
+        // How far it goes, and two pixels of its level further where that is enlarged.
+        let ending = END * sqrt(max(uu - uv * uv / vv, 0.1 * uu));
+        let reach = abs(u) * (0.5 * max(seen, SHORTEST * ending) + ending) + abs(v + u * (uv / vv)) * (SIGMAS * sqrt(vv))
             + select(1.0, 2.0 * f32(1u << level), level > 0u);
         let around = vec4<f32>(pixel - reach, pixel + reach);
         if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
@@ -252,16 +255,17 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         // Enlarging widens it, so it is added narrower by that.
         let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
         let narrower = max(vec2<f32>(uu, vv) - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
-        let sigma_v = min(sqrt(narrower.y), MOST_SIGMA);
-        let sigma_u = min(sqrt(max(narrower.x - uv * uv / narrower.y, 0.1 * narrower.x)), MOST_SIGMA);
+        let sigma_v = sqrt(narrower.y);
+        let sigma_u = sqrt(max(narrower.x - uv * uv / narrower.y, 0.1 * narrower.x));
         let blurred = END * sigma_u;
         let stretch = max(seen, SHORTEST * blurred);
         // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km². (2.5066 is √2π.)
         let area = length(cross(x, y));
         let waited = mix(a.along.w, b.along.w, s);
         let prompt = mix(a.across.w, b.across.w, s);
-        let photons = (made - made_before) * collisions * vec4<f32>(waited, prompt, waited, prompt);
-        let light = min(photons * (area / (FILLED * stretch * 2.5066283 * sigma_v)), vec4<f32>(BRIGHTEST));
+        let photons = (made - made_before) * (left * collisions) * vec4<f32>(waited, prompt, waited, prompt);
+        let full = photons * (area / (FILLED * stretch * 2.5066283 * sigma_v));
+        let light = full * min(1.0, BRIGHTEST / max(max(full.x, full.y), max(full.z, full.w)));
         if !(light.x + light.y + light.z + light.w > FAINTEST) {
             continue;
         }

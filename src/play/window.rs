@@ -200,8 +200,9 @@ fn make_frame(
         on_ship(&state, seat.view, attitude, length(&session, me), field_of_view)
     };
 
-    if let Some(renderer) = &renderer {
-        staged.0.ration_aurora(renderer.lock().timing().latest());
+    // Times of an earlier frame will do, and so will those of one yet earlier while a frame is being recorded.
+    if let Some(mut renderer) = renderer.as_ref().and_then(|renderer| renderer.try_lock()) {
+        staged.0.ration_aurora(renderer.timing().latest());
     }
     let mut settings = settings(config);
     let first = frame.0.is_none();

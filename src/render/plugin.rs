@@ -1,7 +1,7 @@
 //! [`RelativisticRenderPlugin`]: the renderer inside Bevy. The main world makes a [`FrameInput`] each frame; it is drawn into the view of
 //! the 2-D camera, after Bevy's own passes and under the user interface.
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use bevy::core_pipeline::core_2d::main_transparent_pass_2d;
 use bevy::core_pipeline::{Core2d, Core2dSystems};
@@ -24,6 +24,15 @@ impl SharedRenderer {
     pub fn lock(&self) -> MutexGuard<'_, Renderer> {
         // A thread that panicked while it held the renderer has ended the program already.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The renderer, unless a frame is being recorded.
+    pub fn try_lock(&self) -> Option<MutexGuard<'_, Renderer>> {
+        match self.0.try_lock() {
+            Ok(guard) => Some(guard),
+            Err(TryLockError::Poisoned(poisoned)) => Some(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => None,
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::render::shaders::Pass;
 use crate::render::targets::target;
 use crate::render::timing::Timing;
 
-/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl. In the coarsest the widest stroke (160 pixels) is 2.5 pixels wide.
+/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl.
 pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;

@@ -42,9 +42,11 @@ const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
+/// Distance between two streaks over their standard deviation along the curtain, at most; as in streaks.wgsl.
+const SMOOTH: f64 = 1.6;
 /// Streaks of which one is red, and the others of all other lines; as in streaks.wgsl.
 const TURN: u32 = 5;
-/// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always twelve to a standard
+/// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always 1.8 to a standard
 /// deviation of the curtain's length, so that what is filled is bounded by the picture's size.
 const WIDE: f64 = 1.2;
 /// Parts per pixel of a streak's length: what they are blurred by is at least half a pixel; and the fewest of a streak.
@@ -228,6 +230,8 @@ impl Show {
         }
         let ahead = if self.watched { self.go_on(time * self.config.pace) } else { self.advance(time * self.config.pace) };
         let segments = self.segments(view, now.position, now.attitude, pixels);
+        let both = self.planet.aurora == AuroraShape::Oval;
+        let poles = if both { 2 } else { 1 };
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
         frame.nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
         let row = self.rows.front().map_or(0, Vec::len);
@@ -239,10 +243,11 @@ impl Show {
         let room = (streaks as usize * parts as usize).min(MOST_STROKES);
         // As wide as a point may be seen where the aurora is nearest.
         let nearest = distance - object.reach;
-        let widest = self.config.radius * scale / (nearest * view.pixel) * drawn_out;
+        let spread = segments.iter().map(|segment| spread(segment, poles)).fold(0.0, f64::max);
+        let widest = self.config.radius.hypot(spread) * scale / (nearest * view.pixel) * drawn_out;
         let levels = if nearest <= object.reach || widest > NARROW { PYRAMID } else { 1 };
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
-        if self.planet.aurora == AuroraShape::Oval {
+        if both {
             flags |= BOTH_POLES;
         }
         frame.settings = AuroraSettings {
@@ -372,6 +377,14 @@ impl Show {
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
         kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
     }
+}
+
+/// How far (km, a standard deviation) the light of a part's streaks is spread across the curtain, or along it where they stand far apart; the greater, for
+/// the red ones, which stand farthest. As in streaks.wgsl.
+fn spread(segment: &Segment, poles: u32) -> f64 {
+    let [_, width, length, _] = segment.light.map(f64::from);
+    let apart = length * f64::from(TURN * poles) / f64::from(segment.range[2].max(1));
+    (width / 12f64.sqrt()).max(apart / SMOOTH)
 }
 
 /// Where a node of a row of the history is, km in the plane across the field.

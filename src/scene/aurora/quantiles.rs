@@ -3,7 +3,7 @@
 //! A row is the mean over all electrons that come down there, of every energy and slope of the spectrum: what is drawn is not one electron but all of a few
 //! hundred metres of a curtain. Drawn one by one, each with the energy that chance gave it, five times as many made a picture with more grain.
 //!
-//! A splat is as bright as its neighbours, and steps are short where light is made and long where there is none.
+//! Steps are short where light is made and long where there is none.
 
 use super::air::overhead;
 use super::fall::{Spectrum, range, sane_energy, share_left, slope};

@@ -32,7 +32,7 @@ pub struct Sprites {
 }
 
 impl Sprites {
-    /// `most` of them at most, evenly over the disk's area: rings of one width, each beginning at an azimuth of its own.
+    /// `most` of them at most, but for three in each ring, evenly over the disk's area: rings of one width, each beginning at an azimuth of its own.
     pub fn new(most: u32, disk: &config::Disk, radial: &Radial) -> Sprites {
         let most = f64::from(most);
         let [start, end] = radial.extent();
@@ -43,7 +43,8 @@ impl Sprites {
         let mut all = Vec::new();
         for ring in 0..rings as u64 {
             let radius = start + (ring as f64 + 0.5) * width;
-            let count = (most * TAU * radius * width / area).floor();
+            // Two would have no way from one to the next across the hole.
+            let count = (most * TAU * radius * width / area).floor().max(3.0);
             let step = TAU / count;
             let first = hash(ring, u64::from(disk.seed) << 8 | 2) as f64 / 2f64.powi(64);
             all.extend((0..count as u64).map(|k| Sprite { radius, sigma: (k as f64 + first) * step, step }));
