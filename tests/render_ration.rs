@@ -120,3 +120,24 @@ fn fewer_streaks_are_wider_and_as_bright() {
         }
     }
 }
+
+#[test]
+fn an_aurora_is_as_bright_in_a_picture_of_any_size() {
+    let surroundings = Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    let mut config = GameConfig::default();
+    // So wide that strokes are hundreds of pixels wide in the larger picture.
+    (config.aurora.radius, config.aurora.streaks) = (50.0, 3000);
+    let stage = Stage::new(&mut renderer, &scene::load("aurora-below").unwrap(), &config);
+    let mut mean = |size: [u32; 2]| {
+        renderer.resize(size);
+        let picture = renderer.picture(&alone(&stage, size, &config), false).unwrap();
+        light(&picture).map(|sum| sum / f64::from(size[0] * size[1]))
+    };
+    let (small, large) = (mean([160, 90]), mean([960, 540]));
+    println!("{small:?} and {large:?}");
+    for (small, large) in small.into_iter().zip(large) {
+        // What a small picture's pixels blur goes over its edge.
+        assert!((large / small - 1.0).abs() < 0.04, "{small} in a small picture, {large} in a large one");
+    }
+}
