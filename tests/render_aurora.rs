@@ -7,7 +7,7 @@ use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
 use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
-use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
+use lensrunner::render::aurora::{PYRAMID, RAYS_PERIOD, planet_history, veil};
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::placements::against_static;
 use lensrunner::render::renderer::Surroundings;

@@ -69,8 +69,9 @@ pub struct Aurora {
     projected: u32,
     /// Of the prepared frame.
     rooms: Rooms,
-    /// The nodes and the falls that are on the GPU.
-    uploaded: Option<(Arc<Vec<[f32; 4]>>, Arc<Vec<f32>>)>,
+    /// What is on the GPU.
+    uploaded_nodes: Option<Arc<Vec<[f32; 4]>>>,
+    uploaded_falls: Option<Arc<Vec<f32>>>,
 }
 
 #[derive(Debug)]
@@ -136,7 +137,8 @@ impl Aurora {
             drawn: [0; 3],
             projected: 0,
             rooms: Rooms::default(),
-            uploaded: None,
+            uploaded_nodes: None,
+            uploaded_falls: None,
             walk_layout,
             draw_layout,
             spread_layout,
@@ -168,14 +170,14 @@ impl Aurora {
         let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
         self.rooms = rooms;
         // The history changes only when the curtains have moved a step, and falls with the keys of the spectrum.
-        let (nodes, falls) = self.uploaded.take().unzip();
-        if nodes.is_none_or(|nodes| !Arc::ptr_eq(&nodes, &frame.nodes)) {
+        if self.uploaded_nodes.as_ref().is_none_or(|nodes| !Arc::ptr_eq(nodes, &frame.nodes)) {
             replaced |= self.nodes.write(gpu, &frame.nodes);
+            self.uploaded_nodes = Some(frame.nodes.clone());
         }
-        if falls.is_none_or(|falls| !Arc::ptr_eq(&falls, &frame.falls)) {
+        if self.uploaded_falls.as_ref().is_none_or(|falls| !Arc::ptr_eq(falls, &frame.falls)) {
             replaced |= self.falls.write(gpu, &frame.falls);
+            self.uploaded_falls = Some(frame.falls.clone());
         }
-        self.uploaded = Some((frame.nodes.clone(), frame.falls.clone()));
         replaced |= self.segments.write::<Segment>(gpu, &frame.segments);
         replaced |= self.chords.reserve(device, CHORD_END_BYTES * u64::from(streaks) * u64::from(chord_room(chords)) * orders as u64);
         replaced |= self.strokes.reserve(device, STROKE_BYTES * rooms.all() * orders as u64);
