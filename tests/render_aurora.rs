@@ -60,7 +60,7 @@ const SPECTRUM: Spectrum = Spectrum { accelerated: 4.0, thermal: 1.5 };
 fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
     let falls = falls(SPECTRUM);
     // Kinds as in streaks.wgsl.
-    let body = "let fall = fall_at(row.x); let kind = u32(row.z); let whole = photons_of(fall, kind, 1.0); \
+    let body = "let fall = fall_at(row.x); let kind = u32(row.z); \
                 twin_out[2u * id.x] = vec4<f32>(fall, height_of(fall, kind, row.y), 0.0, 0.0); \
                 twin_out[2u * id.x + 1u] = photons_of(fall, kind, row.y);";
     let fluxes = [0.05, 0.3, 1.0, 2.2, 4.0, 9.0];
