@@ -47,6 +47,8 @@ mod render_outside;
 #[cfg(feature = "game")]
 mod render_pictures;
 #[cfg(feature = "game")]
+mod render_polygons;
+#[cfg(feature = "game")]
 mod render_ration;
 #[cfg(feature = "game")]
 mod render_shaders;

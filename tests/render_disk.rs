@@ -20,7 +20,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use crate::render_shaders::GPU;
 use crate::twin::run;
 
-fn renderer(size: [u32; 2]) -> Renderer {
+pub fn renderer(size: [u32; 2]) -> Renderer {
     let surroundings = Surroundings {
         table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
         stars: Vec::new(),
@@ -35,13 +35,13 @@ fn a_disk() -> Disk {
 }
 
 /// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.
-fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
+pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let position = DVec3::new(0.0, -l * sine, l * cosine);
     static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
 }
 
-fn settings() -> Settings {
+pub fn settings() -> Settings {
     Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
 }
 
@@ -442,7 +442,7 @@ fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Camera, size: [
     [got, disk::picture(&disk.gas, &eye(&camera), size, time, orders, 2)]
 }
 
-fn eye(camera: &Camera) -> Eye {
+pub fn eye(camera: &Camera) -> Eye {
     Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
 }
 

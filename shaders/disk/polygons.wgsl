@@ -1,6 +1,8 @@
 // The disk of polygons, drawn: triangles that the stages of geometry have tessellated, opaque, nearest first by depth.
 
 @group(1) @binding(0) var<storage, read> seen: array<SeenVertex>;
+/// Of each placement: turns by r_s/c, and the azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
+@group(1) @binding(2) var<storage, read> turning: array<vec2<f32>>;
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
@@ -8,12 +10,15 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     let place_in_disk = texture_point(found);
     let r = max(place_in_disk.y, 1.0);
     let gas = radial_gas(r);
-    let turn = 6.28318531 * place_in_disk.x;
+    let ring = turning[bitcast<u32>(found.surface.z)];
+    // The gas is that of the place where the light left.
+    let azimuth = place_in_disk.x + ring.y + ring.x * (frame.radial.w - found.apparent.w);
+    let turn = 6.28318531 * azimuth;
     let outward = dot(found.leaving.xyz, vec3<f32>(cos(turn), sin(turn), 0.0)) > 0.0;
     let ratio = gas_ratio(found.apparent.xyz, r, outward, gas);
     let light = gas_light(gas.a.x, log(ratio.x));
     let depth = gas.a.y * disk_slant(ratio.y, found.apparent.w, gas.b.y);
-    let turns = place_in_disk.x - gas.b.x / 6.28318531;
+    let turns = azimuth - gas.b.x / 6.28318531;
     return gas_at(clip_position(found.apparent.xyz), turns, gas.b.z, found.apparent.w, depth, light, vec2<f32>(0.0, 1e6), ratio.y);
 }
 

@@ -38,7 +38,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
     let leaving_a = seen[placement.ids.z + edge.x].leaving.xyz;
     let leaving_b = seen[placement.ids.z + edge.y].leaving.xyz;
-    let limb = edge.z == ALONE || on_limb(placement, edge, leaving_a, leaving_b, a.xyz);
+    let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
+    let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
+    let alone = edge.z == ALONE;
+    let limb = is_rim(placement, alone, p, q) || (!alone && on_limb(placement, edge, leaving_a, leaving_b, a.xyz));
     let closer = select(1.0, limb_strictness(placement), limb);
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
@@ -55,8 +58,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let small = (!limb && seen_under < 8.0 * frame.size.z) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     let short = seen_under < 2.0 * frame.size.w || (small && nearest > 4.0 * edge_length);
     if radial || !short {
-        let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
-        let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
         let apex = apex_offset(select(b.xyz, a.xyz, a.w == VERTEX_ON_AXIS));
         let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);

@@ -95,32 +95,6 @@ fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
     return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
 }
 
-/// The farthest turn that is believed, radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
-const FARTHEST_TURN: f32 = 2.0;
-
-/// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
-/// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/swing.rs.
-fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
-    let scale = placement.velocity.w;
-    if scale == 0.0 {
-        return shaped(placement, body);
-    }
-    let jolted = max(s - placement.jolt.w, 0.0) - max(-placement.jolt.w, 0.0);
-    let turn = (placement.spin.xyz + placement.spin_rate.xyz * (0.5 * s)) * s + placement.jolt.xyz * jolted;
-    let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));
-    let q = dot(turned, turned);
-    let straight = normal_of(placement, body) * scale;
-    // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
-    let once = cross(turned, straight);
-    let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = vec3<f32>(placement.spin.w, placement.spin_rate.w, placement.force.w) + placement.force.xyz * s;
-    let gamma = sqrt(1.0 + dot(p, p));
-    let contracted = rest - p * (dot(p, rest) / (gamma * (1.0 + gamma)));
-    let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
-    let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
-    return contracted + (placement.velocity.xyz + (acceleration + (jerk + placement.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
-}
-
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
 struct Query {
     body: vec3<f32>,
@@ -158,7 +132,7 @@ const NEVER: f32 = 3e38;
 /// are held in between. There is one call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
 fn answer(placement: Placement, query: Query, order: u32) -> Answer {
     var result: Answer;
-    var s = 0.0;
+    var s = first_guess(placement, query.body);
     // Known to be too early, and too late.
     var early = -NEVER;
     var late = NEVER;
@@ -199,14 +173,15 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
             continue;
         }
         let missing = elapsed - result.ray.delay;
-        let speed = length(placement.velocity.xyz);
+        let velocity = velocity_at(placement, result.position);
+        let speed = length(velocity);
         // A time in which the object moves less than a fiftieth of a pixel need not be found.
         if i > 0u && abs(missing) * speed < 0.02 * frame.size.z * result.ray.delay {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.
         let energy = result.ray.energy;
-        let step = missing * clamp(energy / (energy - dot(placement.velocity.xyz, result.ray.leaving.xyz)), -20.0, 20.0);
+        let step = missing * clamp(energy / (energy - dot(velocity, result.ray.leaving.xyz)), -20.0, 20.0);
         if i == steps {
             // A point whose time was not found is not drawn: it would stand where it never was.
             result.ray.valid = result.ray.valid && abs(step) * speed < 4.0 * frame.size.z * result.ray.delay;

@@ -19,6 +19,7 @@ use super::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
 use super::readback::{self, Picture, PictureError};
+use super::shaders::Worldlines;
 use super::sky::table::{NODES, sky_table, straight_sky_table};
 use super::sky::{Background, Stars};
 use super::tables::Tables;
@@ -92,7 +93,7 @@ impl Renderer {
         develop.resize(gpu, &targets);
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody], &adaptation);
         Renderer {
-            geometry: Geometry::new(device, &frame_layout),
+            geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),

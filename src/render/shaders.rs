@@ -20,6 +20,8 @@ const COVERAGE: &str = include_str!("../../shaders/functions/coverage.wgsl");
 const HIDING: &str = include_str!("../../shaders/functions/hiding.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../shaders/geometry/bindings.wgsl");
 const PLACEMENT: &str = include_str!("../../shaders/geometry/placement.wgsl");
+const SWING: &str = include_str!("../../shaders/geometry/swing.wgsl");
+const RING: &str = include_str!("../../shaders/geometry/ring.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
@@ -40,6 +42,16 @@ const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.
 const DISK_LIGHT: &str = include_str!("../../shaders/disk/light.wgsl");
 const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
+
+/// How the points of models go through spacetime.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Worldlines {
+    /// As those of bodies that fly and turn: `shaders/geometry/swing.wgsl`.
+    #[default]
+    Bodies,
+    /// As those of rings round the hole: `shaders/geometry/ring.wgsl`.
+    Rings,
+}
 
 /// The passes of a frame, by the file that holds their entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -149,9 +161,18 @@ impl Pass {
     /// The same with another method of projection, where the pass looks rays up.
     /// `inside` is whether the camera may be inside the horizon.
     pub fn source_by(self, method: Method, inside: bool) -> String {
+        self.source_along(Worldlines::Bodies, method, inside)
+    }
+
+    /// The same where the points of models go along other worldlines.
+    pub fn source_along(self, worldlines: Worldlines, method: Method, inside: bool) -> String {
         let side = if inside { SEES_INSIDE } else { SEES_OUTSIDE };
         let method = method.source();
-        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, PLACEMENT, CLIP, PROJECT, PATCH];
+        let swing = match worldlines {
+            Worldlines::Bodies => SWING,
+            Worldlines::Rings => RING,
+        };
+        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, PLACEMENT, CLIP, swing, PROJECT, PATCH];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -193,7 +214,7 @@ impl Pass {
             Pass::StarsDraw => vec![TYPES, BINDINGS],
             Pass::AuroraDraw => vec![STROKE],
             Pass::AuroraProject => {
-                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, PROJECT, RANDOM, STROKE, STREAKS]
+                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, swing, PROJECT, RANDOM, STROKE, STREAKS]
             }
             Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STROKE, STREAKS],
             Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, ROOMS],

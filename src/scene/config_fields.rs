@@ -170,7 +170,7 @@ config! {
     }
     /// The accretion disk.
     disk: Disk {
-        representation: String = "arcs", Choice(&["arcs", "sprites", "polygons"]), "", "what the disk is made of";
+        representation: String = "arcs", Choice(&["arcs", "sprites", "polygons", "polygons-at-rest"]), "", "what the disk is made of";
         inner: f64 = 3.0, number(3.0, 50.0), "r_s", "inner edge of the orbits; from 3, the last stable one, gas goes on falling in";
         outer: f64 = 12.0, number(3.1, 200.0), "r_s", "outer edge";
         accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";

@@ -109,6 +109,7 @@ pub fn contestants(config: &GameConfig) -> Vec<Contestant> {
     };
     let mut all = vec![
         with("polygons 960".into(), 1, &|c| c.disk.representation = "polygons".into()),
+        with("polygons 960 at rest".into(), 1, &|c| c.disk.representation = "polygons-at-rest".into()),
         with("sprites 100 000".into(), 2, &|c| c.disk.representation = "sprites".into()),
     ];
     for arcs in [570u32, 1_100, 2_100, 4_200, 8_500, 17_000] {
@@ -257,7 +258,7 @@ fn figure(alone: &Sheet, chase: &Sheet, summary: &Sheet) -> Figure {
         values: true,
         ..Bars::default()
     };
-    let lines = ["polygons 960", "sprites 100 000", "arcs 1100", "arcs 4200", "arcs 17000"].map(|name| Line {
+    let lines = ["polygons 960", "polygons 960 at rest", "sprites 100 000", "arcs 1100", "arcs 4200", "arcs 17000"].map(|name| Line {
         name: name.to_owned(),
         points: chase
             .rows

@@ -117,7 +117,10 @@ impl DiskPasses {
     pub fn set(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) {
         let radial = || storage(gpu, "radial", &disk.radial_table());
         self.representation = match disk.config.representation.as_str() {
-            "polygons" => Representation::Polygons(Box::new(PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial(), &disk))),
+            kind @ ("polygons" | "polygons-at-rest") => {
+                let turn = kind == "polygons";
+                Representation::Polygons(Box::new(PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial(), &disk, turn)))
+            }
             "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.gas_layout, &self.frame, &radial(), &disk)),
             _ => Representation::Arcs,
         };
@@ -135,13 +138,21 @@ impl DiskPasses {
         &self.arcs
     }
 
+    /// The polygons, if it is drawn from them.
+    pub fn polygons(&self) -> Option<&PolygonPass> {
+        match &self.representation {
+            Representation::Polygons(polygons) => Some(polygons),
+            _ => None,
+        }
+    }
+
     /// Uploads what the frame needs.
     pub fn prepare(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, input: &FrameInput, slice: &Slice, width: u32) {
         let mut view = DiskView::new(&self.disk, input, slice, width);
         self.is_straight = !input.settings.method.bends();
         if self.is_straight && self.straight.is_none() {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
-            let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk);
+            let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk, false);
             // Straight light is the same on both sides of the horizon.
             polygons.set_method(gpu, frame_layout, input.settings.method, false);
             self.straight = Some(Box::new(polygons));

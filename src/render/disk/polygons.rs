@@ -1,52 +1,83 @@
-//! The disk of polygons: an annulus of triangles through the stages of geometry, as any other model.
+//! The disk of polygons: triangles through the stages of geometry, as any other model. As rings that turn with the gas they are those of paper 2;
+//! at rest they are places that gas flows through, as arcs are.
 
-use wgpu::ShaderStages;
+use std::f64::consts::TAU;
+
+use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
-use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
 use crate::render::placements::Placed;
-use crate::render::shaders::Pass;
+use crate::render::shaders::{Pass, Worldlines};
 use crate::render::types::{ARGUMENTS_OPAQUE, Placement};
-use crate::scene::disk::polygons::model;
+use crate::scene::disk::polygons::{Ring, model, rings};
 
 use super::Disk;
 
 /// Two-sided triangles that are held in place; as in shaders/types.wgsl.
 const HELD_TWO_SIDED: u32 = 3;
+/// Two-sided triangles that move.
+const TWO_SIDED: u32 = 1;
 
 /// Stages of geometry of their own, and the draw.
 #[derive(Debug)]
 pub struct PolygonPass {
     geometry: Geometry,
     models: Models,
-    range: ModelRange,
+    parts: Vec<Part>,
     seen_layout: wgpu::BindGroupLayout,
     draw: wgpu::RenderPipeline,
     radial: wgpu::Buffer,
+    turning: Growing,
     group: Option<wgpu::BindGroup>,
 }
 
+/// What is placed by itself: one ring, or all that is at rest.
+#[derive(Debug)]
+struct Part {
+    range: ModelRange,
+    /// dφ/dT in c/r_s; None at rest.
+    rate: Option<f64>,
+    rims: [Option<f64>; 2],
+}
+
 impl PolygonPass {
-    /// Compiles the stages and uploads the triangles of `disk`.
+    /// Compiles the stages and uploads the triangles of `disk`, which turn with the gas or rest.
     pub fn new(
         gpu: &Gpu,
         frame_layout: &wgpu::BindGroupLayout,
         gas_layout: &wgpu::BindGroupLayout,
         radial: wgpu::Buffer,
         disk: &Disk,
+        turn: bool,
     ) -> PolygonPass {
         let device = &gpu.device;
-        let seen_layout = layout(device, "polygons", ShaderStages::VERTEX, &[Slot::Read, Slot::Read]);
+        let seen_layout = layout(device, "polygons", ShaderStages::VERTEX, &[Slot::Read, Slot::Read, Slot::Read]);
         let shader = module(device, "polygons", Pass::DiskPolygons);
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, None)], depth: Some(true) };
         let draw = raster(device, "polygons", &shader, stage, &[Some(frame_layout), Some(&seen_layout), Some(gas_layout)]);
         let mut models = Models::new(device);
-        let range = models.add(gpu, &model(&disk.config, &disk.gas.radial));
-        PolygonPass { geometry: Geometry::new(device, frame_layout), models, range, seen_layout, draw, radial, group: None }
+        let (parts, worldlines) = if turn {
+            let mut part = |ring: Ring| Part { range: models.add(gpu, &ring.model), rate: Some(ring.rate), rims: ring.rims };
+            (rings(&disk.config, &disk.gas.radial).into_iter().map(&mut part).collect(), Worldlines::Rings)
+        } else {
+            let range = models.add(gpu, &model(&disk.config, &disk.gas.radial));
+            (vec![Part { range, rate: None, rims: [None; 2] }], Worldlines::Bodies)
+        };
+        PolygonPass {
+            geometry: Geometry::new(device, frame_layout, worldlines),
+            models,
+            parts,
+            seen_layout,
+            draw,
+            radial,
+            turning: Growing::new(device, "polygons turning", BufferUsages::STORAGE),
+            group: None,
+        }
     }
 
     /// Compiles the stages for another method of projection.
@@ -57,27 +88,40 @@ impl PolygonPass {
     /// Uploads what the frame needs.
     pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput) {
         let p = -input.camera.position;
+        // T less T₀: about as long as light from the hole's surroundings takes.
+        let elapsed = input.camera.radius();
+        let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
+        let momentum = [0.0, 0.0, 0.0, 1.0];
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let placed: Vec<Placed> = (1..=input.settings.orders.min(input.settings.method.orders()).min(3))
-            .map(|order| {
+        let mut placed = Vec::new();
+        let mut turning = Vec::new();
+        for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
+            for part in &self.parts {
+                let azimuth = part.rate.map_or(0.0, |rate| (rate * (input.time - elapsed)).rem_euclid(TAU));
+                let [inner, outer] = part.rims.map(|rim| rim.map_or(-1.0, |radius| radius as f32));
+                let rate = part.rate.unwrap_or_default();
                 let placement = Placement {
-                    offset: [p.x as f32, p.y as f32, p.z as f32, 0.0],
-                    momentum: [0.0, 0.0, 0.0, 1.0],
+                    offset,
+                    velocity: [0.0, 0.0, 0.0, if part.rate.is_some() { 1.0 } else { 0.0 }],
+                    momentum,
                     shape: unit,
+                    spin: [inner, outer, rate as f32, azimuth as f32],
                     turn: unit,
                     ids: [order, 1, 0, 0],
-                    triangles: [0, 0, 0, HELD_TWO_SIDED],
+                    triangles: [0, 0, 0, if part.rate.is_some() { TWO_SIDED } else { HELD_TWO_SIDED }],
                     ..Placement::default()
                 };
-                Placed { model: self.range, placement }
-            })
-            .collect();
+                placed.push(Placed { model: part.range, placement });
+                turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
+            }
+        }
         self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget);
+        self.turning.write(gpu, &turning);
         self.group = Some(bind(
             &gpu.device,
             "polygons",
             &self.seen_layout,
-            &[self.geometry.seen().as_entire_binding(), self.radial.as_entire_binding()],
+            &[self.geometry.seen().as_entire_binding(), self.radial.as_entire_binding(), self.turning.buffer.as_entire_binding()],
         ));
     }
 
@@ -101,5 +145,10 @@ impl PolygonPass {
         pass.set_bind_group(1, group, &[]);
         pass.set_index_buffer(self.geometry.indices().slice(..), wgpu::IndexFormat::Uint32);
         pass.draw_indexed_indirect(self.geometry.arguments(), ARGUMENTS_OPAQUE);
+    }
+
+    /// Seen vertices, those of the models first: for each order ring by ring.
+    pub fn seen(&self) -> &wgpu::Buffer {
+        self.geometry.seen()
     }
 }

@@ -11,7 +11,7 @@ use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTextu
 use super::method::Method;
 use super::models::Models;
 use super::placements::{Placed, THIN};
-use super::shaders::Pass;
+use super::shaders::{Pass, Worldlines};
 use super::types::{self, Chunk, Counters, Placement, SeenVertex};
 
 /// Threads of a workgroup; `@workgroup_size` of the stages.
@@ -32,6 +32,7 @@ fn room(budget: u32, vertices: u32, triangles: u32) -> Capacity {
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
 pub struct Geometry {
+    worldlines: Worldlines,
     group_layout: wgpu::BindGroupLayout,
     arguments_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
@@ -84,13 +85,14 @@ impl Stages {
         frame: &wgpu::BindGroupLayout,
         geometry: &wgpu::BindGroupLayout,
         arguments: &wgpu::BindGroupLayout,
+        worldlines: Worldlines,
         method: Method,
         inside: bool,
     ) -> Self {
         let groups = [Some(frame), Some(geometry)];
-        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_by(method, inside), entry, &groups);
+        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_along(worldlines, method, inside), entry, &groups);
         let with_arguments = [Some(frame), Some(geometry), Some(arguments)];
-        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_by(method, inside), entry, &with_arguments);
+        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_along(worldlines, method, inside), entry, &with_arguments);
         Stages {
             vertices: stage("vertices", Pass::Vertices, "main"),
             edges: stage("edges", Pass::Edges, "main"),
@@ -117,8 +119,8 @@ fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
 }
 
 impl Geometry {
-    /// Compiles the stages.
-    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
+    /// Compiles the stages, for models whose points go along such worldlines.
+    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, worldlines: Worldlines) -> Self {
         use Slot::{Read, Write};
         let group_layout = layout(
             device,
@@ -129,7 +131,7 @@ impl Geometry {
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout =
             layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
-        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, Method::default(), false);
+        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, worldlines, Method::default(), false);
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
@@ -160,6 +162,7 @@ impl Geometry {
             ..Default::default()
         });
         Geometry {
+            worldlines,
             group_layout,
             arguments_layout,
             draw_layout,
@@ -187,7 +190,7 @@ impl Geometry {
 
     /// Compiles the stages for another method of projection, or for a camera on the other side of the horizon.
     pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method, inside: bool) {
-        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, method, inside);
+        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, self.worldlines, method, inside);
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
