@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 
 use lensrunner::render::method::Method;
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::shaders::{Pass, Worldlines};
 use naga::{AddressSpace, Arena, Block, Expression, Function, Handle, LocalVariable, Module, Statement};
 
 /// What a value depends on.
@@ -185,10 +185,9 @@ fn branches_on_uniforms(source: &str) -> Vec<String> {
 fn no_compute_pass_branches_on_uniforms_alone() {
     let mut found = Vec::new();
     for pass in Pass::ALL {
-        for inside in [false, true] {
-            found.extend(
-                branches_on_uniforms(&pass.source_by(Method::default(), inside)).into_iter().map(|what| format!("{pass:?}, {what}")),
-            );
+        for (worldlines, inside) in [(Worldlines::Bodies, false), (Worldlines::Bodies, true), (Worldlines::Rings, false)] {
+            let source = pass.source_along(worldlines, Method::default(), inside);
+            found.extend(branches_on_uniforms(&source).into_iter().map(|what| format!("{pass:?}, {worldlines:?}, {what}")));
         }
     }
     assert!(found.is_empty(), "{found:#?}");
