@@ -154,6 +154,9 @@ pub struct ChartDiskArgs {
     /// Places along the chase.
     #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(2..=1000))]
     steps: u16,
+    /// Frames in which the chase is also flown as in the game: 1,000 and more tell what 99.9 % of them stay under. 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    flight: u32,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -191,6 +194,7 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         error_size: args.error_size,
         rounds: usize::from(args.rounds),
         steps: usize::from(args.steps),
+        flight: args.flight as usize,
     };
     let gpu = match Gpu::headless() {
         Ok(gpu) => gpu,
@@ -204,7 +208,7 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         let eye = &view.eye;
         let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
         let frame = bench.frame(number, camera, view.time, view.sky, picture).map_err(|error| error.to_string())?;
-        Ok(Shown { whole: frame.whole, processor: frame.processor, passes: frame.passes, picture: frame.picture })
+        Ok(Shown { whole: frame.whole, processor: frame.processor, before: frame.before, passes: frame.passes, picture: frame.picture })
     }))
 }
 

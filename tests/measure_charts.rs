@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use lensrunner::measure::chart::{Output, Provenance, Sheet, SheetError, Timing, interleaved, provenance, thread_time, times_the_first};
+use lensrunner::measure::disk::flight;
 use lensrunner::measure::disk::script::{CROSSING, script};
 use lensrunner::measure::plot::{Axis, Bars, Figure, Guide, Line, Lines, Map, Panel, Point, Scatter, Series, pareto, tick_text};
 
@@ -231,4 +232,20 @@ fn the_scripted_chase_passes_through_every_situation() {
         last = Some((eye.position, eye.attitude, time));
     }
     assert!(nearest < 2.0, "never nearer than {nearest}");
+}
+
+/// Of 1,000 frames 1 to 1,000 ms long, 999 are no longer than 999 ms.
+#[test]
+fn the_flight_is_summed_up() {
+    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms"]);
+    for k in 0..1000u32 {
+        // In no order of length.
+        let time = f64::from(k * 7 % 1000) + 1.0;
+        sheet.push([k.to_string(), "from far".into(), time.to_string(), (0.5 * time).to_string(), "3".into()]);
+    }
+    let summary = flight::summary(&sheet);
+    let of = |row: usize| ["mean_ms", "p99_ms", "p99_9_ms", "worst_ms"].map(|column| summary.number(&summary.rows[row], column));
+    assert_eq!(of(0), [500.5, 990.0, 999.0, 1000.0]);
+    assert_eq!(of(1), [250.25, 495.0, 499.5, 500.0]);
+    assert_eq!(of(2), [3.0; 4]);
 }

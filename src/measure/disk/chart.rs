@@ -1,7 +1,7 @@
 //! The chart `disk`: paper 2's two tables with the error of the picture beside each time, and speed against error.
 //!
 //! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
-//! for every row (`chase.rs`). Who draws is handed in from above: the instruments know no renderer.
+//! for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the instruments know no renderer.
 
 use std::path::PathBuf;
 
@@ -17,6 +17,7 @@ use crate::spacetime::frames;
 use super::chase::{chase, summary};
 use super::error::{PictureError, compare, peak};
 use super::exact::{Eye, picture};
+use super::flight::{self, flight};
 use super::places::errors_by_place;
 
 /// What the chart is asked for.
@@ -32,6 +33,8 @@ pub struct Request {
     pub rounds: usize,
     /// Places along the scripted chase.
     pub steps: usize,
+    /// Frames in which the chase is flown as in the game; 0 for none.
+    pub flight: usize,
 }
 
 /// One way to draw the disk.
@@ -52,6 +55,8 @@ pub struct Shown {
     pub whole: f64,
     /// The processor time of all threads, in ms, where a software adapter draws.
     pub processor: Option<f64>,
+    /// Until it was handed to the adapter, on the clock, in ms.
+    pub before: f64,
     /// Passes with their times by the adapter's timestamps, in ms.
     pub passes: Vec<(String, f64)>,
     /// Linear light, if it was asked for.
@@ -96,7 +101,7 @@ pub enum ChartError {
 /// Passes that are the disk's own.
 pub(super) const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
 /// What ratios are told against.
-const REFERENCE: &str = "arcs 4200";
+pub(super) const REFERENCE: &str = "arcs 4200";
 /// T of all frames but the chase's, in r_s/c.
 pub(super) const TIME: f64 = 100.0;
 
@@ -135,6 +140,11 @@ pub fn run(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Dra
     let figure = figure(&alone, &chase, &summary);
     let mut files = figure.save(&request.output.folder, "disk")?.to_vec();
     files.extend(["disk-alone", "disk-chase", "disk-summary", "disk-places"].map(|name| request.output.csv(name)));
+    if request.flight > 0 {
+        let flown = request.output.sheet("disk-flight", || flight(request, config, adapter, draw))?;
+        flight::summary(&flown).save(&request.output.csv("disk-flight-summary"))?;
+        files.extend(["disk-flight", "disk-flight-summary"].map(|name| request.output.csv(name)));
+    }
     Ok(files)
 }
 

@@ -4,6 +4,7 @@ pub mod chart;
 mod chase;
 pub mod error;
 pub mod exact;
+pub mod flight;
 pub mod places;
 pub mod script;
 

@@ -38,6 +38,8 @@ pub struct Frame {
     pub whole: f64,
     /// The time that all threads spent on it, in ms, where the adapter is a software one and the system tells it.
     pub processor: Option<f64>,
+    /// Until it was submitted, on the clock, in ms.
+    pub before: f64,
     /// Its passes by timestamps, in ms.
     pub passes: Vec<(String, f64)>,
     /// Its linear light, if it was asked for.
@@ -95,10 +97,11 @@ impl Bench {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &self.output);
         self.gpu.queue.submit([encoder.finish()]);
+        let before = begin.elapsed().as_secs_f64() * 1e3;
         self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
         let whole = begin.elapsed().as_secs_f64() * 1e3;
         let processor = spent.zip(processor_time()).map(|(before, after)| after - before);
         let passes = renderer.timing().latest().iter().map(|&(label, time)| (label.to_owned(), f64::from(time))).collect();
-        Ok(Frame { whole, processor, passes, picture: Vec::new() })
+        Ok(Frame { whole, processor, before, passes, picture: Vec::new() })
     }
 }

@@ -1,0 +1,52 @@
+//! The scripted chase frame by frame, as it is played: how long the adapter works on each frame, and the processor before that.
+
+use crate::measure::chart::{Provenance, Sheet};
+use crate::scene::GameConfig;
+
+use super::chart::{ChartError, DISK_PASSES, Draw, REFERENCE, Request, View, contestants};
+use super::script::script;
+
+/// Frames before the first that counts: targets are made in them, and timestamps are those of the frame before.
+const WARM_UP: usize = 3;
+
+/// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the adapter's timestamps, of
+/// them the disk's own, and the processor's until the frame was submitted, all in ms.
+pub(super) fn flight(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms"]);
+    sheet.notes = Provenance::now(adapter).notes();
+    let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);
+    let frames = request.flight.max(2);
+    for frame in 0..frames + WARM_UP {
+        let share = frame.saturating_sub(WARM_UP) as f64 / (frames - 1) as f64;
+        let (eye, time, situation) = script(share, config.disk.inner);
+        let shown = draw(number, &View { eye, time, sky: true }, None).map_err(ChartError::Draw)?;
+        if frame < WARM_UP {
+            continue;
+        }
+        let all: f64 = shown.passes.iter().map(|(_, time)| time).sum();
+        let disk: f64 = DISK_PASSES.iter().map(|label| shown.pass(label)).sum();
+        let times = [all, disk, shown.before].map(|time| format!("{time:.3}"));
+        sheet.push([(frame - WARM_UP).to_string(), situation.to_owned()].into_iter().chain(times));
+    }
+    Ok(sheet)
+}
+
+/// What the flight comes to: of each time the mean, and what 99 and 99.9 % of the frames stay under, and the worst.
+pub fn summary(flight: &Sheet) -> Sheet {
+    let mut sheet = Sheet::new(&["time", "mean_ms", "p99_ms", "p99_9_ms", "worst_ms"]);
+    sheet.notes.clone_from(&flight.notes);
+    for column in ["passes_ms", "disk_ms", "before_submission_ms"] {
+        let mut times: Vec<f64> = flight.rows.iter().map(|row| flight.number(row, column)).collect();
+        times.sort_by(f64::total_cmp);
+        let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;
+        let values = [mean, under(&times, 0.99), under(&times, 0.999), under(&times, 1.0)];
+        sheet.push([column.to_owned()].into_iter().chain(values.map(|value| format!("{value:.3}"))));
+    }
+    sheet
+}
+
+/// What a share of the values, ascending, is not above; NaN of none.
+fn under(values: &[f64], share: f64) -> f64 {
+    let count = (share * values.len() as f64).ceil() as usize;
+    values.get(count.max(1) - 1).copied().unwrap_or(f64::NAN)
+}
