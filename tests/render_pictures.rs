@@ -16,7 +16,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
 
-fn surroundings() -> Surroundings {
+pub fn surroundings() -> Surroundings {
     Surroundings { table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
 }
 

@@ -34,6 +34,10 @@ pub enum DeviceError {
 /// Storage buffers that one stage of geometry binds: 3 tables, the exposure, 13 of its own and the arguments.
 pub const STORAGE_BUFFERS: u32 = 18;
 
+/// Features that are used where the adapter has them: times of passes, tables sampled and the aurora added up in 32-bit floats.
+const OPTIONAL: wgpu::Features =
+    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::FLOAT32_FILTERABLE).union(wgpu::Features::FLOAT32_BLENDABLE);
+
 /// What is missing for the renderer on a device with these limits, or None.
 pub fn missing_limits(limits: &wgpu::Limits) -> Option<String> {
     if limits.max_storage_buffers_per_shader_stage < STORAGE_BUFFERS {
@@ -96,6 +100,11 @@ impl Gpu {
 
     /// Opens the best adapter there is, a software one if need be.
     pub fn headless() -> Result<Gpu, DeviceError> {
+        Gpu::headless_with(OPTIONAL)
+    }
+
+    /// The same with no more of its optional features than these.
+    pub fn headless_with(optional: wgpu::Features) -> Result<Gpu, DeviceError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         let adapter = wait(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -107,7 +116,6 @@ impl Gpu {
         if let Some(needs) = missing_limits(&limits) {
             return Err(DeviceError::TooSmall { adapter: info.name, needs });
         }
-        let optional = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::FLOAT32_FILTERABLE | wgpu::Features::FLOAT32_BLENDABLE;
         let (device, queue) = wait(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("lensrunner"),
             required_features: adapter.features() & optional,
