@@ -28,6 +28,7 @@ pub mod tree;
 pub mod triangle;
 pub mod validate;
 pub mod wide;
+mod wide_best;
 mod wide_eye;
 mod wide_group;
 mod wide_packet;

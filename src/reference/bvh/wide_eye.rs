@@ -9,6 +9,7 @@ use super::lanes::{Eight, Mask, Sixteen};
 use super::ray::{Hit, Ray};
 use super::triangle::Shear;
 use super::wide::{Block, LEAF, Stack, Waits, Wide, Wide8, leaf};
+use super::wide_best::Best;
 use super::wide_group::{GROUP, Item, corner, push};
 use super::wide_ray::{self, meet, sheared, splat};
 
@@ -36,7 +37,7 @@ pub(super) struct Laid {
 /// Sixteen rays from the eye, and what they have met.
 #[derive(Clone, Copy)]
 struct Group<'a, S> {
-    rays: &'a [Ray],
+    best: Best<'a, S>,
     /// One bit a lane that holds a ray.
     used: u32,
     /// Of `Shear`.
@@ -44,10 +45,6 @@ struct Group<'a, S> {
     /// Depth for x and for y.
     inverse: [S; 2],
     along: S,
-    until: S,
-    t: S,
-    /// Numbers of triangles as bits.
-    triangle: S,
 }
 
 impl<'a, S: Sixteen> Group<'a, S> {
@@ -57,30 +54,27 @@ impl<'a, S: Sixteen> Group<'a, S> {
         let [x, y] = [S::load(&laid.slopes[0]), S::load(&laid.slopes[1])];
         let along = S::load(&laid.along);
         Group {
-            rays,
+            best: Best::new(rays, S::load(&laid.until)),
             used: (1 << rays.len()) - 1,
             // Over the direction itself and not its size: the same bits but for the sign.
             slopes: [x.mul(sign), y.mul(sign), one.div(along).mul(sign)],
             // Never −0, whose reciprocal would turn an interval round.
             inverse: [one.div(x.add(zero)), one.div(y.add(zero))],
             along,
-            until: S::load(&laid.until),
-            t: S::splat(Hit::MISS.t),
-            triangle: S::splat(f32::from_bits(Hit::NONE)),
         }
     }
 
     /// Behind this depth nothing can be nearer than what every ray has.
     #[inline(always)]
     fn deepest(&self) -> f32 {
-        self.along.mul(self.t.min(self.until)).greatest()
+        self.along.mul(self.best.last()).greatest()
     }
 
     /// Which rays reach a box, given from the eye along the packet's axes, before what they have met.
     #[inline(always)]
     fn reach(&self, [x, y, z]: &[[f32; 2]; 3], widening: f32) -> u32 {
         let mut near = S::splat(z[0]);
-        let mut far = self.along.mul(self.t.min(self.until)).add(S::splat(widening)).min(S::splat(z[1]));
+        let mut far = self.along.mul(self.best.last()).add(S::splat(widening)).min(S::splat(z[1]));
         for (k, side) in [x, y].into_iter().enumerate() {
             let (a, b) = (S::splat(side[0]).mul(self.inverse[k]), S::splat(side[1]).mul(self.inverse[k]));
             // What is not a number, 0 · ∞, says nothing.
@@ -93,65 +87,35 @@ impl<'a, S: Sixteen> Group<'a, S> {
     /// Tests one ray against a block, and says whether it has met something nearer.
     #[inline(always)]
     fn one<L: Eight>(&mut self, lane: usize, block: &Block, axis: usize) -> bool {
-        let ray = &self.rays[lane];
+        let ray = &self.best.rays[lane];
         let slopes = [self.slopes[0].store()[lane], self.slopes[1].store()[lane], self.slopes[2].store()[lane]];
-        let before = Hit { t: self.t.store()[lane], triangle: self.triangle.store()[lane].to_bits() };
+        let before = Hit { t: self.best.t.store()[lane], triangle: self.best.triangle.store()[lane].to_bits() };
         let mut best = before;
         wide_ray::block::<L>(block, &Shear { origin: ray.origin, axis, slopes }, ray.until, &mut best);
         if best == before {
             return false;
         }
-        self.t = self.t.with(lane, best.t);
-        self.triangle = self.triangle.with(lane, f32::from_bits(best.triangle));
+        self.best.t = self.best.t.with(lane, best.t);
+        self.best.triangle = self.best.triangle.with(lane, f32::from_bits(best.triangle));
         true
     }
 
     /// `Shear::meet` for one triangle, and whether it is nearer for any ray.
     #[inline(always)]
     fn triangle(&mut self, block: &Block, lane: usize, axes: [usize; 3]) -> bool {
-        let eye = self.rays[0].origin;
+        let eye = self.best.rays[0].origin;
         let origin: [S; 3] = splat([eye[axes[0]], eye[axes[1]], eye[axes[2]]]);
         let met = meet(
             sheared(corner(block, 0, axes, lane), origin, self.slopes),
             sheared(corner(block, 1, axes, lane), origin, self.slopes),
             sheared(corner(block, 2, axes, lane), origin, self.slopes),
         );
-        let inside = met.inside;
-        if inside.bits() == 0 {
-            return false;
-        }
-        let number = block.triangles[lane];
-        let t = met.t();
-        let nearer = inside.and(S::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
-        // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
-        let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
-        if seldom.bits() != 0 {
-            return self.one_by_one(inside.bits(), &block.lane(lane), number);
-        }
-        self.t = S::select(nearer, t, self.t);
-        self.triangle = S::select(nearer, S::splat(f32::from_bits(number)), self.triangle);
-        nearer.bits() != 0
-    }
-
-    #[inline(never)]
-    fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
-        let (mut t, mut triangle) = (self.t.store(), self.triangle.store());
-        let mut nearer = false;
-        for (lane, ray) in self.rays.iter().enumerate().filter(|(lane, _)| lanes >> lane & 1 == 1) {
-            let before = Hit { t: t[lane], triangle: triangle[lane].to_bits() };
-            let mut best = before;
-            Shear::new(ray).update(corners, number, ray.until, &mut best);
-            (t[lane], triangle[lane]) = (best.t, f32::from_bits(best.triangle));
-            nearer |= best != before;
-        }
-        (self.t, self.triangle) = (S::load(&t), S::load(&triangle));
-        nearer
+        self.best.take(&met, met.inside, block, lane)
     }
 
     #[inline(always)]
     fn write(&self, hits: &mut [Hit]) {
-        let all: [Hit; GROUP] = bytemuck::cast(self.t.beside(self.triangle));
-        hits.copy_from_slice(&all[..hits.len()]);
+        hits.copy_from_slice(&self.best.hits()[..hits.len()]);
     }
 }
 

@@ -3,8 +3,8 @@
 use super::hull::{Axes, Planes};
 use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::ray::{Hit, Ray};
-use super::triangle::Shear;
 use super::wide::{Block, LEAF, Stack, Waits, Wide, leaf};
+use super::wide_best::Best;
 use super::wide_ray::{meet, sheared};
 
 /// Rays that a transposition takes at once.
@@ -89,7 +89,7 @@ pub(super) fn corner<L: Lanes>(block: &Block, corner: usize, axes: [usize; 3], l
 
 /// Sixteen rays laid out lane by lane, and what they have met.
 struct Group<'a, S: Lanes> {
-    rays: &'a [Ray; GROUP],
+    best: Best<'a, S>,
     origin: [S; 3],
     /// Of `Shear`, each lane along its own fastest axis.
     slopes: [S; 3],
@@ -97,10 +97,6 @@ struct Group<'a, S: Lanes> {
     fastest: [S::Mask; 3],
     /// One bit an axis along which any lane moves fastest.
     axes: u32,
-    until: S,
-    t: S,
-    /// Numbers of triangles as bits.
-    triangle: S,
     /// The depth where each ray starts, and depth for t.
     depth: [S; 2],
 }
@@ -132,14 +128,11 @@ impl<'a, S: Sixteen> Group<'a, S> {
         let depth = axes.axes[2];
         let sign = S::splat(axes.sign);
         Group {
-            rays,
+            best: Best::new(rays, until),
             origin,
             slopes,
             fastest,
             axes: u32::from(some[0] != 0) | u32::from(some[1] != 0) << 1 | u32::from(some[2] != 0) << 2,
-            until,
-            t: S::splat(Hit::MISS.t),
-            triangle: S::splat(f32::from_bits(Hit::NONE)),
             depth: [origin[depth].sub(S::splat(axes.front)).mul(sign), direction[depth].mul(sign)],
         }
     }
@@ -147,7 +140,7 @@ impl<'a, S: Sixteen> Group<'a, S> {
     /// Behind this depth nothing can be nearer than what every ray has.
     #[inline(always)]
     fn deepest(&self) -> f32 {
-        self.depth[0].add(self.depth[1].mul(self.t.min(self.until))).greatest()
+        self.depth[0].add(self.depth[1].mul(self.best.last())).greatest()
     }
 
     /// Tests some triangles of one block, and says whether a ray has met something nearer.
@@ -177,40 +170,7 @@ impl<'a, S: Sixteen> Group<'a, S> {
             sheared(corner(block, 1, axes, lane), origin, self.slopes),
             sheared(corner(block, 2, axes, lane), origin, self.slopes),
         );
-        let inside = met.inside.and(self.fastest[axis]);
-        if inside.bits() == 0 {
-            return false;
-        }
-        let number = block.triangles[lane];
-        let t = met.t();
-        let nearer = inside.and(S::splat(0.0).at_most(t)).and(t.at_most(self.until)).and(t.at_most(self.t));
-        // What happens seldom is done one by one: an edge function of 0, or the same t as the best.
-        let seldom = met.exact().and(inside).or(nearer.and(self.t.at_most(t)));
-        if seldom.bits() != 0 {
-            return self.one_by_one(inside.bits(), &block.lane(lane), number);
-        }
-        self.t = S::select(nearer, t, self.t);
-        self.triangle = S::select(nearer, S::splat(f32::from_bits(number)), self.triangle);
-        nearer.bits() != 0
-    }
-
-    #[inline(never)]
-    fn one_by_one(&mut self, lanes: u32, corners: &[[f32; 3]; 3], number: u32) -> bool {
-        let mut hits = self.hits();
-        let before = hits;
-        for lane in (0..GROUP).filter(|lane| lanes >> lane & 1 == 1) {
-            let ray = &self.rays[lane];
-            Shear::new(ray).update(corners, number, ray.until, &mut hits[lane]);
-        }
-        self.t = S::load(&hits.map(|h| h.t));
-        self.triangle = S::load(&hits.map(|h| f32::from_bits(h.triangle)));
-        hits != before
-    }
-
-    #[inline(always)]
-    fn hits(&self) -> [Hit; GROUP] {
-        let (t, triangle) = (self.t.store(), self.triangle.store());
-        std::array::from_fn(|i| Hit { t: t[i], triangle: triangle[i].to_bits() })
+        self.best.take(&met, met.inside.and(self.fastest[axis]), block, lane)
     }
 }
 
@@ -266,5 +226,5 @@ pub(super) fn group<L: Eight, S: Sixteen>(
             }
         }
     }
-    hits.copy_from_slice(&group.hits()[..hits.len()]);
+    hits.copy_from_slice(&group.best.hits()[..hits.len()]);
 }
