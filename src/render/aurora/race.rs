@@ -51,8 +51,10 @@ pub struct Scene<'a> {
     pub electrons: &'a [Electron],
     /// Apparent places on the lattice.
     pub nodes: &'a [[f32; 4]],
-    /// The tables of the fall, as shaders/aurora/experiment_walks.wgsl reads them.
-    pub tables: &'a [f32],
+    /// Of each level, as shaders/aurora/experiment_walks.wgsl reads them.
+    pub air: &'a [[f32; 4]],
+    /// The table of falls, as it reads it.
+    pub falls: &'a [[f32; 4]],
     /// Photons per collision by line at each level.
     pub light: &'a [[f32; 4]],
 }
@@ -105,7 +107,8 @@ impl Race {
             return None;
         }
         let device = &gpu.device;
-        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
+        let slots =
+            [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Write, Slot::Write];
         let walk_layout = layout(device, "aurora race walk", ShaderStages::COMPUTE, &slots);
         let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read];
         let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
@@ -148,7 +151,10 @@ impl Race {
         gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&scene.uniform));
         let slice = TableTexture::of(gpu, "aurora race slice", scene.slice.unwrap_or(&[[0.0; 4]]));
         let electrons = storage(gpu, "aurora race electrons", scene.electrons);
-        let (tables, nodes) = (storage(gpu, "aurora race tables", scene.tables), storage(gpu, "aurora race nodes", scene.nodes));
+        let air = buffer(device, "aurora race air", size_of_val(scene.air) as u64, BufferUsages::UNIFORM);
+        gpu.queue.write_buffer(&air, 0, bytemuck::cast_slice(scene.air));
+        let falls = TableTexture::of(gpu, "aurora race falls", scene.falls);
+        let nodes = TableTexture::of(gpu, "aurora race nodes", scene.nodes);
         let light = storage(gpu, "aurora race light", scene.light);
         let room = 16 * POINTS * scene.electrons.len() as u64;
         let most = device.limits().max_storage_buffer_binding_size;
@@ -159,13 +165,14 @@ impl Race {
         }
         let points = buffer(device, "aurora race points", room, BufferUsages::STORAGE);
         let draws = buffer(device, "aurora race draws", 16, BufferUsages::STORAGE | BufferUsages::INDIRECT);
-        gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+        gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[3u32, 0, 0, 0]));
         let resources = [
             uniform.as_entire_binding(),
             slice.binding(),
             electrons.as_entire_binding(),
-            tables.as_entire_binding(),
-            nodes.as_entire_binding(),
+            air.as_entire_binding(),
+            falls.binding(),
+            nodes.binding(),
             points.as_entire_binding(),
             draws.as_entire_binding(),
         ];
