@@ -13,14 +13,12 @@
 @group(0) @binding(5) var nodes: texture_2d<f32>;
 /// x, y: pixels, z: pixels per km (bits of floats), w: level and, from the 8th bit on, collisions.
 @group(0) @binding(6) var<storage, read_write> points: array<vec4<u32>>;
-/// How the points are drawn; first the number of corners.
+/// How the points are drawn; second their number.
 @group(0) @binding(7) var<storage, read_write> draws: array<atomic<u32>>;
 
 /// Levels of a texel, and texels of a row of the table of falls.
 const FOUR: u32 = 4u;
 const ROW: u32 = LEVELS / FOUR + 1u;
-/// Corners of a splat.
-const CORNERS: u32 = 3u;
 /// 1/1.75: scene::aurora::fall.
 const ENERGY_POWER: f32 = 0.5714286;
 

@@ -373,12 +373,7 @@ impl Lone {
         let order: __m256i = cast(ORDERS[found as usize & 255]);
         // There are less than eight: those were taken.
         let at = self.length.min(LANES);
-        let columns = [
-            (&mut self.x, &points.x),
-            (&mut self.y, &points.y),
-            (&mut self.variance, variances),
-            (&mut self.weight, weights),
-        ];
+        let columns = [(&mut self.x, &points.x), (&mut self.y, &points.y), (&mut self.variance, variances), (&mut self.weight, weights)];
         for (column, numbers) in columns {
             let ordered = _mm256_permutevar8x32_ps(cast(*numbers), order);
             column[at..at + LANES].copy_from_slice(&cast::<__m256, [f32; LANES]>(ordered));

@@ -106,8 +106,7 @@ impl Race {
             return None;
         }
         let device = &gpu.device;
-        let slots =
-            [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Write, Slot::Write];
+        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Write, Slot::Write];
         let walk_layout = layout(device, "aurora race walk", ShaderStages::COMPUTE, &slots);
         let slots = [Slot::Uniform, Slot::Read, Slot::Uniform];
         let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
