@@ -8,7 +8,7 @@ use glam::{Mat3, Vec3};
 
 use crate::measure::aurora::experiment::{Job, Runner, TOLERANCE, Timed};
 use crate::measure::aurora::lattice::Lattice;
-use crate::measure::aurora::sheet::{FALLS, Falls, row_reach};
+use crate::measure::aurora::sheet::{FALLS, Falls, LEVELS, TOP, row_reach};
 use crate::measure::aurora::splat::Picture;
 use crate::measure::aurora::walk::across;
 use crate::render::Gpu;
@@ -47,13 +47,21 @@ fn columns(m: Mat3) -> [[f32; 4]; 3] {
     [m.x_axis, m.y_axis, m.z_axis].map(row)
 }
 
-/// The tables of the fall in the order of shaders/aurora/experiment_walks.wgsl.
-fn tables(falls: &Falls) -> Vec<f32> {
-    let overheads = falls.overheads.iter().map(|overhead| *overhead as f32);
-    let reaches = (0..FALLS).map(|row| row_reach(row) as f32);
-    let stops = falls.stops.iter().map(|stop| *stop as f32);
-    let spent = falls.spent.iter().flatten().copied();
-    falls.heights.iter().chain(&falls.sway).copied().chain(overheads).chain(reaches).chain(stops).chain(spent).collect()
+/// Of each level what shaders/aurora/experiment_walks.wgsl asks for; there are `chords` chords from the top down to `foot`.
+fn air(falls: &Falls, chords: usize, foot: f32) -> Vec<[f32; 4]> {
+    let length = (TOP as f32 - foot) / chords as f32;
+    let chord = |height: f32| (((TOP as f32 - height) / length) as usize).min(chords - 1) as f32;
+    let level = |k: usize| [falls.heights[k], falls.sway[k], falls.overheads[k] as f32, chord(falls.heights[k])];
+    (0..LEVELS).map(level).collect()
+}
+
+/// The table of falls in its order.
+fn table(falls: &Falls) -> Vec<[f32; 4]> {
+    let row = |row: usize| {
+        let (below, _) = falls.spent[row][1..].as_chunks::<4>();
+        below.iter().copied().chain([[row_reach(row) as f32, falls.stops[row] as f32, 0.0, 0.0]])
+    };
+    (0..FALLS).flat_map(row).collect()
 }
 
 impl Runner for Contestant {
@@ -103,7 +111,8 @@ impl Runner for Contestant {
             slice: eye.bent.as_ref().map(|bent| bent.slice.texels()),
             electrons: &electrons,
             nodes: &nodes,
-            tables: &tables(job.falls),
+            air: &air(job.falls, lattice.chords(), lattice.foot()),
+            falls: &table(job.falls),
             light: &job.falls.light,
         };
         let drawn = self.race.borrow_mut().draw(&scene, self.walk).inspect_err(|error| eprintln!("lensrunner: {error}")).ok()?;

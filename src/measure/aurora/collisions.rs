@@ -11,7 +11,7 @@ pub const ROOM: usize = 256;
 
 /// For each set of lanes, as bits, its lanes in order; the others are no lanes of it.
 #[cfg(target_arch = "x86_64")]
-static ORDERS: [[u32; LANES]; 256] = {
+pub(super) static ORDERS: [[u32; LANES]; 256] = {
     let mut orders = [[0; LANES]; 256];
     let mut set = 0;
     while set < 256 {

@@ -191,7 +191,8 @@ impl Canvas {
 /// divided between walk and splats as the threads' own times are.
 pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let start = Instant::now();
-    let lattice = (variant.method == Method::Exact).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
+    // In flat space each streak is one chord, of its own.
+    let lattice = (variant.method == Method::Exact && job.eye.bent.is_some()).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
     let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
     let before = start.elapsed().as_secs_f64();
     // A part of the electrons: its canvas, and seconds of walk and of splats.

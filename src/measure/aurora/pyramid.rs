@@ -9,6 +9,8 @@
 use bytemuck::{Pod, Zeroable, cast};
 use wide::f32x4;
 
+#[cfg(target_arch = "x86_64")]
+use super::collisions::ORDERS;
 use super::points::{Eight, LANES, Points, greater, lesser};
 use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
@@ -159,7 +161,7 @@ fn black(stride: usize, rows: usize) -> Vec<Pair> {
 }
 
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx2,popcnt")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
     pyramid.add_all::<true>(points, falls, radius, shares);
 }
@@ -174,7 +176,7 @@ impl Pyramid {
     /// Adds points with blobs of standard deviation `radius` km.
     pub fn add(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
             #[allow(unsafe_code)]
             // SAFETY: the instructions were detected.
             return unsafe { add_avx(self, points, falls, radius, shares) };
@@ -187,7 +189,7 @@ impl Pyramid {
         self.add_all::<false>(points, falls, radius, shares);
     }
 
-    /// `AVX` may be said only where the processor has AVX2.
+    /// `AVX` may be said only where the processor has AVX2 and counts bits.
     #[inline(always)]
     fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         let mut target = Target { layers: &mut self.layers, stride: self.stride / 2, height: self.size[1], shares: &shares.0 };
@@ -199,7 +201,7 @@ impl Pyramid {
                 lone.take()
             } else if first < points.len() {
                 first += 2 * LANES;
-                Blobs::of(&points.pairs(first - 2 * LANES), radius, &mut lone)
+                Blobs::of::<AVX>(&points.pairs(first - 2 * LANES), radius, &mut lone)
             } else {
                 break;
             };
@@ -292,9 +294,10 @@ struct Blobs {
 impl Blobs {
     /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
     /// is put to the `lone` ones.
-    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are.
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX` as for
+    // `Pyramid::add_all`.
     #[inline(always)]
-    fn of([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
+    fn of<const AVX: bool>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
         let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
         let (mut variances, mut weights) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
@@ -323,6 +326,15 @@ impl Blobs {
             variances[k] = second_variance;
             weights[k] = if near { 0.0 } else { second_weight };
         }
+        #[cfg(target_arch = "x86_64")]
+        if AVX {
+            #[allow(unsafe_code)]
+            // SAFETY: the caller says that the processor has AVX2 and counts bits.
+            unsafe {
+                lone.put_avx(b, &variances, &weights)
+            };
+            return blobs;
+        }
         for k in 0..LANES {
             lone.put(b.x[k], b.y[k], variances[k], weights[k], b.level[k]);
         }
@@ -349,6 +361,26 @@ impl Lone {
         let k = self.length % (2 * LANES);
         (self.x[k], self.y[k], self.variance[k], self.weight[k], self.level[k]) = (x, y, variance, weight, level);
         self.length += usize::from(weight != 0.0);
+    }
+
+    /// The same for eight at once: forty numbers written one by one kept the next eight waiting.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2,popcnt")]
+    #[inline]
+    fn put_avx(&mut self, points: &Eight, variances: &[f32; LANES], weights: &[f32; LANES]) {
+        use std::arch::x86_64::*;
+        let found = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_NEQ_UQ>(cast(*weights), _mm256_setzero_ps()));
+        let order: __m256i = cast(ORDERS[found as usize & 255]);
+        // There are less than eight: those were taken.
+        let at = self.length.min(LANES);
+        let columns = [(&mut self.x, &points.x), (&mut self.y, &points.y), (&mut self.variance, variances), (&mut self.weight, weights)];
+        for (column, numbers) in columns {
+            let ordered = _mm256_permutevar8x32_ps(cast(*numbers), order);
+            column[at..at + LANES].copy_from_slice(&cast::<__m256, [f32; LANES]>(ordered));
+        }
+        let ordered = _mm256_permutevar8x32_epi32(cast(points.level), order);
+        self.level[at..at + LANES].copy_from_slice(&cast::<__m256i, [u32; LANES]>(ordered));
+        self.length += found.count_ones() as usize;
     }
 
     /// Takes the first eight, or those that there are.

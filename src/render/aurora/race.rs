@@ -51,8 +51,10 @@ pub struct Scene<'a> {
     pub electrons: &'a [Electron],
     /// Apparent places on the lattice.
     pub nodes: &'a [[f32; 4]],
-    /// The tables of the fall, as shaders/aurora/experiment_walks.wgsl reads them.
-    pub tables: &'a [f32],
+    /// Of each level, as shaders/aurora/experiment_walks.wgsl reads them.
+    pub air: &'a [[f32; 4]],
+    /// The table of falls, as it reads it.
+    pub falls: &'a [[f32; 4]],
     /// Photons per collision by line at each level.
     pub light: &'a [[f32; 4]],
 }
@@ -79,8 +81,6 @@ pub struct Drawn {
 
 /// Most points of an electron: one at every level.
 const POINTS: u64 = 160;
-/// Entries of the tabulated Gaussian, for r²/σ² from 0 to 18.
-const GAUSSIAN: usize = 512;
 /// The picture is added up in full floats: halves would lose the faint edges of splats where much has been added already.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
@@ -93,7 +93,8 @@ pub struct Race {
     /// Particles and exact, in flat space and through the table.
     walks: [[wgpu::ComputePipeline; 2]; 2],
     splat: wgpu::RenderPipeline,
-    gaussian: wgpu::Buffer,
+    /// Kept from draw to draw: a new one is filled with zeros before it is used, which took as long as a walk.
+    points: wgpu::Buffer,
     /// Which walks have run once: a driver compiles them then.
     warm: [[bool; 2]; 2],
 }
@@ -105,9 +106,9 @@ impl Race {
             return None;
         }
         let device = &gpu.device;
-        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Read, Slot::Read, Slot::Write, Slot::Write];
+        let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Write, Slot::Write];
         let walk_layout = layout(device, "aurora race walk", ShaderStages::COMPUTE, &slots);
-        let slots = [Slot::Uniform, Slot::Read, Slot::Read, Slot::Read];
+        let slots = [Slot::Uniform, Slot::Read, Slot::Uniform];
         let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
         let walks = [false, true].map(|bent| {
             let source = shaders::aurora_experiment(bent);
@@ -126,9 +127,8 @@ impl Race {
         let sum = Some(wgpu::BlendState { color: one, alpha: one });
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(FORMAT, sum)], depth: None };
         let splat = raster(device, "aurora race splat", &module, stage, &[Some(&splat_layout)]);
-        let gaussian: Vec<f32> = (0..GAUSSIAN).map(|k| (-9.0 * k as f32 / (GAUSSIAN - 1) as f32).exp()).collect();
-        let gaussian = storage(gpu, "aurora race gaussian", &gaussian);
-        Some(Race { gpu: gpu.clone(), walk_layout, splat_layout, walks, splat, gaussian, warm: [[false; 2]; 2] })
+        let points = buffer(device, "aurora race points", 0, BufferUsages::STORAGE);
+        Some(Race { gpu: gpu.clone(), points, walk_layout, splat_layout, walks, splat, warm: [[false; 2]; 2] })
     }
 
     /// The adapter's name and kind.
@@ -148,8 +148,13 @@ impl Race {
         gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&scene.uniform));
         let slice = TableTexture::of(gpu, "aurora race slice", scene.slice.unwrap_or(&[[0.0; 4]]));
         let electrons = storage(gpu, "aurora race electrons", scene.electrons);
-        let (tables, nodes) = (storage(gpu, "aurora race tables", scene.tables), storage(gpu, "aurora race nodes", scene.nodes));
-        let light = storage(gpu, "aurora race light", scene.light);
+        let [air, light] = [("aurora race air", scene.air), ("aurora race light", scene.light)].map(|(label, levels)| {
+            let uniform = buffer(device, label, size_of_val(levels) as u64, BufferUsages::UNIFORM);
+            gpu.queue.write_buffer(&uniform, 0, bytemuck::cast_slice(levels));
+            uniform
+        });
+        let falls = TableTexture::of(gpu, "aurora race falls", scene.falls);
+        let nodes = TableTexture::of(gpu, "aurora race nodes", scene.nodes);
         let room = 16 * POINTS * scene.electrons.len() as u64;
         let most = device.limits().max_storage_buffer_binding_size;
         if room > most {
@@ -157,20 +162,24 @@ impl Race {
                 format!("the points of {} electrons take {room} bytes, a buffer of this adapter {most} at most", scene.electrons.len());
             return Err(PictureError::Device(asked));
         }
-        let points = buffer(device, "aurora race points", room, BufferUsages::STORAGE);
+        if self.points.size() < room {
+            self.points = buffer(device, "aurora race points", room, BufferUsages::STORAGE);
+        }
+        let points = &self.points;
         let draws = buffer(device, "aurora race draws", 16, BufferUsages::STORAGE | BufferUsages::INDIRECT);
-        gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+        gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[3u32, 0, 0, 0]));
         let resources = [
             uniform.as_entire_binding(),
             slice.binding(),
             electrons.as_entire_binding(),
-            tables.as_entire_binding(),
-            nodes.as_entire_binding(),
+            air.as_entire_binding(),
+            falls.binding(),
+            nodes.binding(),
             points.as_entire_binding(),
             draws.as_entire_binding(),
         ];
         let walk_group = bind(device, "aurora race walk", &self.walk_layout, &resources);
-        let resources = [&uniform, &points, &light, &self.gaussian].map(|buffer| buffer.as_entire_binding());
+        let resources = [&uniform, points, &light].map(|buffer| buffer.as_entire_binding());
         let splat_group = bind(device, "aurora race splat", &self.splat_layout, &resources);
         let (texture, view) = target(device, "aurora race light", scene.size, FORMAT);
         self.run(|_| ())?;
