@@ -58,19 +58,19 @@ fn thin_images_have_their_light() {
         ("80°", far(80.0), [160, 160]),
         ("30°", far(30.0), [160, 160]),
         ("87°", far(87.0), [160, 160]),
-        ("at the inner edge", inner, [480, 270]),
+        ("at the inner edge", inner, [320, 180]),
     ];
     for (place, camera, size) in places {
         let [second, third] = light_over_exact(camera, size, Some(0.0));
         println!("{place}: {second:.3} of the second image's light, {third:.3} of the third's");
         assert!((0.97..1.03).contains(&second), "{place}: {second:.3} of the second image's light");
         // From 87° the gas of the second image, of which a pixel has the mean, hides a fifth too much of it.
-        assert!((0.75..1.25).contains(&third), "{place}: {third:.3} of the third image's light");
+        assert!((0.78..1.2).contains(&third), "{place}: {third:.3} of the third image's light");
     }
 }
 
-/// Streaks multiply the light of the third image, whose gas is seen redshifted, by more than two: its mean counts them, and no single one is drawn over all
-/// of its width.
+/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width, which made it
+/// twice as bright from 30°.
 #[test]
 fn the_third_image_has_its_light() {
     for degrees in [30.0, 80.0] {
