@@ -501,22 +501,6 @@ fn arcs_are_nearer_to_the_truth_than_polygons_or_as_near() {
     }
 }
 
-/// The third image is far thinner than a pixel, and yet has as much light as it should, to a factor of two: the mean is that of eight radii that share
-/// its width equally in the mean over the azimuths, of gas without streaks. (One radius for all of it gave five times too much.)
-#[test]
-fn the_third_image_has_its_light() {
-    let size = [160, 160];
-    let disk = a_disk();
-    let mut renderer = renderer(size);
-    let camera = camera(27.0, 80.0, 15f64.to_radians());
-    let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
-    let [third, second] =
-        [3, 2].map(|orders| drawn_and_exact(&mut renderer, &disk, camera, size, 100.0, orders).map(|picture| light(&picture)));
-    let [got, want] = [0, 1].map(|k| third[k] - second[k]);
-    println!("the third image adds {got:.2}, must add {want:.2}");
-    assert!((0.5..2.0).contains(&(got / want)), "the third image adds {got:.2}, must add {want:.2}");
-}
-
 /// Streaks finer than a pixel still count in its light, which is steep in the temperature: the whole picture is as bright as the exact one.
 #[test]
 fn a_small_picture_has_the_light_of_a_large_one() {

@@ -54,11 +54,12 @@ fn errors<const N: usize>(camera: Camera, parts: [[[u32; 2]; 2]; N]) -> [f64; N]
 fn thin_images_from_near_are_lines_where_they_are() {
     let camera = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());
     let [behind, narrow, both] = errors(camera, [[[440, 550], [110, 170]], [[420, 300], [90, 130]], [[300, 90], [110, 140]]]);
-    // They have 0.11, 0.31 and 0.43. 0.48 without circles of its own in the falling gas.
+    // They have 0.11, 0.28 and 0.24. 0.48 without circles of its own in the falling gas.
     assert!(behind < 0.15, "behind the falling gas: {behind}");
     // 0.54 and 1.22 where images up to ten pixels wide are drawn wider than they are.
-    assert!(narrow < 0.4, "a few pixels wide: {narrow}");
-    assert!(both < 0.6, "both images: {both}");
+    assert!(narrow < 0.35, "a few pixels wide: {narrow}");
+    // 0.43 where images are as wide in pixels as they are in the rain frame.
+    assert!(both < 0.32, "both images: {both}");
 }
 
 /// The streaks of the scene `disk-skim` where pixels are long in the pattern: smooth, without stairs.

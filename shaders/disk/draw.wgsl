@@ -10,9 +10,10 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
 }
 
 /// The part of a pixel that a thin image covers, `d` pixels from its middle: its share of a tent two least widths wide. A box would leave a line that is
-/// thinner than a pixel in steps of whole pixels, which along a diagonal are beads.
+/// thinner than a pixel in steps of whole pixels, which along a diagonal are beads. The tent narrows as the image is drawn no wider than it is: all
+/// of its light is there at any width.
 fn coverage(d: f32, half_width: f32) -> f32 {
-    let width = max(disk.gas.w, 0.05);
+    let width = max(disk.gas.w * (1.0 - own_share(half_width)), 0.05);
     return tent_below((d + half_width) / width) - tent_below((d - half_width) / width);
 }
 

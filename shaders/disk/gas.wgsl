@@ -39,7 +39,8 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
     let time = disk.renewal.x - path * disk.renewal.y;
     let number = floor(time);
     let grown = time - number;
-    let shares = disk_shares(grown) * (0.36067376 * disk.gas.x);
+    // The light of a thin image has its streaks' mean already.
+    let shares = disk_shares(grown) * (0.36067376 * disk.gas.x * sqrt(own_share(thin.y)));
     let age = grown * disk.renewal.z + disk.renewal.w;
     let place = vec2<f32>(turns, 0.0) + disk.offset.xy + number * disk.offset.zw;
     let young = vec4<f32>(place, age, shares.x);

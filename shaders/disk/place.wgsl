@@ -3,11 +3,6 @@
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, and is no longer drawn wider.
-/// What is thinner is drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots. A wide image needs that no more, as
-/// the gas thins out towards its edges, and it would move the gas aside.
-const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
-
 /// Circles whose mean a thin image shows; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
 
@@ -17,39 +12,41 @@ const GREEN: f32 = 26160.0;
 /// The variance of the pattern and its finest octaves: 1 and 0.35².
 const VARIANCE: f32 = 1.1225;
 
-/// ln of the light of gas at GREEN/T = `x` in the mean over streaks by which ln T has the variance `v`: what gas_colour makes of it.
+/// ln of the light that streaks, by which ln T has the variance `v`, make in the mean of gas at GREEN/T = `x`: exp(x(1 − e^{−y})) weighs ln T by a normal
+/// distribution moved to `brightest`.
 fn mean_light(x: f32, v: f32) -> f32 {
     return 0.5 * v * (x * x - x) / (1.0 + v * x) - x;
 }
 
-/// The inverse: x of gas whose light has the logarithm `light` in the mean.
-fn mean_light_of(light: f32, v: f32) -> f32 {
-    let b = 1.0 + v * (0.5 + light);
-    return -2.0 * light / (b + sqrt(b * b - 2.0 * v * light));
+/// By how much ln T is above that of mean gas where streaks make most of the light.
+fn brightest(x: f32, v: f32) -> f32 {
+    return v * x / (1.0 + v * x);
 }
 
-/// The gas that is as bright as an image is in the mean over its width, where that is thin: all of it is seen by the same ray. x: ln of the temperature
-/// that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera, `observed` its frequency there.
-fn mean_gas(first: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
+/// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
+/// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera,
+/// `observed` its frequency there; there are `count` circles.
+fn mean_gas(first: u32, count: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
-    // Streaks brighten cold gas more than warm gas: the mean is that of light with them.
     let v = VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
     var light = 0.0;
     var stopped = 0.0;
-    for (var k = first; k < min(first + THIN_SAMPLES, arrayLength(&circles)); k++) {
+    for (var k = first; k < min(first + count, arrayLength(&circles)); k++) {
         let there = circles[k];
         // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
         let temperature = exp(there.gas.z) * select(1.0, clamp(observed / found.x, 1e-3, 1e3), shifts);
-        let stops = 1.0 - exp(-there.gas.w / max(found.y, LEAST_COSINE));
-        light += stops * exp(mean_light(GREEN / temperature, v));
-        stopped += stops;
+        let depth = there.gas.w / max(found.y, LEAST_COSINE);
+        let x = GREEN / temperature;
+        // Density is the fourth power of the temperature.
+        light += (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v));
+        stopped += 1.0 - exp(-depth);
     }
     let own = max(stopped, 1e-6);
-    let x = mean_light_of(log(clamp(light / own, 1e-37, 0.999)), v);
+    let x = -log(clamp(light / own, 1e-37, 0.999));
     return vec2<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)));
 }
 
@@ -92,16 +89,19 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
 
     var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
     var thin = vec2<f32>(0.0, 1e6);
+    // Where all of a thin image is seen.
+    var all_at = seen_at;
     if order > 1u {
         // Pixels by the size of one at this place of the picture.
-        let pixel = frame.size.z * camera_doppler_of(seen_at);
+        let pixel = frame.size.z * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + (disk.gas.w + SOFT) * (1.0 - smoothstep(MEAN.x, MEAN.y, half));
+        let drawn = half + (disk.gas.w + SOFT) * (1.0 - own_share(half));
         let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
         thin = vec2<f32>(d, half);
         let moved = middle + d * pixel;
         seen_at = n * cos(moved) + side * (turn * sin(moved));
+        all_at = n * cos(middle) + side * (turn * sin(middle));
     }
 
     var vertex: DiskVertex;
@@ -123,9 +123,8 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
     let gamma = sqrt(1.0 + dot(momentum, momentum));
     let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
-    let m = frame.camera_from_rain;
     let arriving = -seen_at * ray.frequency;
-    let observed = m[0].w * arriving.x + m[1].w * arriving.y + m[2].w * arriving.z + m[3].w * ray.frequency;
+    let observed = camera_doppler_of(seen_at) * ray.frequency;
     let g = clamp(observed / emitted, 1e-3, 1e3);
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
@@ -133,10 +132,13 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
     var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
-    if order > 1u && thin.y < MEAN.y {
-        let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
-        let mean = mean_gas(circle.rows.w, arriving, ray.frequency, observed);
-        shown = mix(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y / max(slant, 1e-6)), shown, smoothstep(MEAN.x, MEAN.y, thin.y));
+    let own = own_share(thin.y);
+    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    // A loop over nothing is all that software drivers skip: a branch is run through by all.
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), -all_at * ray.frequency, ray.frequency,
+        camera_doppler_of(all_at) * ray.frequency);
+    if own < 1.0 {
+        shown = mix(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y / max(slant, 1e-6)), shown, own);
     }
     // Close by, the slant is worked out in each pixel.
     vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, order <= disk.room.y));
@@ -157,5 +159,18 @@ fn cuts_origin() -> f32 {
 /// Frequency in the camera's frame over that in the rain frame, of light from `look`: angles there are smaller by it.
 fn camera_doppler_of(look: vec3<f32>) -> f32 {
     let m = frame.camera_from_rain;
-    return 1.0 / max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
+    return max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
+}
+
+/// Least cosine of the angle from the camera's axis for the size of a pixel: beyond it, where no picture reaches, pixels stay as large as there.
+const LEAST_AHEAD: f32 = 0.1;
+
+/// The rain frame's angle that is one pixel of the middle of a picture long, at `look` in the direction `along` (rain axes) across it: by aberration,
+/// and by the perspective, which draws out what is aside.
+fn pixel_of(look: vec3<f32>, along: vec3<f32>) -> f32 {
+    let m = frame.camera_from_rain;
+    let seen = (m * vec4<f32>(look, -1.0)).xyz;
+    let moves = (m * vec4<f32>(along, 0.0)).xyz;
+    let ahead = max(-seen.z, LEAST_AHEAD * length(seen));
+    return ahead * ahead / max(length(moves.xy * ahead + seen.xy * moves.z), 1e-9 * ahead * ahead);
 }

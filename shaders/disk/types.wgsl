@@ -60,3 +60,13 @@ struct Counters {
     /// 1 once the vertices of the grid are there.
     stage: u32,
 }
+
+/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, and is no longer drawn wider.
+/// What is thinner is drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots. A wide image needs that no more, as
+/// the gas thins out towards its edges, and it would move the gas aside.
+const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
+
+/// The share of its circles' own gas that a thin image shows.
+fn own_share(half_width: f32) -> f32 {
+    return smoothstep(MEAN.x, MEAN.y, half_width);
+}

@@ -34,10 +34,12 @@ const FROM_FAR: Straight = Straight { across: 0.05, along: 4.0, light: 0.02, sto
 /// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
 const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, stopped: 0.03 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
-/// shaders/disk/place.wgsl has it.
+/// shaders/disk/types.wgsl has it.
 const MEAN: [f64; 2] = [0.25, 1.0];
 /// Circles whose mean a thin image shows, as in shaders/disk/place.wgsl.
 const THIN_SAMPLES: usize = 8;
+/// The weight of a wide image in the shares of a thin one's width, over that of the thinnest.
+const WIDE_WEIGHT: f64 = 1e-3;
 /// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
 /// the first two misses the lag by 0.02 rad.
 const FALL_STEP: f64 = 0.05;
@@ -106,11 +108,12 @@ impl DiskView {
             let first = circles.len() as u32;
             let seen: Vec<SeenCircle> =
                 radii(disk, order <= close).into_iter().map(|r| SeenCircle::new(disk, camera, slice, order, r)).collect();
-            let (rows, pairs) = rows(disk, camera, &seen, width, order, if order <= close { FROM_NEAR } else { FROM_FAR });
+            let own = own_shares(camera, &seen, width, order);
+            let (rows, pairs) = rows(disk, camera, &seen, width, own, if order <= close { FROM_NEAR } else { FROM_FAR });
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
-                samples.extend(equal_shares(&seen).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
+                samples.extend(equal_shares(&seen, own).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
             if disk.config.gap <= 0.0 && order > close {
@@ -167,7 +170,14 @@ fn radii(disk: &Disk, close: bool) -> Vec<f64> {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u32, within: Straight) -> (Vec<f64>, Vec<[u32; 2]>) {
+fn rows(
+    disk: &Disk,
+    camera: &Camera,
+    seen: &[SeenCircle],
+    width: u32,
+    own: [f64; AZIMUTHS],
+    within: Straight,
+) -> (Vec<f64>, Vec<[u32; 2]>) {
     if disk.config.gap > 0.0 {
         return (disk.arcs.circles.clone(), disk.arcs.rings.clone());
     }
@@ -177,11 +187,6 @@ fn rows(disk: &Disk, camera: &Camera, seen: &[SeenCircle], width: u32, order: u3
     // Optical depths along a ray over those straight through: seen face on, and from where the camera is.
     let height = camera.position.z.abs() / camera.radius();
     let slants = [1.0, 1.0 / height.max(LEAST_COSINE)];
-    // How much of its own each circle shows: the narrower the whole image, the more one gas stands for all of it.
-    let own: [f64; AZIMUTHS] = std::array::from_fn(|k| {
-        let half = 0.5 * seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs() / pixel;
-        if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], half) }
-    });
     let straight = |a: usize, b: usize| {
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
@@ -247,13 +252,19 @@ fn straight_fit(at: &[f64], wanted: impl Fn(f64) -> f64, weight: impl Fn(f64) ->
     values
 }
 
-/// Radii that share the width of an image equally, in the mean over the azimuths.
-fn equal_shares(seen: &[SeenCircle]) -> [f64; THIN_SAMPLES] {
+/// How much of its own each circle of an image shows: the narrower the whole image, the more one gas stands for all of it.
+fn own_shares(camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> [f64; AZIMUTHS] {
+    let widths = widths(camera, &seen[0], &seen[seen.len() - 1], width);
+    widths.map(|width| if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], 0.5 * width) })
+}
+
+/// Radii that share the width of an image equally, in the mean over the azimuths where it is thin; it shows `own` of each circle.
+fn equal_shares(seen: &[SeenCircle], own: [f64; AZIMUTHS]) -> [f64; THIN_SAMPLES] {
     let mut before = vec![0.0];
     for pair in seen.windows(2) {
         let shares = (0..AZIMUTHS).map(|k| {
             let whole = seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs();
-            pair[0].places[k].angle_to(pair[1].places[k]).abs() / whole
+            (1.0 + WIDE_WEIGHT - own[k]) * pair[0].places[k].angle_to(pair[1].places[k]).abs() / whole
         });
         // Where there is no ray, nothing is seen.
         let share: f64 = shares.filter(|share| share.is_finite()).sum();
@@ -270,10 +281,21 @@ fn equal_shares(seen: &[SeenCircle]) -> [f64; THIN_SAMPLES] {
 
 /// The width of the image of an order where it is widest, in pixels.
 fn widest(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> f64 {
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let [inner, outer] = disk.gas.extent().map(|r| SeenCircle::new(disk, camera, slice, order, r));
-    let widths = inner.places.iter().zip(&outer.places).map(|(a, b)| a.angle_to(*b).abs() / pixel);
-    widths.fold(0.0, f64::max)
+    widths(camera, &inner, &outer, width).into_iter().fold(0.0, f64::max)
+}
+
+/// The width of the image between two circles at each azimuth, in pixels of the middle of a picture `width` pixels wide.
+fn widths(camera: &Camera, inner: &SeenCircle, outer: &SeenCircle, width: u32) -> [f64; AZIMUTHS] {
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    // Angles in the camera's frame are those of the rain frame over the frequency there; of the camera's motion the part outward, the same all round.
+    let gamma = (1.0 + camera.momentum.length_squared()).sqrt();
+    let outward = camera.momentum.dot(camera.position) / camera.radius();
+    std::array::from_fn(|k| {
+        let [a, b] = [inner.places[k], outer.places[k]];
+        let frequency = gamma + outward * (a.normalize() + b.normalize()).normalize().x;
+        a.angle_to(b).abs() / (pixel * frequency)
+    })
 }
 
 /// A circle as an order shows it.

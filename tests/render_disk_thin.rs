@@ -1,0 +1,81 @@
+//! The light of the second and the third image of the disk, thin bands on the screen, against the exact ones.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
+use lensrunner::measure::disk::{self, Eye};
+use lensrunner::render::disk::Disk;
+use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::stage::static_camera;
+use lensrunner::scene::GameConfig;
+
+use crate::render_shaders::GPU;
+
+/// T, in r_s/c.
+const TIME: f64 = 100.0;
+/// Samples squared in a pixel of the exact picture: the third image is a tenth of a pixel wide.
+const SAMPLES: u32 = 6;
+
+/// A camera 27 r_s from the hole and `degrees` from the disk's axis, that sees little else than the images of order 2 and 3.
+fn far(degrees: f64) -> Camera {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let position = 27.0 * DVec3::new(0.0, -sine, cosine);
+    static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), 15f64.to_radians())
+}
+
+/// The light (green) that the images of order 2 and 3 add over the picture, each over what it is in the exact one.
+fn light_over_exact(camera: Camera, size: [u32; 2], turbulence: Option<f64>) -> [f64; 2] {
+    let surroundings = Surroundings {
+        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
+        stars: Vec::new(),
+        milky_way: vec![(1, 1, vec![0.0])],
+    };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut config = GameConfig::default();
+    config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence);
+    let disk = Disk::new(config.disk.clone(), &config);
+    renderer.set_disk(Some(disk.clone()));
+    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let sums = [1, 2, 3].map(|orders| {
+        // A budget of many pixels: no third image unasked.
+        let settings = Settings { stars: false, milky_way: false, bloom: 0.0, orders, pixel_error: 100.0, ..Settings::default() };
+        let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
+        let got: f64 = renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).sum();
+        let want: f64 = disk::picture(&disk.gas, &eye, size, TIME, orders, SAMPLES).iter().map(|p| f64::from(p[1])).sum();
+        [got, want]
+    });
+    [1, 2].map(|k| (sums[k][0] - sums[k - 1][0]) / (sums[k][1] - sums[k - 1][1]))
+}
+
+/// All the light of the thin images is there, whatever their width in pixels, where the camera hovers (it sees what is below it larger than the rain does)
+/// and where perspective draws pictures out. Gas without streaks: one streak more or less is a tenth of the third image's light.
+#[test]
+fn thin_images_have_their_light() {
+    let inner = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());
+    let places = [
+        ("80°", far(80.0), [160, 160]),
+        ("30°", far(30.0), [160, 160]),
+        ("87°", far(87.0), [160, 160]),
+        ("at the inner edge", inner, [320, 180]),
+    ];
+    for (place, camera, size) in places {
+        let [second, third] = light_over_exact(camera, size, Some(0.0));
+        println!("{place}: {second:.3} of the second image's light, {third:.3} of the third's");
+        assert!((0.97..1.03).contains(&second), "{place}: {second:.3} of the second image's light");
+        // From 87° the gas of the second image, of which a pixel has the mean, hides a fifth too much of it.
+        assert!((0.78..1.2).contains(&third), "{place}: {third:.3} of the third image's light");
+    }
+}
+
+/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width, which made it
+/// twice as bright from 30°.
+#[test]
+fn the_third_image_has_its_light() {
+    for degrees in [30.0, 80.0] {
+        let [_, third] = light_over_exact(far(degrees), [160, 160], None);
+        println!("{degrees}°: {third:.3} of the third image's light");
+        assert!((0.8..1.2).contains(&third), "{degrees}°: {third:.3} of the third image's light");
+    }
+}
