@@ -506,6 +506,30 @@ fn the_same_frame_is_drawn_the_same() {
 }
 
 #[test]
+fn nothing_is_left_of_an_earlier_frame() {
+    // The finest level is made black only where the new frame has light there; an odd size, that tiles do not divide.
+    let size = [197, 111];
+    let config = GameConfig::default();
+    let drawn = |names: &[&str]| {
+        let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+        let pictures = names.iter().map(|name| {
+            let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+            let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+            frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
+            renderer.picture(&frame, false).unwrap()
+        });
+        pictures.last().unwrap()
+    };
+    let [fresh, used] = [drawn(&["aurora-orbit"]), drawn(&["aurora-below", "aurora-orbit"])];
+    let most = fresh.linear.iter().flatten().copied().fold(0.0, f32::max);
+    assert!(most > 0.1, "{most}");
+    for (a, b) in fresh.linear.iter().flatten().zip(used.linear.iter().flatten()) {
+        // Halves lose the faintest strokes, where those are all that the adapter adds up in.
+        assert!((a - b).abs() <= 0.02 * most, "{a} and {b}, of {most}");
+    }
+}
+
+#[test]
 fn a_watched_aurora_goes_on_without_a_burst() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];

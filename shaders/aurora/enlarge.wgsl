@@ -1,11 +1,7 @@
 // A level of the aurora's pyramid as the next finer one sees it. Levels but the finest have a texel of margin on each side (src/render/aurora/levels.rs).
 
-/// The light of a coarse level at a pixel of the next finer one (without its margin): two taps a side with weights 3/4 and 1/4, which adds a variance of
-/// 3/4 of a fine pixel squared.
-fn enlarged(coarse: texture_2d<f32>, pixel: vec2<i32>) -> vec4<f32> {
-    let own = (pixel >> vec2<u32>(1u)) + 1;
-    let beside = own + select(vec2<i32>(-1), vec2<i32>(1), (pixel & vec2<i32>(1)) == vec2<i32>(1));
-    let near = mix(textureLoad(coarse, own, 0), textureLoad(coarse, vec2<i32>(beside.x, own.y), 0), 0.25);
-    let far = mix(textureLoad(coarse, vec2<i32>(own.x, beside.y), 0), textureLoad(coarse, beside, 0), 0.25);
-    return mix(near, far, 0.25);
+/// The light of a coarse level at a place of the next finer one, in pixels of that (without its margin). At the middle of a pixel the filter takes two texels a side with
+/// weights 3/4 and 1/4, which adds a variance of 3/4 of a fine pixel squared; it does so in half the time of four fetches on a software driver.
+fn enlarged(coarse: texture_2d<f32>, linear: sampler, place: vec2<f32>) -> vec4<f32> {
+    return textureSampleLevel(coarse, linear, (0.5 * place + 1.0) / vec2<f32>(textureDimensions(coarse)), 0.0);
 }

@@ -3,6 +3,7 @@
 
 @group(1) @binding(0) var depths: texture_depth_2d;
 @group(1) @binding(1) var finer: texture_2d<f32>;
+@group(1) @binding(2) var nearest: sampler;
 
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
@@ -13,14 +14,17 @@ fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
 /// Tiles of 8 × 8 pixels; x: the least, y: the greatest depth.
 @fragment
 fn first(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let last = vec2<i32>(textureDimensions(depths)) - 1;
-    let corner = vec2<i32>(position.xy) * 8;
-    var range = vec2<f32>(1.0, 0.0);
-    for (var k = 0; k < 64; k++) {
-        let depth = textureLoad(depths, min(corner + vec2<i32>(k & 7, k >> 3u), last), 0);
-        range = vec2<f32>(min(range.x, depth), max(range.y, depth));
+    let size = vec2<f32>(textureDimensions(depths));
+    // Between four pixels; at the screen's edge those on it are taken twice.
+    let first = floor(position.xy) * 8.0 + 1.0;
+    var least = vec4<f32>(1.0);
+    var greatest = vec4<f32>(0.0);
+    for (var k = 0u; k < 16u; k++) {
+        let four = textureGather(depths, nearest, (first + 2.0 * vec2<f32>(f32(k & 3u), f32(k >> 2u))) / size);
+        least = min(least, four);
+        greatest = max(greatest, four);
     }
-    return vec4<f32>(range, 0.0, 0.0);
+    return vec4<f32>(min(min(least.x, least.y), min(least.z, least.w)), max(max(greatest.x, greatest.y), max(greatest.z, greatest.w)), 0.0, 0.0);
 }
 
 /// Tiles of twice the side from four.

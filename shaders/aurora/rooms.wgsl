@@ -1,23 +1,13 @@
 // Where strokes are kept: two levels share a room, one from its beginning and one from its end, so that it does not matter which of them they go to. The rooms
 // of coarser pairs are half as large each. Twin of `Rooms` in src/render/aurora/rooms.rs.
 
-/// Rows that the screen is divided into.
-const ROWS_OF_SCREEN: u32 = 128u;
-
-/// The first of the numbers of an image in `stroke_draws`.
-fn numbers_of(placement: u32) -> u32 {
-    return placement * 4u * (PYRAMID + 2u);
-}
-
-/// There may be light from pixel row `top` to `bottom` of the screen, `height` pixels high.
-fn light_up(placement: u32, top: f32, bottom: f32, height: f32) {
-    let rows = clamp(vec2<f32>(top, bottom) / ceil(height / f32(ROWS_OF_SCREEN)), vec2<f32>(0.0), vec2<f32>(f32(ROWS_OF_SCREEN) - 1.0));
-    let first = u32(rows.x);
-    let last = u32(rows.y);
-    for (var word = first / 32u; word <= last / 32u; word++) {
-        let low = max(first, 32u * word) & 31u;
-        let high = min(last, 32u * word + 31u) & 31u;
-        atomicOr(&stroke_draws[numbers_of(placement) + 4u * (PYRAMID + 1u) + word], (0xffffffffu >> (31u - (high - low))) << low);
+/// There may be light in a box of pixels (left, top, right, bottom) of a screen of a size: from the finest level, or from a coarser one.
+fn light_up(placement: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
+    let tiles = vec2<f32>(f32(TILE_COLUMNS), f32(TILE_ROWS));
+    let box = vec4<u32>(clamp(pixels / ceil(size / tiles).xyxy, vec4<f32>(0.0), (tiles - 1.0).xyxy));
+    let columns = (0xffffffffu >> (31u - (box.z - box.x))) << box.x;
+    for (var row = box.y; row <= box.w; row++) {
+        atomicOr(&stroke_draws[tiles_of(placement, finest) + row], columns);
     }
 }
 

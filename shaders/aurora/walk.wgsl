@@ -273,7 +273,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if room == 0xffffffffu {
             return;
         }
-        light_up(id.y, around.y, around.w, frame.size.y);
+        light_up(id.y, around, frame.size.xy, level == 0u);
         let half = u * (0.5 * stretch + blurred) * 2.0 / frame.size.xy;
         let side = (v + u * (uv / narrower.y)) * SIGMAS * sigma_v * 2.0 / frame.size.xy;
         let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));

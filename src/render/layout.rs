@@ -26,6 +26,8 @@ pub enum Slot {
     TextureArray,
     /// A filtering sampler.
     Sampler,
+    /// One that does not filter.
+    Nearest,
 }
 
 /// A layout with the slots at bindings 0, 1, 2, …, seen by `stages`.
@@ -63,6 +65,7 @@ pub fn layout(device: &wgpu::Device, label: &str, stages: ShaderStages, slots: &
                     },
                     Slot::TextureArray => texture(TextureViewDimension::D2Array, true),
                     Slot::Sampler => BindingType::Sampler(SamplerBindingType::Filtering),
+                    Slot::Nearest => BindingType::Sampler(SamplerBindingType::NonFiltering),
                 },
                 count: None,
             }

@@ -422,8 +422,9 @@ fn draw_aurora(
             pass.set_bind_group(0, group, &[]);
             run(&mut pass);
         };
+        // The finest level is cleared only where it has light.
         for (level, light) in aurora.levels() {
-            draw("aurora strokes", light, true, level == 0, &|pass| aurora.draw(pass, image, level));
+            draw("aurora strokes", light, level > 0, level == 0, &|pass| aurora.draw(pass, image, level));
         }
         draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
     }

@@ -17,10 +17,10 @@ pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
 
-/// In what light is added up: full floats where the adapter blends them. Halves have 11 bits; thousands of faint strokes in one of them are rounded one by one, in
+/// In what light is added up: full floats where the adapter blends and filters them. Halves have 11 bits; thousands of faint strokes in one of them are rounded one by one, in
 /// the order in which threads appended them, so that the same frame drawn again wavers by some per cent.
 pub fn light_format(device: &wgpu::Device) -> wgpu::TextureFormat {
-    let full = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE);
+    let full = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE);
     if full { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
 }
 
@@ -97,6 +97,7 @@ pub struct Ranges {
     first: wgpu::RenderPipeline,
     next: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
+    nearest: wgpu::Sampler,
     /// The depth that the rest is for.
     depth: Option<wgpu::TextureView>,
     all: wgpu::TextureView,
@@ -106,14 +107,15 @@ pub struct Ranges {
 impl Ranges {
     /// Compiles the passes.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout) -> Self {
-        let layout = layout(device, "aurora ranges", ShaderStages::FRAGMENT, &[Slot::Depth, Slot::Numbers]);
+        let layout = layout(device, "aurora ranges", ShaderStages::FRAGMENT, &[Slot::Depth, Slot::Numbers, Slot::Nearest]);
         let draw = |fragment| {
             let stage = Raster { vertex: "vertex", fragment, targets: &[(FORMAT, None)], depth: None };
             let module = module(device, "aurora ranges", Pass::AuroraRanges);
             raster(device, "aurora ranges", &module, stage, &[Some(frame_layout), Some(&layout)])
         };
         let all = texture(device, [1, 1]).create_view(&Default::default());
-        Ranges { first: draw("first"), next: draw("next"), layout, depth: None, all, steps: Vec::new() }
+        let nearest = device.create_sampler(&wgpu::SamplerDescriptor::default());
+        Ranges { first: draw("first"), next: draw("next"), layout, nearest, depth: None, all, steps: Vec::new() }
     }
 
     /// Of this depth of a screen of a size. True if the texture was replaced.
@@ -131,7 +133,8 @@ impl Ranges {
         self.steps.clear();
         for step in 0..TILES {
             let (own, finer) = (one(step), nothing);
-            let resources = [wgpu::BindingResource::TextureView(depth), wgpu::BindingResource::TextureView(&finer)];
+            let textures = [depth, &finer].map(wgpu::BindingResource::TextureView);
+            let resources = [&textures[..], &[wgpu::BindingResource::Sampler(&self.nearest)]].concat();
             let group = bind(device, "aurora ranges", &self.layout, &resources);
             nothing = own.clone();
             self.steps.push((own, group));

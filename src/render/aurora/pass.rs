@@ -5,7 +5,7 @@ use std::sync::Arc;
 use wgpu::{BufferUsages, ShaderStages};
 
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
-use super::rooms::{DRAWS_BYTES, ROWS, Rooms};
+use super::rooms::{DRAWS_BYTES, Rooms, TILES};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -44,10 +44,15 @@ pub struct Aurora {
     /// Into the finest level, tested by depth, and into the others.
     draw: [wgpu::RenderPipeline; 2],
     spread: wgpu::RenderPipeline,
-    resolve: wgpu::RenderPipeline,
+    /// Of the tiles of the finest level that have light.
+    wipe: wgpu::RenderPipeline,
+    /// By where a tile has light: in the finest level alone, in coarser ones alone, in both.
+    resolve: [wgpu::RenderPipeline; 3],
+    linear: wgpu::Sampler,
     walk_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
     spread_layout: wgpu::BindGroupLayout,
+    tiles_layout: wgpu::BindGroupLayout,
     resolve_layout: wgpu::BindGroupLayout,
     settings: wgpu::Buffer,
     placements: wgpu::Buffer,
@@ -81,7 +86,9 @@ struct Groups {
     draw: Vec<wgpu::BindGroup>,
     /// Of the next coarser level into each but the finest.
     spread: Vec<wgpu::BindGroup>,
-    resolve: Vec<wgpu::BindGroup>,
+    /// Colours and tiles, by image.
+    tiles: Vec<wgpu::BindGroup>,
+    resolve: wgpu::BindGroup,
 }
 
 impl Aurora {
@@ -92,9 +99,9 @@ impl Aurora {
         let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
         let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
         let draw_layout = layout(device, "aurora strokes", ShaderStages::VERTEX, &[Uniform, Read]);
-        let spread_layout = layout(device, "aurora spread", ShaderStages::FRAGMENT, &[Slot::Numbers]);
-        let resolve_layout =
-            layout(device, "aurora resolve", ShaderStages::VERTEX_FRAGMENT, &[Slot::Numbers, Uniform, Slot::Numbers, Read]);
+        let spread_layout = layout(device, "aurora spread", ShaderStages::VERTEX_FRAGMENT, &[Slot::Texture, Slot::Sampler, Read]);
+        let tiles_layout = layout(device, "aurora tiles", ShaderStages::VERTEX, &[Uniform, Read]);
+        let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Slot::Texture, Slot::Sampler]);
         let one = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,
@@ -102,25 +109,34 @@ impl Aurora {
         };
         let sum = Some(wgpu::BlendState { color: one, alpha: one });
         let light = light_format(device);
-        let draw = |label, pass, targets: &[_], depth, own| {
-            let stage = Raster { vertex: "vertex", fragment: "fragment", targets, depth };
-            raster(device, label, &module(device, label, pass), stage, &[Some(frame_layout), Some(own)])
-        };
+        let stage = |fragment, targets, depth| Raster { vertex: "vertex", fragment, targets, depth };
+        let add = [(light, sum)];
+        let set = [(light, None)];
+        let picture = [(HDR_FORMAT, sum)];
         let groups = [Some(frame_layout), Some(&walk_layout)];
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
         let draw_module = module(device, "aurora strokes", Pass::AuroraDraw);
-        let draw_strokes = |depth| {
-            let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(light, sum)], depth };
-            raster(device, "aurora strokes", &draw_module, stage, &[Some(frame_layout), Some(&draw_layout)])
-        };
+        let draw_groups = [Some(frame_layout), Some(&draw_layout)];
+        let draw_strokes = |depth| raster(device, "aurora strokes", &draw_module, stage("fragment", &add, depth), &draw_groups);
+        let spread_module = module(device, "aurora spread", Pass::AuroraSpread);
+        let spread_groups = [Some(frame_layout), Some(&spread_layout)];
+        let resolve_module = module(device, "aurora resolve", Pass::AuroraResolve);
+        let resolve_groups = [Some(frame_layout), Some(&tiles_layout), Some(&resolve_layout)];
+        let resolve = |fragment| raster(device, "aurora resolve", &resolve_module, stage(fragment, &picture, None), &resolve_groups);
         Aurora {
             project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
             ends: compute(device, "aurora ends", Pass::AuroraEnds, "main", &groups),
             walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
             ranges: Ranges::new(device, frame_layout),
             draw: [Some(false), None].map(draw_strokes),
-            spread: draw("aurora spread", Pass::AuroraSpread, &[(light, None)], None, &spread_layout),
-            resolve: draw("aurora resolve", Pass::AuroraResolve, &[(HDR_FORMAT, sum)], None, &resolve_layout),
+            spread: raster(device, "aurora spread", &spread_module, stage("fragment", &set, None), &spread_groups),
+            wipe: raster(device, "aurora wipe", &resolve_module, stage("wipe", &set, Some(false)), &resolve_groups[..2]),
+            resolve: ["finest", "coarser", "both"].map(resolve),
+            linear: device.create_sampler(&wgpu::SamplerDescriptor {
+                mag_filter: wgpu::FilterMode::Linear,
+                min_filter: wgpu::FilterMode::Linear,
+                ..Default::default()
+            }),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
             placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
             nodes: Growing::new(device, "aurora nodes", BufferUsages::STORAGE),
@@ -142,6 +158,7 @@ impl Aurora {
             walk_layout,
             draw_layout,
             spread_layout,
+            tiles_layout,
             resolve_layout,
         }
     }
@@ -195,15 +212,13 @@ impl Aurora {
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
-        let row = targets.size[1].div_ceil(ROWS) as f32 * 2.0 / targets.size[1] as f32;
-        for (image, (buffer, colours)) in self.colours.iter().zip(&frame.colours).enumerate() {
+        let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
+        for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             let mut colours = colours.map(|[x, y, z, _]| {
                 let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
                 [r as f32, g as f32, b as f32, 0.0]
             });
-            // The rows of an image are the last of its numbers.
-            colours[0][3] = (DRAWS_BYTES / 4 * (image as u64 + 1) - 4) as f32;
-            colours[1][3] = row;
+            (colours[0][3], colours[1][3]) = (tile[0], tile[1]);
             gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&colours));
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
@@ -233,20 +248,18 @@ impl Aurora {
             let coarse = levels.lights.get(level as usize).filter(|_| level < self.rooms.levels);
             wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
         };
-        let resolve = self.colours.iter().map(|colours| {
-            bind(
-                device,
-                "aurora resolve",
-                &self.resolve_layout,
-                &[light(0), colours.as_entire_binding(), light(1), self.draws.as_entire_binding()],
-            )
+        let linear = || wgpu::BindingResource::Sampler(&self.linear);
+        let spread = (1..self.rooms.levels)
+            .map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1), linear(), self.draws.as_entire_binding()]));
+        let tiles = self.colours.iter().map(|colours| {
+            bind(device, "aurora tiles", &self.tiles_layout, &[colours.as_entire_binding(), self.draws.as_entire_binding()])
         });
-        let spread = (1..self.rooms.levels).map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1)]));
         Some(Groups {
             walk: bind(device, "aurora walk", &self.walk_layout, &walk),
             draw: draw_strokes.collect(),
             spread: spread.collect(),
-            resolve: resolve.collect(),
+            tiles: tiles.collect(),
+            resolve: bind(device, "aurora resolve", &self.resolve_layout, &[light(0), light(1), linear()]),
         })
     }
 
@@ -304,7 +317,13 @@ impl Aurora {
         if level > 0 && level + 1 < self.rooms.levels {
             pass.set_pipeline(&self.spread);
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
-            pass.draw(0..3, 0..1);
+            let instance = 8 * image + level;
+            pass.draw(0..3, instance..instance + 1);
+        } else if level == 0 {
+            pass.set_pipeline(&self.wipe);
+            pass.set_bind_group(1, &bound.tiles[image as usize], &[]);
+            draw_tiles(pass, image, 1);
+            draw_tiles(pass, image, 3);
         }
         pass.set_pipeline(&self.draw[usize::from(level > 0)]);
         pass.set_bind_group(1, &bound.draw[level as usize], &[]);
@@ -314,10 +333,13 @@ impl Aurora {
     /// Adds the colour of what was added up to the picture.
     pub fn resolve(&self, pass: &mut wgpu::RenderPass, image: u32) {
         let Some(bound) = &self.groups else { return };
-        pass.set_pipeline(&self.resolve);
-        pass.set_bind_group(1, &bound.resolve[image as usize], &[]);
+        pass.set_bind_group(1, &bound.tiles[image as usize], &[]);
+        pass.set_bind_group(2, &bound.resolve, &[]);
         self.within(pass, image, |part| part);
-        pass.draw(0..6 * ROWS, 0..1);
+        for (kind, pipeline) in (1..).zip(&self.resolve) {
+            pass.set_pipeline(pipeline);
+            draw_tiles(pass, image, kind);
+        }
     }
 
     /// Only where the image may be; `level` says where that is in a level.
@@ -332,6 +354,12 @@ impl Aurora {
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws
     }
+}
+
+/// Draws those tiles of an image that are of a kind; as in resolve.wgsl.
+fn draw_tiles(pass: &mut wgpu::RenderPass, image: u32, kind: u32) {
+    let instance = 4 * image + kind;
+    pass.draw(0..6 * TILES[0] * TILES[1], instance..instance + 1);
 }
 
 /// Pixels that strokes reach over the edge of where their middles are.

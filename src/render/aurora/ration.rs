@@ -8,7 +8,9 @@ const PASSES: &str = "aurora";
 const LEAST: f64 = 1.0 / 16.0;
 /// Change from one measurement to the next, at most: times waver, and a jump would be seen.
 const STEPS: [f64; 2] = [0.8, 1.1];
-/// Below this part of its share the aurora may have more streaks: between it and the whole nothing changes.
+/// What is aimed at when it took too much, as a part of what it may take: times waver by some per cent.
+const AIM: f64 = 0.9;
+/// Below this part of that the aurora may have more streaks: between it and the whole nothing changes.
 const CONTENT: f64 = 0.75;
 
 /// The part of its streaks that an aurora is drawn with.
@@ -40,7 +42,7 @@ impl Ration {
             return;
         }
         self.last = times;
-        let share = share.clamp(0.0, 1.0);
+        let share = AIM * share.clamp(0.0, 1.0);
         // What it may take beside the rest as that is, over what it takes. Half as many streaks cost half as much, or less.
         let wanted = share * rest / ((1.0 - share) * aurora).max(1e-9);
         if wanted < 1.0 || CONTENT * wanted > 1.0 {

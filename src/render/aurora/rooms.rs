@@ -3,12 +3,13 @@
 
 use super::levels::PYRAMID;
 
-/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each of [`ROWS`] whether light may be there.
-pub const FOURS: usize = PYRAMID as usize + 2;
+/// Tiles that the screen is divided into, columns and rows: the passes that go over whole pictures leave out those without light. As in tiles.wgsl.
+pub const TILES: [u32; 2] = [32, 16];
+/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each tile whether light may be there, first from the
+/// finest level and then from coarser ones.
+pub const FOURS: usize = PYRAMID as usize + 1 + 2 * TILES[1] as usize / 4;
 /// Bytes of them.
 pub const DRAWS_BYTES: u64 = 16 * FOURS as u64;
-/// Rows of equal height that the screen is divided into: the last pass leaves out those without light. As in rooms.wgsl.
-pub const ROWS: u32 = 128;
 
 /// Vertices of a stroke; as in stroke.wgsl.
 pub const CORNERS: u32 = 6;
@@ -40,7 +41,7 @@ impl Rooms {
                 let first = u64::from(image) * self.all() + self.before(level / 2 + level % 2);
                 [0, 1, CORNERS * first as u32, 0]
             };
-            (0..PYRAMID).map(level).chain([[0; 4]; 2])
+            (0..PYRAMID).map(level).chain([[0; 4]; FOURS - PYRAMID as usize])
         };
         (0..images).flat_map(image).collect()
     }
