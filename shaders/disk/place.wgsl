@@ -3,8 +3,9 @@
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Circles whose mean a thin image shows; as in src/render/disk/view.rs.
+/// Circles whose mean a thin image shows, for each of so many azimuths; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
+const THIN_AZIMUTHS: u32 = 12u;
 
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f32 = 26160.0;
@@ -18,24 +19,56 @@ fn mean_light(x: f32, v: f32) -> f32 {
     return 0.5 * v * (x * x - x) / (1.0 + v * x) - x;
 }
 
+/// The inverse: x of gas whose light has the logarithm `light` in the mean.
+fn mean_light_of(light: f32, v: f32) -> f32 {
+    let b = 1.0 + v * (0.5 + light);
+    return -2.0 * light / (b + sqrt(b * b - 2.0 * v * light));
+}
+
 /// By how much ln T is above that of mean gas where streaks make most of the light.
 fn brightest(x: f32, v: f32) -> f32 {
     return v * x / (1.0 + v * x);
 }
 
+/// The variance of ln T by streaks.
+fn streak_variance() -> f32 {
+    return VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
+}
+
+/// Gas between the mean of a thin image (x: ln of the temperature that is seen, y: optical depth along the ray; no streaks) and a circle's own, whose share is
+/// `share`: what goes over is the light, and what is stopped. By logarithms the image lost up to 40 % of its light where it is one to two pixels wide.
+fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
+    let v = streak_variance();
+    let stops = 1.0 - exp(-vec2<f32>(mean.y, own.y));
+    let x = min(GREEN / exp(vec2<f32>(mean.x, own.x)), vec2<f32>(80.0));
+    let light = stops * exp(vec2<f32>(-x.x, mean_light(x.y, v)));
+    let stopped = mix(stops.x, stops.y, share);
+    // Streaks by which ln T has the variance share·v are laid over it.
+    let all = mean_light_of(log(clamp(mix(light.x, light.y, share) / max(stopped, 1e-6), 1e-37, 0.999)), share * v);
+    return vec2<f32>(log(GREEN / max(all, 1e-3)), -log(1.0 - min(stopped, 0.999)));
+}
+
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
 /// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera,
-/// `observed` its frequency there; there are `count` circles.
-fn mean_gas(first: u32, count: u32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
+/// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
+/// `count` are taken.
+fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
-    let v = VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
+    let v = streak_variance();
     var light = 0.0;
     var stopped = 0.0;
-    for (var k = first; k < min(first + count, arrayLength(&circles)); k++) {
-        let there = circles[k];
+    // Azimuths are closest where the disk comes closest to the camera.
+    let place = clamp(f32(THIN_AZIMUTHS) * sqrt(azimuth / HALF_TURN) - 0.5, 0.0, f32(THIN_AZIMUTHS) - 1.0);
+    let here = first + THIN_SAMPLES * min(u32(place), THIN_AZIMUTHS - 2u);
+    let t = vec4<f32>(place - f32(min(u32(place), THIN_AZIMUTHS - 2u)));
+    for (var k = here; k < min(here + count, arrayLength(&circles) - THIN_SAMPLES); k++) {
+        var there = circles[k];
+        let next = circles[k + THIN_SAMPLES];
+        there.gas = mix(there.gas, next.gas, t);
+        there.motion = mix(there.motion, next.motion, t);
         // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
         let temperature = exp(there.gas.z) * select(1.0, clamp(observed / found.x, 1e-3, 1e3), shifts);
@@ -135,10 +168,11 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
     // A loop over nothing is all that software drivers skip: a branch is run through by all.
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), -all_at * ray.frequency, ray.frequency,
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), atan2(abs(s), c), -all_at * ray.frequency, ray.frequency,
         camera_doppler_of(all_at) * ray.frequency);
     if own < 1.0 {
-        shown = mix(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y / max(slant, 1e-6)), shown, own);
+        let along = between(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
+        shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
     }
     // Close by, the slant is worked out in each pixel.
     vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, order <= disk.room.y));

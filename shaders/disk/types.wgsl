@@ -33,8 +33,8 @@ struct Circle {
     motion: vec4<f32>,
     /// x: radius·√(1 − h²) − L, differenced in f64; y, z, w unused.
     place: vec4<f32>,
-    /// x: image order; y, z: innermost and outermost row of that order; w: for orders 2 and 3 the first of THIN_SAMPLES circles behind the rows, on radii
-    /// that share the width of that image equally.
+    /// x: image order; y, z: innermost and outermost row of that order; w: for orders 2 and 3 the first of the circles behind the rows, for each of
+    /// THIN_AZIMUTHS azimuths THIN_SAMPLES on radii that share the width of that image equally there.
     rows: vec4<u32>,
 }
 
@@ -64,7 +64,7 @@ struct Counters {
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, and is no longer drawn wider.
 /// What is thinner is drawn wider than it is, and a pixel would show whichever circle its centre falls on: a row of dots. A wide image needs that no more, as
 /// the gas thins out towards its edges, and it would move the gas aside.
-const MEAN: vec2<f32> = vec2<f32>(0.25, 1.0);
+const MEAN: vec2<f32> = vec2<f32>(0.75, 2.0);
 
 /// The share of its circles' own gas that a thin image shows.
 fn own_share(half_width: f32) -> f32 {

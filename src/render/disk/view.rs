@@ -35,17 +35,15 @@ const FROM_FAR: Straight = Straight { across: 0.05, along: 4.0, light: 0.02, sto
 const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, stopped: 0.03 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/types.wgsl has it.
-const MEAN: [f64; 2] = [0.25, 1.0];
-/// Circles whose mean a thin image shows, as in shaders/disk/place.wgsl.
+const MEAN: [f64; 2] = [0.75, 2.0];
+/// Circles whose mean a thin image shows, at each azimuth, as in shaders/disk/place.wgsl.
 const THIN_SAMPLES: usize = 8;
-/// The weight of a wide image in the shares of a thin one's width, over that of the thinnest.
-const WIDE_WEIGHT: f64 = 1e-3;
 /// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
 /// the first two misses the lag by 0.02 rad.
 const FALL_STEP: f64 = 0.05;
 /// Circles nearer to one another than this, in r_s, are one.
 const LEAST_RING: f64 = 1e-3;
-/// Azimuths at which that is tried, on one side, for both sides are alike.
+/// Azimuths at which that is tried, on one side, for both sides are alike; as in shaders/disk/place.wgsl.
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
@@ -113,7 +111,8 @@ impl DiskView {
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
-                samples.extend(equal_shares(&seen, own).map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
+                let shares = (0..AZIMUTHS).flat_map(|azimuth| equal_shares(&seen, azimuth));
+                samples.extend(shares.map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
             if disk.config.gap <= 0.0 && order > close {
@@ -258,16 +257,13 @@ fn own_shares(camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> [
     widths.map(|width| if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], 0.5 * width) })
 }
 
-/// Radii that share the width of an image equally, in the mean over the azimuths where it is thin; it shows `own` of each circle.
-fn equal_shares(seen: &[SeenCircle], own: [f64; AZIMUTHS]) -> [f64; THIN_SAMPLES] {
+/// Radii that share the width of an image equally at one of the azimuths.
+fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
     let mut before = vec![0.0];
     for pair in seen.windows(2) {
-        let shares = (0..AZIMUTHS).map(|k| {
-            let whole = seen[0].places[k].angle_to(seen[seen.len() - 1].places[k]).abs();
-            (1.0 + WIDE_WEIGHT - own[k]) * pair[0].places[k].angle_to(pair[1].places[k]).abs() / whole
-        });
-        // Where there is no ray, nothing is seen.
-        let share: f64 = shares.filter(|share| share.is_finite()).sum();
+        let share = pair[0].places[azimuth].angle_to(pair[1].places[azimuth]).abs();
+        // Where there is no ray nothing is seen. If there is none at all the radii themselves are shared.
+        let share = if share.is_finite() { share } else { 0.0 } + 1e-12 * (pair[1].radius - pair[0].radius);
         before.push(before[before.len() - 1] + share);
     }
     let whole = before[before.len() - 1];
