@@ -79,3 +79,40 @@ fn the_third_image_has_its_light() {
         assert!((0.8..1.2).contains(&third), "{degrees}°: {third:.3} of the third image's light");
     }
 }
+
+/// The thin upper arc of the images of order 2 and 3 within the shadow is a line of even light, and not a row of dots: from 48 r_s it is half a pixel to two
+/// wide, and where each circle showed its own gas a pixel had the hot ones or had none.
+#[test]
+fn thin_images_are_lines_without_a_break() {
+    let size = [1280u32, 720];
+    let surroundings = Surroundings {
+        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
+        stars: Vec::new(),
+        milky_way: vec![(1, 1, vec![0.0])],
+    };
+    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut config = GameConfig::default();
+    config.disk.turbulence = 0.0;
+    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    let position = DVec3::new(0.0, -47.74, 5.02);
+    let camera = static_camera(position, -position, DVec3::Z, 60f64.to_radians());
+    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, orders: 3, ..Settings::default() };
+    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
+    let linear = renderer.picture(&input, false).unwrap().linear;
+    let at = |x: f64, y: f64| f64::from(linear[(y as u32 * size[0] + x as u32) as usize][1]);
+    let smooth = |x: f64, y: f64| {
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (i, j, s, t) = (x.floor(), y.floor(), x.fract(), y.fract());
+        (1.0 - t) * ((1.0 - s) * at(i, j) + s * at(i + 1.0, j)) + t * ((1.0 - s) * at(i, j + 1.0) + s * at(i + 1.0, j + 1.0))
+    };
+    // The light across the arc at each half pixel along it, 60 to 72 pixels from the middle of the picture.
+    let across: Vec<f64> = (0..=200)
+        .map(|k| {
+            let (sine, cosine) = (40.0 + 0.5 * f64::from(k)).to_radians().sin_cos();
+            (0..=120).map(|m| 55.0 + 0.2 * f64::from(m)).map(|r| smooth(640.0 + r * cosine, 360.0 - r * sine)).sum()
+        })
+        .collect();
+    let off = across.windows(17).map(|part| (part[8] / (part.iter().sum::<f64>() / 17.0) - 1.0).abs()).fold(0.0, f64::max);
+    println!("light along the arc differs from its neighbourhood's by {off:.3} at most");
+    assert!(across.iter().all(|&light| light > 0.0) && off < 0.1, "by {off:.3}");
+}
