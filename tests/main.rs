@@ -57,6 +57,8 @@ mod render_ration;
 #[cfg(feature = "game")]
 mod render_shaders;
 #[cfg(feature = "game")]
+mod render_shift;
+#[cfg(feature = "game")]
 mod render_sprites;
 #[cfg(feature = "game")]
 mod render_stars;

@@ -581,7 +581,7 @@ fn lines_shift_as_the_settings_ask() {
         let stage = Stage::new(&mut renderer, &scene, &config);
         let camera = stage.camera(0.0, &[]);
         let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
-        let red = frame.aurora.unwrap().colours[0][Line::Red as usize];
+        let red = frame.aurora.unwrap().colours[0].lines[0][Line::Red as usize];
         (camera, f64::from(red[0] / red[1]))
     };
     let expected = |g: f64| {

@@ -37,7 +37,7 @@ fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
 }
 
 /// Where the light of order `order` from `point` is seen, by the closed form: a direction in camera axes.
-fn exact(camera: &Camera, point: DVec3, order: Order) -> Option<DVec3> {
+pub fn exact(camera: &Camera, point: DVec3, order: Order) -> Option<DVec3> {
     let (l, r) = (camera.radius(), point.length());
     let n = camera.position / l;
     let across = point - n * point.dot(n);

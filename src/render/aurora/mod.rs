@@ -4,14 +4,17 @@
 //! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
 //! experiment of paper 3 for the chart.
 
+mod colours;
 mod levels;
 mod pass;
 pub mod race;
 pub mod ration;
 pub mod rooms;
+pub mod shift;
 mod show;
 pub mod veil;
 
+pub use colours::{Colours, SHIFTS};
 pub use levels::PYRAMID;
 pub use pass::Aurora;
 pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};

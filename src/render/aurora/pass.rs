@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
+use super::colours::Colours;
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
 use super::rooms::{DRAWS_BYTES, Rooms, TILES};
 use super::show::AuroraFrame;
@@ -146,7 +147,7 @@ impl Aurora {
             strokes: Growing::new(device, "aurora strokes", BufferUsages::STORAGE),
             references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
             draws: buffer(device, "aurora draws", DRAWS_BYTES * ORDERS as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
-            colours: std::array::from_fn(|_| uniform("aurora colours", 64)),
+            colours: std::array::from_fn(|_| uniform("aurora colours", size_of::<Colours>() as u64)),
             levels: None,
             groups: None,
             images: Vec::new(),
@@ -214,12 +215,12 @@ impl Aurora {
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
         let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
-            let mut colours = colours.map(|[x, y, z, _]| {
+            let rgb = |[x, y, z, _]: [f32; 4]| {
                 let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
                 [r as f32, g as f32, b as f32, 0.0]
-            });
-            (colours[0][3], colours[1][3]) = (tile[0], tile[1]);
-            gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&colours));
+            };
+            let colours = Colours { lines: colours.lines.map(|lines| lines.map(rgb)), tile: [tile[0], tile[1], 0.0, 0.0], ..*colours };
+            gpu.queue.write_buffer(buffer, 0, bytemuck::bytes_of(&colours));
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];

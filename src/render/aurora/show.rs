@@ -5,8 +5,10 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::colours::Colours;
 use super::levels::PYRAMID;
 use super::ration::Ration;
+use super::shift::Shift;
 use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, veil};
 use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
@@ -72,7 +74,7 @@ pub struct AuroraFrame {
     /// Whether each is seen through the accretion disk, by its centre.
     pub behind: Vec<bool>,
     /// CIE XYZ of a kilorayleigh of each line in each of those orders.
-    pub colours: Vec<[[f32; 4]; 4]>,
+    pub colours: Vec<Colours>,
     /// Parts of the curtains with their streaks.
     pub segments: Vec<Segment>,
     /// Rows of nodes, newest first.
@@ -218,7 +220,7 @@ impl Show {
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends();
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
-                frame.colours.push(self.colours(view, time, &history, placement.ids[0], part));
+                frame.colours.push(self.colours(view, time, &history, order, part));
                 frame.placements.push(placement);
             }
         }
@@ -369,13 +371,16 @@ impl Show {
         segments
     }
 
-    /// The lines' colours, shifted and beamed as the planet's centre is where the settings ask for it, and that part of their brightness.
-    fn colours(&self, view: &View, time: f64, history: &History, order: u32, part: f64) -> [[f32; 4]; 4] {
-        let g = frequency_ratio(view, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0);
-        let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g } else { 1.0 });
-        // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it. Shifted lines come with g⁴ of power.
-        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
-        kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
+    /// The lines' colours, shifted and beamed as what is seen of the planet is where the settings ask for it, and that part of their brightness.
+    fn colours(&self, view: &View, time: f64, history: &History, order: Order, part: f64) -> Colours {
+        let even = || Shift::even(frequency_ratio(view, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0));
+        let shift = Shift::new(view, time, history, order, self.planet.radius).unwrap_or_else(even);
+        Colours::new(&shift, |g| {
+            let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g.clamp(0.2, 5.0) } else { 1.0 });
+            // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it. Shifted lines come with g⁴ of power.
+            let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
+            kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
+        })
     }
 }
 
@@ -421,8 +426,8 @@ fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
 
 /// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives along
 /// both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all else.
-fn frequency_ratio(view: &View, time: f64, history: &History, order: u32) -> Option<f64> {
-    let (camera, order) = (view.camera, Order::new(order as u8)?);
+fn frequency_ratio(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
+    let camera = view.camera;
     let emitted = history.at(departure(view, time, history, order)?);
     if !view.settings.method.bends() {
         let k = (camera.position - emitted.position).normalize();

@@ -1,0 +1,41 @@
+//! The colours of the lines over an image: a few of them by frequency ratio, and where on the screen which of them holds.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec2;
+
+use super::shift::Shift;
+
+/// Frequency ratios that colours are given at: over the 8 % between the sides of a planet that turns once in 40 r_s/c, straight lines between them are off by
+/// less than a thousandth of green's brightness.
+pub const SHIFTS: usize = 8;
+
+/// `Lines` in shaders/aurora/resolve.wgsl.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Colours {
+    /// Of a kilorayleigh of each line at each ratio, the least first: XYZ or linear sRGB.
+    pub lines: [[[f32; 4]; 4]; SHIFTS],
+    /// Steps from the least ratio: in the middle of the screen, by its coordinates right and up (−1 to 1).
+    pub steps: [f32; 4],
+    /// Width and height of a tile in those coordinates; the pass fills them in.
+    pub tile: [f32; 4],
+}
+
+impl Colours {
+    /// Of lines whose colours at a ratio are `of` it.
+    pub fn new(shift: &Shift, of: impl Fn(f64) -> [[f32; 4]; 4]) -> Colours {
+        let [least, greatest] = shift.range;
+        let ratio = |k: usize| least + (greatest - least) * k as f64 / (SHIFTS - 1) as f64;
+        let [middle, right, up] = shift.steps();
+        Colours { lines: std::array::from_fn(|k| of(ratio(k))), steps: [middle, right, up, 0.0].map(|value| value as f32), tile: [0.0; 4] }
+    }
+
+    /// The lines' colours at a place on the screen, coordinates from −1 to 1; the twin of `colour_at` in shaders/aurora/resolve.wgsl.
+    pub fn at(&self, place: DVec2) -> [[f32; 4]; 4] {
+        let [middle, right, up, _] = self.steps;
+        let steps = (middle + right * place.x as f32 + up * place.y as f32).clamp(0.0, (SHIFTS - 1) as f32);
+        let below = (steps as usize).min(SHIFTS - 2);
+        let t = steps - below as f32;
+        std::array::from_fn(|line| std::array::from_fn(|c| (1.0 - t) * self.lines[below][line][c] + t * self.lines[below + 1][line][c]))
+    }
+}

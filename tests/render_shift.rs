@@ -1,0 +1,111 @@
+//! The aurora's lines, shifted from one side of a turning planet to the other.
+
+use glam::{DQuat, DVec2, DVec3};
+use lensrunner::render::aurora::shift::Shift;
+use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
+use lensrunner::render::placements::{View, light_path};
+use lensrunner::render::shaders::Pass;
+use lensrunner::render::stage::{Stage, settings, static_camera};
+use lensrunner::render::{Renderer, layout};
+use lensrunner::scene::planet::Planet;
+use lensrunner::scene::{self, GameConfig};
+use lensrunner::sim::History;
+use lensrunner::spacetime::light::{Branch, Order};
+
+use crate::render_pictures::{exact, surroundings};
+use crate::render_shaders::GPU;
+use crate::twin::run_with;
+
+/// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets there.
+#[test]
+fn lines_shift_with_the_planets_rotation() {
+    let config = GameConfig::default();
+    let scene = scene::load("aurora-orbit").unwrap();
+    let size = [256u32, 144];
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let planet = scene.planet.unwrap();
+    let history = planet_history(&planet, 0.0, 60.0, DQuat::IDENTITY).unwrap();
+    let middle = planet.state(0.0).unwrap().position;
+    let aside = (middle.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
+    let far = static_camera(middle + aside * (12.0 * planet.radius), -aside, DVec3::Z, 0.35);
+    // One ratio for all would miss ten times as much from far, six times from near.
+    for (camera, allowed) in [(far, 0.004), (stage.camera(0.0, &[]), 0.012)] {
+        let slice = lensrunner::lensing::Slice::new(renderer.table(), camera.radius());
+        compare(
+            &View { camera: &camera, slice: &slice, pixel: 1e-3, aspect: Some(144.0 / 256.0), settings: &settings(&config) },
+            &planet,
+            &history,
+            allowed,
+        );
+    }
+}
+
+fn compare(view: &View, planet: &Planet, history: &History, allowed: f64) {
+    let (camera, aspect, time, order) = (view.camera, view.aspect.unwrap(), 0.0, Order::ALL[0]);
+    let shift = Shift::new(view, time, history, order, planet.radius).unwrap();
+    // What flows past a place with the rain: proper time by T of what moves.
+    let slowed = |position: DVec3, velocity: DVec3| (1.0 - (velocity + position / position.length().powf(1.5)).length_squared()).sqrt();
+    let still = slowed(camera.position, DVec3::ZERO);
+    let (mut checked, mut worst, mut spread) = (0, 0.0f64, [f64::INFINITY, 0.0f64]);
+    for k in 0..200 {
+        // Evenly over a ball.
+        let z = 1.0 - (f64::from(k) + 0.5) / 100.0;
+        let body = DVec3::new((2.4 * f64::from(k)).cos() * (1.0 - z * z).sqrt(), (2.4 * f64::from(k)).sin() * (1.0 - z * z).sqrt(), z)
+            * (1.02 * planet.radius);
+        let place = |t: f64| {
+            let state = planet.state(t).unwrap();
+            state.position + state.attitude * body
+        };
+        let arrives = |t: f64| t + light_path(camera, place(t), order, Branch::Plus).unwrap().0;
+        // The moment of the light that arrives at `time`.
+        let sent = (0..60).fold(time - 10.0, |t, _| t - (arrives(t) - time));
+        let h = 1e-3;
+        let velocity = (place(sent + h) - place(sent - h)) / (2.0 * h);
+        let got = slowed(place(sent), velocity) / still / ((arrives(sent + h) - arrives(sent - h)) / (2.0 * h));
+        let outward = place(sent) - planet.state(sent).unwrap().position;
+        let Some(seen) = exact(camera, place(sent), order).filter(|seen| seen.z < 0.0) else { continue };
+        if outward.dot(camera.position - place(sent)) < 0.0 {
+            continue;
+        }
+        let on_screen = DVec2::new(seen.x, seen.y / aspect) / (-seen.z * (0.5 * camera.field_of_view).tan());
+        if on_screen.abs().max_element() > 1.0 {
+            continue;
+        }
+        worst = worst.max((shift.at(on_screen) / got - 1.0).abs());
+        spread = [spread[0].min(got), spread[1].max(got)];
+        checked += 1;
+    }
+    println!("{checked} places, ratios {spread:?}, off by {worst:.4} at most");
+    assert!(checked > 20 && spread[1] / spread[0] > 1.04, "{checked} places, ratios {spread:?}");
+    assert!(worst < allowed, "off by {worst:.4}");
+}
+
+#[test]
+fn colours_of_lines_are_the_same_in_both_languages() {
+    let shift = Shift { middle: 1.02, slope: DVec2::new(0.05, -0.03), range: [0.96, 1.05] };
+    let colours = Colours::new(&shift, |g| std::array::from_fn(|line| [g as f32, (g * g) as f32, line as f32 * g as f32, 0.0]));
+    let bytes = size_of::<Colours>() as u64;
+    let buffer = layout::buffer(&GPU.device, "colours", bytes, wgpu::BufferUsages::UNIFORM);
+    GPU.queue.write_buffer(&buffer, 0, bytemuck::bytes_of(&colours));
+    let rows: Vec<[f32; 4]> =
+        (0..100u32).map(|k| [-1.0 + 0.2 * (k % 10) as f32, -0.95 + 0.2 * (k / 10) as f32, (k % 4) as f32, 0.0]).collect();
+    let out = run_with(
+        Pass::AuroraResolve,
+        "twin_out[id.x] = vec4<f32>(colour_at(u32(row.z), row.xy), 0.0);",
+        [&[], &[]],
+        &[(0, &buffer)],
+        &rows,
+        1,
+    );
+    for (row, got) in rows.iter().zip(out) {
+        let place = DVec2::new(f64::from(row[0]), f64::from(row[1]));
+        let want = colours.at(place)[row[2] as usize];
+        let g = shift.at(place);
+        for c in 0..3 {
+            assert!((got[c] - want[c]).abs() < 1e-5, "{row:?}: {got:?} on the GPU, {want:?} in Rust");
+        }
+        // Seven straight pieces of a parabola 0.09 wide.
+        assert!((f64::from(got[1]) - g * g).abs() < 1e-4 && SHIFTS == 8, "{row:?}: {} for {}", got[1], g * g);
+    }
+}
