@@ -59,17 +59,29 @@ fn a_ring_is_seen_where_it_was() {
 /// Polygons carry no gas with them: whether they turn or rest, the picture is that of the gas in their places.
 #[test]
 fn rings_that_turn_show_the_gas_of_those_at_rest() {
-    let size = [320, 180];
+    let size = [1280, 720];
     let mut renderer = renderer(size);
     for degrees in [30.0, 80.0] {
         let camera = camera(27.0, degrees, 60f64.to_radians());
         let [turning, resting] = ["polygons", "polygons-at-rest"].map(|representation| {
-            renderer.set_disk(Some(polygons(representation)));
+            let mut disk = polygons(representation);
+            disk.config.turbulence = 0.0;
+            disk.gas = lensrunner::scene::disk::Gas::new(&disk.config, GameConfig::default().hole.mass_solar);
+            renderer.set_disk(Some(disk));
             let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
             renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect::<Vec<_>>()
         });
         let error = disk::compare(&turning, &resting, size, disk::peak(&resting));
-        println!("{degrees}°: {:.1} dB", error.psnr);
+        // Where those at rest are seen, and the rings all round, so are the rings: no gap opens between them.
+        let brightest = resting.iter().map(|p| p[1]).fold(0.0, f32::max);
+        let shines = |picture: &[[f32; 3]], k: usize| picture[k][1] > 1e-3 * brightest;
+        let width = size[0] as usize;
+        let holes = (width..resting.len() - width)
+            .filter(|&k| shines(&resting, k) && !shines(&turning, k))
+            .filter(|&k| [k - 1, k + 1, k - width, k + width].into_iter().all(|beside| shines(&turning, beside)))
+            .count();
+        println!("{degrees}°: {:.1} dB, {holes} holes", error.psnr);
+        assert!(holes == 0, "{degrees}°: {holes} holes");
         assert!(error.psnr > 30.0, "{degrees}°: {:.1} dB", error.psnr);
     }
 }

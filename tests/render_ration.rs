@@ -39,7 +39,8 @@ fn an_aurora_comes_to_its_share_and_stays_there() {
             let [aurora, rest] = shares(&times(part, 0.2, streaks, 10.0, 0));
             aurora / (aurora + rest)
         };
-        assert!(share(ration.part()) <= 0.332, "{streaks} ms of streaks: {:?} of them, {} of the frame", ration, share(ration.part()));
+        // Nine tenths are aimed at, and times waver by some per cent.
+        assert!(share(ration.part()) <= 0.31, "{streaks} ms of streaks: {:?} of them, {} of the frame", ration, share(ration.part()));
         // No more is taken away than must be.
         assert!(ration.part() == 1.0 || share(ration.part()) > 0.33 * 0.6, "{streaks} ms of streaks: {ration:?}");
         // It stands still in the end, and no step of it is a jump.
@@ -56,6 +57,10 @@ fn an_aurora_that_has_become_cheap_has_all_its_streaks_again() {
     // Far away it costs little.
     (0..60).for_each(|number| ration.follow(&times(ration.part(), 0.1, 1.0, 10.0, number), 0.33));
     assert_eq!(ration.part(), 1.0);
+    // And where it may take all of a frame, whatever it takes.
+    let mut free = Ration::default();
+    (0..40).for_each(|number| free.follow(&times(free.part(), 0.2, 500.0, 10.0, number), 1.0));
+    assert_eq!(free.part(), 1.0);
     // The same times again are not looked at twice, and a frame without an aurora says nothing about it.
     let late = times(1.0, 0.2, 200.0, 10.0, 0);
     ration.follow(&late, 0.33);
@@ -115,7 +120,8 @@ fn fewer_streaks_are_wider_and_as_bright() {
             assert!((off / sum).sqrt() < limit, "{name}: a picture of {part} of the streaks is off by {}", (off / sum).sqrt());
             // What is wider goes further over the picture's edge.
             for (fewer, whole) in light(&fewer).into_iter().zip(light(&whole)) {
-                assert!((fewer / whole - 1.0).abs() < 0.05, "{name}: {fewer} of the light of {whole}");
+                // Green that is bluer than sRGB's has no blue in it.
+                assert!((fewer - whole).abs() <= 0.05 * whole, "{name}: {fewer} of the light of {whole}");
             }
         }
     }
@@ -138,6 +144,6 @@ fn an_aurora_is_as_bright_in_a_picture_of_any_size() {
     println!("{small:?} and {large:?}");
     for (small, large) in small.into_iter().zip(large) {
         // Measured: 4.4 %, for the small one has fewer streaks of fewer parts. Held to 160 pixels, strokes lost or gained a third.
-        assert!((large / small - 1.0).abs() < 0.07, "{small} in a small picture, {large} in a large one");
+        assert!((large - small).abs() <= 0.07 * small, "{small} in a small picture, {large} in a large one");
     }
 }

@@ -49,10 +49,10 @@ fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
 }
 
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
-/// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray. `arriving` is the light's rain-frame momentum at the camera,
+/// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
 /// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
 /// `count` are taken.
-fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec2<f32> {
+fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
@@ -60,6 +60,7 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
     let v = streak_variance();
     var light = 0.0;
     var stopped = 0.0;
+    var shifted = 0.0;
     // Azimuths are closest where the disk comes closest to the camera.
     let place = clamp(f32(THIN_AZIMUTHS) * sqrt(azimuth / HALF_TURN) - 0.5, 0.0, f32(THIN_AZIMUTHS) - 1.0);
     let here = first + THIN_SAMPLES * min(u32(place), THIN_AZIMUTHS - 2u);
@@ -71,16 +72,19 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         there.motion = mix(there.motion, next.motion, t);
         // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
-        let temperature = exp(there.gas.z) * select(1.0, clamp(observed / found.x, 1e-3, 1e3), shifts);
+        let ratio = clamp(observed / found.x, 1e-3, 1e3);
+        let temperature = exp(there.gas.z) * select(1.0, ratio, shifts);
         let depth = there.gas.w / max(found.y, LEAST_COSINE);
         let x = GREEN / temperature;
         // Density is the fourth power of the temperature.
-        light += (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v));
+        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v));
+        light += shown;
+        shifted += shown * log(ratio);
         stopped += 1.0 - exp(-depth);
     }
     let own = max(stopped, 1e-6);
     let x = -log(clamp(light / own, 1e-37, 0.999));
-    return vec2<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)));
+    return vec3<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)), shifted / max(light, 1e-37));
 }
 
 /// The vertex of `row` at θ.
@@ -161,7 +165,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let g = clamp(observed / emitted, 1e-3, 1e3);
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
-    let ln_g = log(g);
+    var ln_g = log(g);
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
     var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
@@ -171,8 +175,9 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), atan2(abs(s), c), -all_at * ray.frequency, ray.frequency,
         camera_doppler_of(all_at) * ray.frequency);
     if own < 1.0 {
-        let along = between(vec2<f32>(mean.x + select(ln_g, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
+        let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
         shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
+        ln_g = mix(mean.z, ln_g, own);
     }
     // Close by, the slant is worked out in each pixel.
     vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, order <= disk.room.y));

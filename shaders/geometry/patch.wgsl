@@ -6,6 +6,14 @@ const DEEPEST: u32 = 10u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
+/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
+fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
+    if (placement.triangles.w & PLACEMENT_HELD) == 0u {
+        return placement.momentum;
+    }
+    return held_momentum(position);
+}
+
 fn seen_vertex(placement: Placement, index: u32, found: Answer, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
     let ray = found.ray;
     var vertex: SeenVertex;

@@ -25,11 +25,3 @@ fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool
     let at = abs(radii.xyxy - placement.spin.xxyy) < vec4<f32>(1e-3 * radii.x);
     return alone && ((at.x && at.y) || (at.z && at.w));
 }
-
-/// The emitter's rain-frame momentum and γ: rain falls past what is at `position` and turns round the hole.
-fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
-    let r = max(length(position), 1.0);
-    let v = velocity_at(placement, position) + position / (r * sqrt(r));
-    let gamma = inverseSqrt(max(1.0 - dot(v, v), 1e-4));
-    return vec4<f32>(v * gamma, gamma);
-}

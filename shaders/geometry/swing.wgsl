@@ -40,11 +40,3 @@ fn velocity_at(placement: Placement, position: vec3<f32>) -> vec3<f32> {
 fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     return alone;
 }
-
-/// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
-fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
-    if (placement.triangles.w & PLACEMENT_HELD) == 0u {
-        return placement.momentum;
-    }
-    return held_momentum(position);
-}

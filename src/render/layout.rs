@@ -20,7 +20,7 @@ pub enum Slot {
     Numbers,
     /// The same of words of 32 bits.
     Words,
-    /// A 2-D texture of depths that are only fetched.
+    /// A 2-D texture of depths, fetched or gathered.
     Depth,
     /// An array of them.
     TextureArray,

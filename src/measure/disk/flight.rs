@@ -6,8 +6,8 @@ use crate::scene::GameConfig;
 use super::chart::{ChartError, DISK_PASSES, Draw, REFERENCE, Request, View, contestants};
 use super::script::script;
 
-/// Frames before the first that counts: targets are made in them, and timestamps are those of the frame before.
-const WARM_UP: usize = 3;
+/// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
+const DRAWN: usize = 3;
 
 /// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the adapter's timestamps, of
 /// them the disk's own, and the processor's until the frame was submitted, all in ms.
@@ -15,18 +15,20 @@ pub(super) fn flight(request: &Request, config: &GameConfig, adapter: &str, draw
     let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms"]);
     sheet.notes = Provenance::now(adapter).notes();
     let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);
-    let frames = request.flight.max(2);
-    for frame in 0..frames + WARM_UP {
-        let share = frame.saturating_sub(WARM_UP) as f64 / (frames - 1) as f64;
+    for frame in 0..request.flight {
+        let share = frame as f64 / request.flight.saturating_sub(1).max(1) as f64;
         let (eye, time, situation) = script(share, config.disk.inner);
-        let shown = draw(number, &View { eye, time, sky: true }, None).map_err(ChartError::Draw)?;
-        if frame < WARM_UP {
-            continue;
+        let mut one = || draw(number, &View { eye, time, sky: true }, None).map_err(ChartError::Draw);
+        for _ in 1..DRAWN {
+            one()?;
         }
-        let all: f64 = shown.passes.iter().map(|(_, time)| time).sum();
-        let disk: f64 = DISK_PASSES.iter().map(|label| shown.pass(label)).sum();
+        let shown = one()?;
+        // An adapter without timestamps tells nothing.
+        let of = |time: f64| if shown.passes.is_empty() { f64::NAN } else { time };
+        let all = of(shown.passes.iter().map(|(_, time)| time).sum());
+        let disk = of(DISK_PASSES.iter().map(|label| shown.pass(label)).sum());
         let times = [all, disk, shown.before].map(|time| format!("{time:.3}"));
-        sheet.push([(frame - WARM_UP).to_string(), situation.to_owned()].into_iter().chain(times));
+        sheet.push([frame.to_string(), situation.to_owned()].into_iter().chain(times));
     }
     Ok(sheet)
 }

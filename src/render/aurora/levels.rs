@@ -12,7 +12,7 @@ use crate::render::shaders::Pass;
 use crate::render::targets::target;
 use crate::render::timing::Timing;
 
-/// Levels of the pyramid, each of half the size of the one before; as in streaks.wgsl.
+/// Levels of the pyramid, each of half the size of the one before; as in tiles.wgsl.
 pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
@@ -33,7 +33,7 @@ pub struct Levels {
     pub lights: Vec<wgpu::TextureView>,
     /// What is enlarged where there is no coarser level: black.
     pub nothing: wgpu::TextureView,
-    /// `Level` of stroke.wgsl.
+    /// `Level` of draw.wgsl.
     pub places: Vec<wgpu::Buffer>,
 }
 

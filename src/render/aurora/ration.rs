@@ -8,9 +8,9 @@ const PASSES: &str = "aurora";
 const LEAST: f64 = 1.0 / 16.0;
 /// Change from one measurement to the next, at most: times waver, and a jump would be seen.
 const STEPS: [f64; 2] = [0.8, 1.1];
-/// What is aimed at when it took too much, as a part of what it may take: times waver by some per cent.
+/// What is aimed at, as a part of what it may take: times waver by some per cent, and its share shall stay below.
 const AIM: f64 = 0.9;
-/// Below this part of that the aurora may have more streaks: between it and the whole nothing changes.
+/// Below this part of what is aimed at the aurora may have more streaks: between it and the whole nothing changes.
 const CONTENT: f64 = 0.75;
 
 /// The part of its streaks that an aurora is drawn with.
@@ -33,7 +33,7 @@ impl Ration {
         self.part
     }
 
-    /// Follows the times (ms) of all passes of a frame: the aurora shall take no more than `share` of them together. The same times again, and times
+    /// Follows the times (ms) of all passes of a frame: the aurora shall take no more than `share` of them together; of 1 it has all its streaks. The same times again, and times
     /// without an aurora, change nothing.
     pub fn follow(&mut self, passes: &[(&str, f32)], share: f64) {
         let times = shares(passes);
@@ -42,7 +42,11 @@ impl Ration {
             return;
         }
         self.last = times;
-        let share = AIM * share.clamp(0.0, 1.0);
+        if share >= 1.0 {
+            self.part = 1.0;
+            return;
+        }
+        let share = AIM * share.max(0.0);
         // What it may take beside the rest as that is, over what it takes. Half as many streaks cost half as much, or less.
         let wanted = share * rest / ((1.0 - share) * aurora).max(1e-9);
         if wanted < 1.0 || CONTENT * wanted > 1.0 {

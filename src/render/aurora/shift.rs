@@ -6,17 +6,18 @@ use super::colours::SHIFTS;
 use crate::render::frame::Camera;
 use crate::render::placements::{View, departure};
 use crate::sim::History;
+use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
 
 /// Height of the places that are looked at, in planet radii: 130 km over the Earth.
 const HEIGHT: f64 = 1.02;
-/// Nearer to the planet's centre than this, in its radii, the camera sees a part of it: up to its horizon.
+/// Nearer to the planet's centre than this, in its radii, the camera sees a part of it, and places are looked for by the screen.
 const NEAR: f64 = 4.0;
-/// How far to the horizon places are looked at.
-const AROUND: [f64; 2] = [0.45, 0.9];
-/// Places farther off the screen than this, in coordinates that are 1 at its edges, do not count from near.
-const BESIDE: f64 = 1.3;
+/// Looks for the moment at which the light of a place left.
+const SEARCH: u32 = 4;
+/// Where on the screen, of which the edges are 1.
+const ACROSS: [f64; 4] = [-0.9, -0.3, 0.3, 0.9];
 /// Coordinates of the corners of an icosahedron: 0, short and long, and turned round.
 const SHORT: f64 = 0.525_731_112_119_133_6;
 const LONG: f64 = 0.850_650_808_352_039_9;
@@ -41,27 +42,29 @@ impl Shift {
     /// Of the image of `order` of a planet of that radius (r_s) with this history, by places all over what is seen of it. None where too little is.
     pub fn new(view: &View, time: f64, history: &History, order: Order, radius: f64) -> Option<Shift> {
         let aspect = view.aspect.filter(|_| view.settings.method.bends())?;
-        let centre = history.at(departure(view, time, history, order)?);
-        let towards = view.camera.position - centre.position;
-        let near = towards.length() < NEAR * radius;
-        let places = if near { around(centre.attitude.inverse() * towards, radius) } else { icosahedron() };
+        let mut began = departure(view, time, history, order)?;
+        let away = view.camera.position - history.at(began).position;
+        let near = away.length() < NEAR * radius;
+        if near && view.settings.light_delay {
+            // The nearest part of the planet is seen by younger light than its centre.
+            began = (time - (away.length() - radius).max(0.0)).max(began);
+        }
+        let places = if near { on_grid(view.camera, aspect, &history.at(began), radius) } else { icosahedron() };
         let seen: Vec<(DVec2, f64)> = places
             .iter()
             .filter_map(|place| {
-                // Where it was when its own light left: once more is enough, for it turns by a few degrees while light crosses the planet.
-                let mut emission = departure(view, time, history, order)?;
-                let mut body = moving(history, emission, *place * (HEIGHT * radius));
-                if view.settings.light_delay {
-                    emission = time - Ends::new(view.camera, body.0, order)?.delay;
-                    body = moving(history, emission, *place * (HEIGHT * radius));
+                // Where it was when its own light left: each time what is missing becomes a third or less, the part of c at which the planet moves.
+                let mut emission = began;
+                for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
+                    emission = time - Ends::new(view.camera, moving(history, emission, *place * (HEIGHT * radius)).0, order)?.delay;
                 }
+                let body = moving(history, emission, *place * (HEIGHT * radius));
                 let (position, velocity) = body;
                 let ends = Ends::new(view.camera, position, order)?;
                 let outward = (position - history.at(emission).position).normalize();
                 let ratio = ends.ratio(view.camera, position, velocity)?;
                 let at = on_screen(view.camera, ends.look, aspect)?;
-                let counts = if near { at.abs().max_element() < BESIDE } else { ends.leaving.dot(outward) > 0.0 };
-                counts.then_some((at, ratio))
+                (near || ends.leaving.dot(outward) > 0.0).then_some((at, ratio))
             })
             .collect();
         fitted(&seen)
@@ -141,16 +144,24 @@ fn icosahedron() -> Vec<DVec3> {
     signs.iter().flat_map(|&sign| [corner(sign), corner(sign).zxy(), corner(sign).yzx()]).collect()
 }
 
-/// Directions to places at [`HEIGHT`] from what is straight below or above a camera at `towards` (from the centre of a planet of that radius) to its horizon.
-fn around(towards: DVec3, radius: f64) -> Vec<DVec3> {
-    let direction = towards.normalize_or(DVec3::Z);
-    let (a, b) = direction.any_orthonormal_pair();
-    let horizon = (radius / towards.length().max(radius)).acos() + (1.0 / HEIGHT).acos();
-    let aside = |k: u32, share: f64| {
-        let (sine, cosine) = (f64::from(k) * std::f64::consts::FRAC_PI_4).sin_cos();
-        direction * (horizon * share).cos() + (a * cosine + b * sine) * (horizon * share).sin()
+/// Directions from the planet's centre (body axes) to the places at [`HEIGHT`] that are seen at points of the screen, as if light went straight: from near it does.
+fn on_grid(camera: &Camera, aspect: f64, planet: &Sample, radius: f64) -> Vec<DVec3> {
+    let wide = (0.5 * camera.field_of_view).tan();
+    let from = camera.position - planet.position;
+    let points = ACROSS.iter().flat_map(|&x| ACROSS.map(|y| DVec3::new(x * wide, y * wide * aspect, -1.0)));
+    let place = |seen: DVec3| {
+        let look = camera.rain_direction(seen);
+        // The nearest and the farthest root of |from + s·look| = reach.
+        let along = from.dot(look);
+        let roots = |reach: f64| {
+            let square = along * along - from.length_squared() + reach * reach;
+            (square >= 0.0).then(|| [-along - square.sqrt(), -along + square.sqrt()])
+        };
+        let ground = roots(radius).filter(|[near, _]| *near > 0.0).map_or(f64::INFINITY, |[near, _]| near);
+        let s = roots(HEIGHT * radius)?.into_iter().find(|&s| s > 0.0 && s < ground)?;
+        Some(planet.attitude.inverse() * (from + look * s).normalize_or(DVec3::Z))
     };
-    std::iter::once(direction).chain(AROUND.into_iter().flat_map(|share| (0..8).map(move |k| aside(k, share)))).collect()
+    points.filter_map(place).collect()
 }
 
 /// The plane through ratios at places on the screen, by least squares.

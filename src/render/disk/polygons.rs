@@ -18,10 +18,8 @@ use crate::scene::disk::polygons::{Ring, model, rings};
 
 use super::Disk;
 
-/// Two-sided triangles that are held in place; as in shaders/types.wgsl.
+/// Two-sided triangles whose light is told by what hovers where they are, as the gas's own motion comes in with its colour; as in shaders/types.wgsl.
 const HELD_TWO_SIDED: u32 = 3;
-/// Two-sided triangles that move.
-const TWO_SIDED: u32 = 1;
 
 /// Stages of geometry of their own, and the draw.
 #[derive(Debug)]
@@ -108,7 +106,7 @@ impl PolygonPass {
                     spin: [inner, outer, rate as f32, azimuth as f32],
                     turn: unit,
                     ids: [order, 1, 0, 0],
-                    triangles: [0, 0, 0, if part.rate.is_some() { TWO_SIDED } else { HELD_TWO_SIDED }],
+                    triangles: [0, 0, 0, HELD_TWO_SIDED],
                     ..Placement::default()
                 };
                 placed.push(Placed { model: part.range, placement });

@@ -15,7 +15,7 @@ const SECTORS_PER_RING: f64 = 4.8;
 pub struct Ring {
     /// Its triangles; texture coordinates hold the azimuth in turns and the radius in r_s.
     pub model: Model,
-    /// dφ/dT in c/r_s: that of the gas in its middle.
+    /// dφ/dT in c/r_s: that of the gas in its middle, and inside the last stable orbit that of the orbit.
     pub rate: f64,
     /// The radii of the disk's own inner and outer rim in r_s, where this ring has them.
     pub rims: [Option<f64>; 2],
@@ -27,14 +27,17 @@ pub fn model(disk: &config::Disk, radial: &Radial) -> Model {
     annulus(&radii, sectors)
 }
 
-/// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens between the
-/// corners of two rings that slide along one another.
+/// How far a ring reaches under the next inner one beyond the chords of that, over its width: both are tessellated by themselves, and drawn to a pixel.
+const UNDER: f64 = 0.3;
+
+/// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens between two
+/// rings that slide along one another.
 pub fn rings(disk: &config::Disk, radial: &Radial) -> Vec<Ring> {
     let (radii, sectors) = division(disk, radial);
     let last = radii.len() - 2;
     let under = (PI / f64::from(sectors)).cos();
     let ring = |(k, pair): (usize, &[f64])| Ring {
-        model: annulus(&[if k == 0 { pair[0] } else { pair[0] * under }, pair[1]], sectors),
+        model: annulus(&[(pair[0] * under - UNDER * (pair[1] - pair[0])).max(radii[0]), pair[1]], sectors),
         rate: radial.turning_rate(0.5 * (pair[0] + pair[1])),
         rims: [(k == 0).then_some(pair[0]), (k == last).then_some(pair[1])],
     };
