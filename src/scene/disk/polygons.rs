@@ -28,7 +28,7 @@ pub fn model(disk: &config::Disk, radial: &Radial) -> Model {
 }
 
 /// How far a ring reaches under the next inner one beyond the chords of that, over its width: both are tessellated by themselves, and drawn to a pixel.
-const UNDER: f64 = 0.3;
+const UNDER: f64 = 0.1;
 
 /// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens between two
 /// rings that slide along one another.
