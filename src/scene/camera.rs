@@ -11,7 +11,7 @@
 //! # or, instead of position and momentum, with a ship:
 //! follow = "hunter"
 //! offset = [0.0, 0.3, 1.0]      # r_s, in the ship's body axes (+x right, +y up, −z forward)
-//! # or, instead of all these, with the planet:
+//! # or, instead of all these, with the planet, turning as it does:
 //! above = [1.18, 0.0, 10.0]     # magnetic latitude and longitude (radians), height (km; the planet's radius is 6371)
 //! look = [0.0, 0.9, 0.4]        # east, north, up; up if absent
 //! up = [0.0, 0.0, 1.0]          # the same axes; up if absent (north where the camera looks up)

@@ -30,9 +30,16 @@ impl Camera {
             Mount::Falling(state) => fall(state, time),
             Mount::Planet { place, view, planet } => {
                 // A planet's orbit was checked when the scene was read.
-                let state = planet.state(time).unwrap_or(ShipState::new(DVec3::Z * 20.0, DVec3::ZERO));
-                let dipole = planet.dipole();
-                return beside(&state, dipole * *place * planet.radius, dipole * *view, self.fov);
+                let at = |time: f64| {
+                    let state = planet.state(time).unwrap_or(ShipState::new(DVec3::Z * 20.0, DVec3::ZERO));
+                    let dipole = planet.dipole();
+                    beside(&state, dipole * *place * planet.radius, dipole * *view, self.fov)
+                };
+                let seen = at(time);
+                // It turns with the planet: light of the ground below comes to it unshifted.
+                let step = TURNING_STEP * planet.day;
+                let velocity = (at(time + step).position - at(time - step).position) / (2.0 * step);
+                return Viewpoint { momentum: momentum_of(seen.position, velocity).unwrap_or(seen.momentum), ..seen };
             }
             Mount::Follow { ship, offset, look, up } => {
                 let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
@@ -48,6 +55,17 @@ impl Camera {
         };
         Viewpoint { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.fov }
     }
+}
+
+/// The part of a day over which a place of the planet goes straight.
+const TURNING_STEP: f64 = 1e-4;
+
+/// Rain-frame momentum per mass of what is at `position` and has that dx/dT (c); None where nothing can move so.
+fn momentum_of(position: DVec3, velocity: DVec3) -> Option<DVec3> {
+    // Against the rain, which falls with √(1/r).
+    let v = velocity + position / position.length().powf(1.5);
+    let square = v.length_squared();
+    (square < 1.0).then(|| v / (1.0 - square).sqrt())
 }
 
 /// A camera beside a ship: at `offset` (r_s) in the ship's rest frame and body axes, moving as the ship does, outside r = 1 as long as the
