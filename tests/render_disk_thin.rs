@@ -1,17 +1,14 @@
 //! The light of the second and the third image of the disk, thin bands on the screen, against the exact ones.
 
-use std::sync::Arc;
-
 use glam::DVec3;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::measure::disk::{self, Eye};
+use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
-use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 
-use crate::render_shaders::GPU;
+use crate::render_disk::renderer;
 
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
@@ -27,12 +24,7 @@ fn far(degrees: f64) -> Camera {
 
 /// The light (green) that the images of order 2 and 3 add over the picture, each over what it is in the exact one.
 fn light_over_exact(camera: Camera, size: [u32; 2], turbulence: Option<f64>) -> [f64; 2] {
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence);
     let disk = Disk::new(config.disk.clone(), &config);
@@ -85,12 +77,7 @@ fn the_third_image_has_its_light() {
 #[test]
 fn thin_images_are_lines_without_a_break() {
     let size = [1280u32, 720];
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.disk.turbulence = 0.0;
     renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
@@ -122,12 +109,7 @@ fn thin_images_are_lines_without_a_break() {
 #[test]
 fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     let size = [160, 160];
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.disk.turbulence = 0.0;
     renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
