@@ -207,8 +207,16 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
         let eye = &view.eye;
         let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
+        bench.set_counting(view.counted);
         let frame = bench.frame(number, camera, view.time, view.sky, picture).map_err(|error| error.to_string())?;
-        Ok(Shown { whole: frame.whole, processor: frame.processor, before: frame.before, passes: frame.passes, picture: frame.picture })
+        Ok(Shown {
+            whole: frame.whole,
+            processor: frame.processor,
+            before: frame.before,
+            passes: frame.passes,
+            fragments: frame.fragments,
+            picture: frame.picture,
+        })
     }))
 }
 

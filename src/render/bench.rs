@@ -49,6 +49,8 @@ pub struct FrameTimes {
     pub processor: Option<f64>,
     /// Median of each pass by the GPU's timestamps, where it has them.
     pub passes: Vec<(&'static str, f64)>,
+    /// Fragments that passes shaded, where the GPU counts them.
+    pub fragments: Vec<(&'static str, u64)>,
     /// What the stages of the geometry counted in the last frame.
     pub counters: Counters,
     /// Strokes of the aurora in it, by level of the pyramid.
@@ -66,6 +68,9 @@ impl fmt::Display for FrameTimes {
         write!(f, ")")?;
         for (label, time) in &self.passes {
             write!(f, "\n  {label:<12} {time:8.2} ms")?;
+            if let Some((_, count)) = self.fragments.iter().find(|(known, _)| known == label) {
+                write!(f, ", {count} fragments")?;
+            }
         }
         write!(f, "\n  {}", self.counters)?;
         let passes: Vec<(&str, f32)> = self.passes.iter().map(|&(label, time)| (label, time as f32)).collect();
@@ -117,6 +122,7 @@ pub fn frame_times(
     for number in 0..request.frames + settling {
         let begin = Instant::now();
         let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
+        renderer.timing().set_counting(number < settling);
         renderer.prepare(&frame);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &view);
@@ -136,15 +142,7 @@ pub fn frame_times(
         }
         whole.push(begin.elapsed().as_secs_f64() * 1e3);
         prepared.push(ready.as_secs_f64() * 1e3);
-        // Passes of one name count together.
-        let mut sums: Vec<(&'static str, f64)> = Vec::new();
-        for &(label, time) in latest {
-            match sums.iter_mut().find(|(known, _)| *known == label) {
-                Some((_, sum)) => *sum += f64::from(time),
-                None => sums.push((label, f64::from(time))),
-            }
-        }
-        for (label, time) in sums {
+        for (label, time) in latest.iter().map(|&(label, time)| (label, f64::from(time))) {
             match passes.iter_mut().find(|(known, _)| *known == label) {
                 Some((_, times)) => times.push(time),
                 None => passes.push((label, vec![time])),
@@ -159,6 +157,7 @@ pub fn frame_times(
         prepare: quantile(&mut prepared, 0.5),
         processor,
         passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
+        fragments: renderer.timing().latest_fragments().to_vec(),
         counters: renderer.counters()?,
         strokes: renderer.aurora_strokes()?,
     })

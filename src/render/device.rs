@@ -34,9 +34,11 @@ pub enum DeviceError {
 /// Storage buffers that one stage of geometry binds: 3 tables, the exposure, 13 of its own and the arguments.
 pub const STORAGE_BUFFERS: u32 = 18;
 
-/// Features that are used where the adapter has them: times of passes, tables sampled and the aurora added up in 32-bit floats.
-const OPTIONAL: wgpu::Features =
-    wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::FLOAT32_FILTERABLE).union(wgpu::Features::FLOAT32_BLENDABLE);
+/// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit floats.
+const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
+    .union(wgpu::Features::PIPELINE_STATISTICS_QUERY)
+    .union(wgpu::Features::FLOAT32_FILTERABLE)
+    .union(wgpu::Features::FLOAT32_BLENDABLE);
 
 /// What is missing for the renderer on a device with these limits, or None.
 pub fn missing_limits(limits: &wgpu::Limits) -> Option<String> {

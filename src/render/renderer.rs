@@ -277,9 +277,11 @@ impl Renderer {
                 ..Default::default()
             });
             pass.set_bind_group(0, group, &[]);
-            geometry.draw_opaque(&mut pass);
-            self.background.draw(&mut pass);
-            self.stars.draw(&mut pass);
+            self.timing.count("draw", &mut pass, |pass| {
+                geometry.draw_opaque(pass);
+                self.background.draw(pass);
+                self.stars.draw(pass);
+            });
         }
         if self.aurora.images() > 0 {
             // It asks what is before and behind of it.
@@ -301,7 +303,7 @@ impl Renderer {
                 ..Default::default()
             });
             pass.set_bind_group(0, group, &[]);
-            disk.draw(&mut pass);
+            self.timing.count("disk", &mut pass, |pass| disk.draw(pass));
         }
         if geometry.has_thin() {
             {

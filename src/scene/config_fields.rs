@@ -158,15 +158,15 @@ config! {
         exposure_max: f64 = 3.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
         exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
-        bloom: f64 = 0.05, number(0.0, 1.0), "", "share of light spread by the lens";
+        bloom: f64 = 0.1, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
     /// Stars and Milky Way.
     sky: Sky {
-        star_brightness: f64 = 1.0, number(0.0, 1000.0), "", "factor on the flux of every star";
+        star_brightness: f64 = 0.5, number(0.0, 1000.0), "", "factor on the flux of every star";
         star_size: f64 = 1.1, number(0.5, 6.0), "pixels", "radius of a star's spot on the screen";
         faintest_magnitude: f64 = 12.0, number(0.0, 16.0), "magnitudes", "fainter stars are left out";
-        milky_way_brightness: f64 = 1.0, number(0.0, 1000.0), "", "factor on the Milky Way";
+        milky_way_brightness: f64 = 0.5, number(0.0, 1000.0), "", "factor on the Milky Way";
     }
     /// The accretion disk.
     disk: Disk {

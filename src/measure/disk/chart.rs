@@ -59,6 +59,8 @@ pub struct Shown {
     pub before: f64,
     /// Passes with their times by the adapter's timestamps, in ms.
     pub passes: Vec<(String, f64)>,
+    /// Fragments that the disk's draw shaded, where the adapter counts them.
+    pub fragments: Option<u64>,
     /// Linear light, if it was asked for.
     pub picture: Vec<[f32; 3]>,
 }
@@ -79,6 +81,8 @@ pub struct View {
     pub time: f64,
     /// Whether stars and the Milky Way stand behind the disk, as the configuration has them; black else.
     pub sky: bool,
+    /// Whether fragments are counted, which takes a little time.
+    pub counted: bool,
 }
 
 /// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that size.
@@ -187,7 +191,7 @@ fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mu
     let mut sheet =
         Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
     sheet.notes = Provenance::now(adapter).notes();
-    let view = View { eye: portrait(), time: TIME, sky: false };
+    let view = View { eye: portrait(), time: TIME, sky: false, counted: false };
     let base = &contestants[0].config;
     let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();

@@ -42,7 +42,7 @@ pub(super) fn chase(request: &Request, contestants: &[Contestant], adapter: &str
     let brightest = truths.iter().map(|truth| peak(truth)).fold(0.0, f32::max);
     for (step, (&(eye, time, situation), truth)) in places.iter().zip(&truths).enumerate() {
         let exposed = peak(truth).max(LEAST_PEAK * brightest);
-        let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky });
+        let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky, counted: false });
         let mut times = vec![[const { Vec::new() }; 6]; runners.len()];
         for _ in 0..request.rounds {
             let without = timed(None, &in_game, draw)?;

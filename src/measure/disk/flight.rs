@@ -10,34 +10,39 @@ use super::script::script;
 const DRAWN: usize = 3;
 
 /// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the adapter's timestamps, of
-/// them the disk's own, and the processor's until the frame was submitted, all in ms.
+/// them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the disk's draw shaded.
 pub(super) fn flight(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
-    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms"]);
+    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
     sheet.notes = Provenance::now(adapter).notes();
     let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);
     for frame in 0..request.flight {
         let share = frame as f64 / request.flight.saturating_sub(1).max(1) as f64;
         let (eye, time, situation) = script(share, config.disk.inner);
-        let mut one = || draw(number, &View { eye, time, sky: true }, None).map_err(ChartError::Draw);
-        for _ in 1..DRAWN {
-            one()?;
-        }
-        let shown = one()?;
+        let mut drawn = |counted| {
+            let view = View { eye, time, sky: true, counted };
+            for _ in 1..DRAWN {
+                draw(number, &view, None).map_err(ChartError::Draw)?;
+            }
+            draw(number, &view, None).map_err(ChartError::Draw)
+        };
+        let fragments = drawn(true)?.fragments;
+        let shown = drawn(false)?;
         // An adapter without timestamps tells nothing.
         let of = |time: f64| if shown.passes.is_empty() { f64::NAN } else { time };
         let all = of(shown.passes.iter().map(|(_, time)| time).sum());
         let disk = of(DISK_PASSES.iter().map(|label| shown.pass(label)).sum());
         let times = [all, disk, shown.before].map(|time| format!("{time:.3}"));
-        sheet.push([frame.to_string(), situation.to_owned()].into_iter().chain(times));
+        let fragments = fragments.map_or("NaN".to_owned(), |count| count.to_string());
+        sheet.push([frame.to_string(), situation.to_owned()].into_iter().chain(times).chain([fragments]));
     }
     Ok(sheet)
 }
 
-/// What the flight comes to: of each time the mean, and what 99 and 99.9 % of the frames stay under, and the worst.
+/// What the flight comes to: of each time, and of the fragments, the mean, and what 99 and 99.9 % of the frames stay under, and the worst.
 pub fn summary(flight: &Sheet) -> Sheet {
-    let mut sheet = Sheet::new(&["time", "mean_ms", "p99_ms", "p99_9_ms", "worst_ms"]);
+    let mut sheet = Sheet::new(&["what", "mean", "p99", "p99_9", "worst"]);
     sheet.notes.clone_from(&flight.notes);
-    for column in ["passes_ms", "disk_ms", "before_submission_ms"] {
+    for column in ["passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"] {
         let mut times: Vec<f64> = flight.rows.iter().map(|row| flight.number(row, column)).collect();
         times.sort_by(f64::total_cmp);
         let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;

@@ -21,6 +21,7 @@ pub struct Bench {
     configs: Vec<GameConfig>,
     renderers: Vec<Held>,
     output: wgpu::TextureView,
+    counting: bool,
 }
 
 /// A renderer, what it can draw, and which configuration it has taken up.
@@ -42,6 +43,8 @@ pub struct Frame {
     pub before: f64,
     /// Its passes by timestamps, in ms.
     pub passes: Vec<(String, f64)>,
+    /// Fragments that the disk's draw shaded, where the adapter counts them.
+    pub fragments: Option<u64>,
     /// Its linear light, if it was asked for.
     pub picture: Vec<[f32; 3]>,
 }
@@ -59,7 +62,12 @@ impl Bench {
             }
         }
         let (_, output) = target(&gpu.device, "bench", size, format);
-        Bench { gpu, size, configs, renderers, output }
+        Bench { gpu, size, configs, renderers, output, counting: false }
+    }
+
+    /// Counts fragments in the frames to come, or no longer.
+    pub fn set_counting(&mut self, counting: bool) {
+        self.counting = counting;
     }
 
     /// Draws a frame by configuration `number`, the disk alone before black or before the configuration's sky; None draws no disk at all. With a size it
@@ -93,6 +101,7 @@ impl Bench {
         let software = self.gpu.adapter.device_type == wgpu::DeviceType::Cpu;
         let spent = processor_time().filter(|_| software);
         let begin = Instant::now();
+        renderer.timing().set_counting(self.counting);
         renderer.prepare(&input);
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         renderer.encode(&mut encoder, &self.output);
@@ -102,6 +111,7 @@ impl Bench {
         let whole = begin.elapsed().as_secs_f64() * 1e3;
         let processor = spent.zip(processor_time()).map(|(before, after)| after - before);
         let passes = renderer.timing().latest().iter().map(|&(label, time)| (label.to_owned(), f64::from(time))).collect();
-        Ok(Frame { whole, processor, before, passes, picture: Vec::new() })
+        let fragments = renderer.timing().latest_fragments().iter().find(|(label, _)| *label == "disk").map(|&(_, count)| count);
+        Ok(Frame { whole, processor, before, passes, fragments, picture: Vec::new() })
     }
 }
