@@ -1,4 +1,4 @@
-// Bloom: the picture at a quarter of its size, halved a few times, then added up again.
+// Bloom: the picture at a quarter of its size, halved a few times, then mixed together again.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
@@ -24,12 +24,16 @@ fn down(in: Screen) -> @location(0) vec4<f32> {
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0));
 }
 
-/// The coarser level, smoothed; blending adds it to the finer one.
+/// What a level and all coarser ones have of the glow, beside the next finer one: a halo that falls off, so that what is dark stays dark.
+const WIDER: f32 = 0.5;
+
+/// The coarser level, smoothed; blending mixes it with the finer one by its alpha.
 @fragment
 fn up(in: Screen) -> @location(0) vec4<f32> {
     let d = 0.5 / vec2<f32>(textureDimensions(source));
-    return 0.25 * (textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, -1.0), 0.0)
+    let sum = textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, -1.0), 0.0)
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, -1.0), 0.0)
         + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(-1.0, 1.0), 0.0)
-        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0));
+        + textureSampleLevel(source, linear_sampler, in.uv + d * vec2<f32>(1.0, 1.0), 0.0);
+    return vec4<f32>(0.25 * sum.rgb, WIDER);
 }

@@ -31,7 +31,7 @@ fn tone_curve(x: vec3<f32>) -> vec3<f32> {
 fn fragment(in: Screen) -> @location(0) vec4<f32> {
     let light = textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb;
     let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
-    let exposed = (light + glow * frame.light.w) * (adapted.x * frame.light.x);
+    let exposed = mix(light, glow, frame.light.w) * (adapted.x * frame.light.x);
     // Half a step of 8-bit noise against banding in the dark.
     let noise = fract(52.9829189 * fract(dot(in.position.xy, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
     return vec4<f32>(max(tone_curve(exposed) + noise / 1024.0, vec3<f32>(0.0)), 1.0);

@@ -268,6 +268,7 @@ impl Case {
         let render = &self.config.render;
         Development {
             bloom: render.bloom as f32,
+            key: self.scene.disk(&self.config).map_or(render.exposure_key, |disk| disk.exposure_key) as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         }
     }

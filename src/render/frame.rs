@@ -110,7 +110,7 @@ pub struct Settings {
     pub faintest_star: f32,
     /// Factor on the light of the Milky Way.
     pub sky_brightness: f32,
-    /// Share of the blurred picture that is added.
+    /// Share of the light that the lens spreads.
     pub bloom: f32,
     /// Least and greatest exposure.
     pub exposure_range: [f32; 2],
@@ -122,6 +122,8 @@ pub struct Settings {
     pub adaptation: f32,
     /// The exposure stays as it is.
     pub hold_exposure: bool,
+    /// Outlines of bodies are smoothed.
+    pub smooth: bool,
     /// Nearest drawn distance, in r_s.
     pub near: f32,
 }
@@ -153,6 +155,7 @@ impl Default for Settings {
             exposure_bias: 1.0,
             adaptation: 1.0,
             hold_exposure: false,
+            smooth: true,
             near: 1e-3,
         }
     }

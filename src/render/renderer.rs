@@ -68,6 +68,8 @@ pub struct Renderer {
     targets: Targets,
     /// The output has no size.
     hidden: bool,
+    /// The frame has bodies whose outlines are to be smooth.
+    smooth: bool,
     timing: Timing,
 }
 
@@ -117,6 +119,7 @@ impl Renderer {
             develop,
             targets,
             hidden: size.contains(&0),
+            smooth: false,
         }
     }
 
@@ -236,6 +239,7 @@ impl Renderer {
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
         self.background.prepare(&self.gpu, self.targets.size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
+        self.smooth = input.settings.smooth && !input.placed.is_empty();
         true
     }
 
@@ -320,7 +324,7 @@ impl Renderer {
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
         draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
-        self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, output);
+        self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
         self.timing.end(encoder);
     }
 

@@ -101,6 +101,8 @@ pub enum Pass {
     Exposure,
     /// Exposes, blooms, encodes.
     Develop,
+    /// Smooths outlines of bodies.
+    Smooth,
     /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices,
     /// Decides how often arcs are halved.
@@ -121,7 +123,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 30] = [
+    pub const ALL: [Pass; 31] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -144,6 +146,7 @@ impl Pass {
         Pass::Bloom,
         Pass::Exposure,
         Pass::Develop,
+        Pass::Smooth,
         Pass::DiskVertices,
         Pass::DiskSegments,
         Pass::DiskStrips,
@@ -197,6 +200,7 @@ impl Pass {
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
             Pass::Exposure => include_str!("../../shaders/develop/exposure.wgsl"),
             Pass::Develop => include_str!("../../shaders/develop/develop.wgsl"),
+            Pass::Smooth => include_str!("../../shaders/develop/smooth.wgsl"),
             Pass::DiskVertices => include_str!("../../shaders/disk/vertices.wgsl"),
             Pass::DiskSegments => include_str!("../../shaders/disk/segments.wgsl"),
             Pass::DiskStrips => include_str!("../../shaders/disk/strips.wgsl"),
@@ -222,7 +226,7 @@ impl Pass {
             Pass::AuroraRanges => vec![],
             Pass::AuroraSpread | Pass::AuroraResolve => vec![TILES, ENLARGE],
             Pass::Compose => vec![COVERAGE],
-            Pass::Bloom => vec![],
+            Pass::Bloom | Pass::Smooth => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices => {
                 vec![

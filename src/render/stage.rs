@@ -211,6 +211,7 @@ pub fn settings(config: &GameConfig) -> Settings {
         star_brightness: config.sky.star_brightness as f32,
         sky_brightness: config.sky.milky_way_brightness as f32,
         bloom: render.bloom as f32,
+        smooth: render.antialiasing,
         exposure_key: render.exposure_key as f32,
         star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
         faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,

@@ -158,7 +158,8 @@ config! {
         exposure_max: f64 = 3.0, number(-30.0, 30.0), "stops", "brightest exposure the eye adapts to";
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
         exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
-        bloom: f64 = 0.1, number(0.0, 1.0), "", "share of light spread by the lens";
+        antialiasing: bool = true, Switch, "", "outlines of ships and other bodies are smoothed";
+        bloom: f64 = 0.25, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
     /// Stars and Milky Way.

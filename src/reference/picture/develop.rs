@@ -5,8 +5,10 @@ use glam::{Vec2, Vec3};
 /// How a picture is developed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Development {
-    /// Share of the blurred picture that is added.
+    /// Share of the light that the lens spreads.
     pub bloom: f32,
+    /// The light that the metered part of the picture is brought to, of 1 for white.
+    pub key: f32,
     /// Least and greatest exposure.
     pub exposure_range: [f32; 2],
 }
@@ -18,10 +20,12 @@ struct Canvas {
     light: Vec<Vec3>,
 }
 
-/// Halvings of the picture for bloom and metering.
-const LEVELS: usize = 6;
-/// Middle grey that the metered light is brought to.
-const KEY: f32 = 0.35;
+/// Levels of the picture for bloom and metering: a quarter, and from there halvings.
+const LEVELS: usize = 5;
+/// Pixels across the level that is metered, at most.
+const METERED_WIDTH: usize = 80;
+/// What a level and all coarser ones have of the glow, beside the next finer one.
+const WIDER: f32 = 0.5;
 
 impl Canvas {
     /// Bilinear at (u, v) in [0, 1]², held at the edges.
@@ -61,17 +65,18 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
     let picture = Canvas { size, light: light.iter().map(|&rgb| Vec3::from(rgb)).collect() };
     let mut levels: Vec<Canvas> = Vec::new();
     while levels.len() < LEVELS {
-        let finer = levels.last().unwrap_or(&picture);
-        levels.push(finer.four_taps(finer.size.map(|side| side.div_ceil(2)), 1.0));
+        let (finer, step) = levels.last().map_or((&picture, 4), |level| (level, 2));
+        levels.push(finer.four_taps(finer.size.map(|side| side.div_ceil(step)), 1.0));
         if levels.last().is_some_and(|level| level.size[0].min(level.size[1]) <= 4) {
             break;
         }
     }
-    let exposure = exposure(&levels[2.min(levels.len() - 1)], how.exposure_range);
+    let metered = (0..levels.len()).find(|level| size[0] >> (2 + level) <= METERED_WIDTH).unwrap_or(levels.len() - 1);
+    let exposure = exposure(&levels[metered], how);
     for level in (1..levels.len()).rev() {
         let wide = levels[level].four_taps(levels[level - 1].size, 0.5);
         for (pixel, glow) in levels[level - 1].light.iter_mut().zip(wide.light) {
-            *pixel += glow;
+            *pixel = pixel.lerp(glow, WIDER);
         }
     }
     let mut bytes = Vec::with_capacity(3 * size[0] * size[1]);
@@ -79,7 +84,7 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
         for column in 0..size[0] {
             let place = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
             let glow = levels[0].sample(place / Vec2::new(size[0] as f32, size[1] as f32));
-            let exposed = (picture.light[row * size[0] + column] + glow * how.bloom) * exposure;
+            let exposed = picture.light[row * size[0] + column].lerp(glow, how.bloom) * exposure;
             // Half a step of 8-bit noise against banding in the dark.
             let noise = (52.982_918 * (place.dot(Vec2::new(0.067_110_56, 0.005_837_15))).fract()).fract() - 0.5;
             let rgb = (tone_curve(exposed) + noise / 1024.0).max(Vec3::ZERO);
@@ -89,8 +94,8 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
     bytes
 }
 
-/// What brings the mean light, weighted by itself (what shines is metered, not the black between), to middle grey.
-fn exposure(level: &Canvas, [least, greatest]: [f32; 2]) -> f32 {
+/// What brings the mean light, weighted by itself (what shines is metered, not the black between), to the key.
+fn exposure(level: &Canvas, how: &Development) -> f32 {
     let mut sum = Vec2::ZERO;
     for rgb in &level.light {
         let light = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722));
@@ -99,7 +104,7 @@ fn exposure(level: &Canvas, [least, greatest]: [f32; 2]) -> f32 {
         }
     }
     let metered = sum.x / sum.y.max(1e-9);
-    (KEY / metered.max(1e-9)).clamp(least, greatest)
+    (how.key / metered.max(1e-9)).clamp(how.exposure_range[0], how.exposure_range[1])
 }
 
 /// A filmic curve: straight in the dark, a soft shoulder; colours lose their hue only as they come near to white.

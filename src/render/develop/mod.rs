@@ -1,4 +1,4 @@
-//! Development: thin triangles laid over, bloom, exposure, tone curve.
+//! Development: thin triangles laid over, bloom, exposure, tone curve, outlines smoothed.
 
 pub mod coverage;
 
@@ -7,7 +7,7 @@ use wgpu::ShaderStages;
 use super::Gpu;
 use super::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use super::shaders::Pass;
-use super::targets::Targets;
+use super::targets::{Targets, target};
 use super::timing::Timing;
 
 /// The passes after the picture is drawn.
@@ -17,11 +17,14 @@ pub struct Develop {
     sampled_layout: wgpu::BindGroupLayout,
     meter_layout: wgpu::BindGroupLayout,
     develop_layout: wgpu::BindGroupLayout,
+    smooth_layout: wgpu::BindGroupLayout,
     compose: wgpu::RenderPipeline,
     down: wgpu::RenderPipeline,
     up: wgpu::RenderPipeline,
     meter: wgpu::ComputePipeline,
     develop: wgpu::RenderPipeline,
+    smooth: wgpu::RenderPipeline,
+    output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
     /// What the exposure pass chose, for the pixels.
     adapted: wgpu::Buffer,
@@ -35,6 +38,9 @@ struct Groups {
     sampled: Vec<wgpu::BindGroup>,
     meter: wgpu::BindGroup,
     develop: wgpu::BindGroup,
+    /// The picture for the eye before outlines are smoothed, and the pass that does it.
+    developed: wgpu::TextureView,
+    smooth: wgpu::BindGroup,
 }
 
 impl Develop {
@@ -51,18 +57,16 @@ impl Develop {
             raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(layout)])
         };
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
-        let one = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let add = wgpu::BlendState { color: one, alpha: one };
+        let mixed = wgpu::BlendState::ALPHA_BLENDING;
+        let smooth_layout = layout(device, "smooth", fragment, &[Slot::Texture, Slot::Sampler, Slot::Depth]);
         Develop {
             compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
-            up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(add)),
+            up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
             develop: pass("develop", Pass::Develop, "fragment", &develop_layout, output, None),
+            smooth: pass("smooth", Pass::Smooth, "fragment", &smooth_layout, output, None),
+            output,
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
                 label: Some("linear"),
                 mag_filter: wgpu::FilterMode::Linear,
@@ -74,6 +78,7 @@ impl Develop {
             sampled_layout,
             meter_layout,
             develop_layout,
+            smooth_layout,
             groups: None,
         }
     }
@@ -82,6 +87,7 @@ impl Develop {
     pub fn resize(&mut self, gpu: &Gpu, targets: &Targets) {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
+        let (_, developed) = target(device, "developed", targets.size, self.output);
         let views = std::iter::once(&targets.picture).chain(&targets.bloom);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
@@ -95,6 +101,13 @@ impl Develop {
                 &self.develop_layout,
                 &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0]), self.adapted.as_entire_binding()],
             ),
+            smooth: bind(
+                device,
+                "smooth",
+                &self.smooth_layout,
+                &[TextureView(&developed), Sampler(&self.sampler), TextureView(&targets.depth)],
+            ),
+            developed,
         });
     }
 
@@ -104,7 +117,8 @@ impl Develop {
         screen(encoder, timing.render("compose"), "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
     }
 
-    /// Bloom, exposure, and the picture into `output`. `adaptation` is what the frame's exposure is kept in.
+    /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the frame's exposure
+    /// is kept in.
     #[allow(clippy::too_many_arguments, reason = "one call says all that development is")]
     pub fn run(
         &self,
@@ -113,6 +127,7 @@ impl Develop {
         frame: &wgpu::BindGroup,
         targets: &Targets,
         adaptation: &wgpu::Buffer,
+        smooth: bool,
         output: &wgpu::TextureView,
     ) {
         let Some(groups) = &self.groups else { return };
@@ -140,7 +155,11 @@ impl Develop {
                 &groups.sampled[level + 1],
             );
         }
-        screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
+        let developed = if smooth { &groups.developed } else { output };
+        screen(encoder, timing.render("develop"), "develop", developed, true, &self.develop, frame, &groups.develop);
+        if smooth {
+            screen(encoder, timing.render("smooth"), "smooth", output, true, &self.smooth, frame, &groups.smooth);
+        }
     }
 }
 
