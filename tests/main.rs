@@ -33,6 +33,8 @@ mod render_chords;
 #[cfg(feature = "game")]
 mod render_contestant;
 #[cfg(feature = "game")]
+mod render_develop;
+#[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
 mod render_disk_near;
