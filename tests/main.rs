@@ -43,6 +43,8 @@ mod render_disk_thin;
 #[cfg(feature = "game")]
 mod render_fallbacks;
 #[cfg(feature = "game")]
+mod render_fragments;
+#[cfg(feature = "game")]
 mod render_horizon;
 #[cfg(feature = "game")]
 mod render_lookup;
