@@ -240,7 +240,7 @@ fn the_picture_is_the_exact_one() {
     let size = [256, 144];
     let disk = a_disk();
     let mut renderer = renderer(size);
-    for (l, degrees, least) in [(24.0, 80.0, 27.0), (24.0, 40.0, 27.0)] {
+    for (l, degrees, least) in [(24.0, 80.0, 37.5), (24.0, 40.0, 35.5)] {
         let camera = camera(l, degrees, 60f64.to_radians());
         renderer.set_disk(Some(disk.clone()));
         let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
@@ -364,8 +364,8 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
-    // It has 41.7 dB. Gas with g off by a hundredth has 39.7, images of orders 2 and 3 half a pixel aside 40.9.
-    assert!(error.psnr > 41.2, "PSNR is {} dB", error.psnr);
+    // It has 54.1 dB. When thin images were coarser it had 41.7, gas with g off by a hundredth 39.7, images of orders 2 and 3 half a pixel aside 40.9.
+    assert!(error.psnr > 52.0, "PSNR is {} dB", error.psnr);
 }
 
 /// With straight light the disk is the annulus that the eye's straight lines meet, whatever it is otherwise drawn from, and the hole hides nothing.

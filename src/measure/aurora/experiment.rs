@@ -85,7 +85,7 @@ const fn variant(name: &'static str, method: Method, threads: bool, splats: Spla
 }
 
 /// The ways on the CPU. The first is the paper's own baseline: one thread, no table.
-pub const VARIANTS: [Variant; 11] = [
+pub const VARIANTS: [Variant; 12] = [
     variant("particles-no-table", Method::Particles, false, Splats::Exponential),
     variant("particles", Method::Particles, false, Splats::Table),
     variant("linear", Method::Linear, false, Splats::Table),
@@ -95,6 +95,7 @@ pub const VARIANTS: [Variant; 11] = [
     variant("exact-threads", Method::Exact, true, Splats::Table),
     variant("particles-pyramid", Method::Particles, false, Splats::Pyramid),
     variant("exact-pyramid", Method::Exact, false, Splats::Pyramid),
+    variant("particles-pyramid-threads", Method::Particles, true, Splats::Pyramid),
     variant("exact-pyramid-threads", Method::Exact, true, Splats::Pyramid),
     variant("particles-tabled", Method::Tabled, false, Splats::Table),
 ];
