@@ -40,7 +40,11 @@ impl Shift {
     }
 
     /// Of the image of `order` of a planet of that radius (r_s) with this history, by places all over what is seen of it. None where too little is.
+    /// Where neither colours nor brightness go by it, it is 1 everywhere and not looked for.
     pub fn new(view: &View, time: f64, history: &History, order: Order, radius: f64) -> Option<Shift> {
+        if !view.settings.doppler && !view.settings.beaming {
+            return Some(Shift::even(1.0));
+        }
         let aspect = view.aspect.filter(|_| view.settings.method.bends())?;
         let mut began = departure(view, time, history, order)?;
         let away = view.camera.position - history.at(began).position;
