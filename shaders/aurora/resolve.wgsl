@@ -14,7 +14,7 @@ struct Lines {
 }
 
 @group(1) @binding(0) var<uniform> lines_seen: Lines;
-/// Of each image, as in tiles.wgsl.
+/// Of each image, as in lit_tiles.wgsl.
 @group(1) @binding(1) var<storage, read> numbers: array<u32>;
 
 /// The finest level.
@@ -43,9 +43,9 @@ fn colour_at(line: u32, place: vec2<f32>) -> vec3<f32> {
 @vertex
 fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32) -> Screen {
     // Two triangles for each tile, or none.
-    let tile = vec2<u32>((i / 6u) % TILE_COLUMNS, (i / 6u) / TILE_COLUMNS);
+    let tile = vec2<u32>((i / 6u) % LIT_TILE_COLUMNS, (i / 6u) / LIT_TILE_COLUMNS);
     let image = instance / 4u;
-    let lit = vec2<u32>(numbers[tiles_of(image, true) + tile.y], numbers[tiles_of(image, false) + tile.y]) >> tile.xx;
+    let lit = vec2<u32>(numbers[lit_tiles_of(image, true) + tile.y], numbers[lit_tiles_of(image, false) + tile.y]) >> tile.xx;
     let kind = (lit.x & 1u) + 2u * (lit.y & 1u);
     let k = i % 6u;
     let corner = vec2<f32>(vec2<bool>((k & 1u) == 1u, (k >= 2u) & (k != 3u)) & vec2<bool>(kind == instance % 4u));

@@ -30,7 +30,7 @@ const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
 const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
 const ENLARGE: &str = include_str!("../../shaders/aurora/enlarge.wgsl");
 const STROKE: &str = include_str!("../../shaders/aurora/stroke.wgsl");
-const TILES: &str = include_str!("../../shaders/aurora/tiles.wgsl");
+const LIT_TILES: &str = include_str!("../../shaders/aurora/lit_tiles.wgsl");
 const ROOMS: &str = include_str!("../../shaders/aurora/rooms.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
@@ -218,9 +218,9 @@ impl Pass {
                 vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, swing, PROJECT, RANDOM, STROKE, STREAKS]
             }
             Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STROKE, STREAKS],
-            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, TILES, ROOMS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, LIT_TILES, ROOMS],
             Pass::AuroraRanges => vec![],
-            Pass::AuroraSpread | Pass::AuroraResolve => vec![TILES, ENLARGE],
+            Pass::AuroraSpread | Pass::AuroraResolve => vec![LIT_TILES, ENLARGE],
             Pass::Compose => vec![COVERAGE],
             Pass::Bloom => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
