@@ -122,6 +122,7 @@ impl Aurora {
         let spread_module = module(device, "aurora spread", Pass::AuroraSpread);
         let spread_groups = [Some(frame_layout), Some(&spread_layout)];
         let resolve_module = module(device, "aurora resolve", Pass::AuroraResolve);
+        let wipe_module = module(device, "aurora wipe", Pass::AuroraWipe);
         let resolve_groups = [Some(frame_layout), Some(&tiles_layout), Some(&resolve_layout)];
         let resolve = |fragment| raster(device, "aurora resolve", &resolve_module, stage(fragment, &picture, None), &resolve_groups);
         Aurora {
@@ -131,7 +132,7 @@ impl Aurora {
             ranges: Ranges::new(device, frame_layout),
             draw: [Some(false), None].map(draw_strokes),
             spread: raster(device, "aurora spread", &spread_module, stage("fragment", &set, None), &spread_groups),
-            wipe: raster(device, "aurora wipe", &resolve_module, stage("wipe", &set, Some(false)), &resolve_groups[..2]),
+            wipe: raster(device, "aurora wipe", &wipe_module, stage("fragment", &set, Some(false)), &resolve_groups[..2]),
             resolve: ["finest", "coarser", "both"].map(resolve),
             linear: device.create_sampler(&wgpu::SamplerDescriptor {
                 mag_filter: wgpu::FilterMode::Linear,
@@ -357,7 +358,7 @@ impl Aurora {
     }
 }
 
-/// Draws those tiles of an image that are of a kind; as in resolve.wgsl.
+/// Draws those tiles of an image that are of a kind; as in lit_corners.wgsl.
 fn draw_tiles(pass: &mut wgpu::RenderPass, image: u32, kind: u32) {
     let instance = 4 * image + kind;
     pass.draw(0..6 * LIT_TILES[0] * LIT_TILES[1], instance..instance + 1);
