@@ -4,10 +4,10 @@ use glam::{DQuat, DVec2, DVec3};
 use lensrunner::render::aurora::shift::Shift;
 use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
 use lensrunner::render::frame::Camera;
+use lensrunner::render::layout;
 use lensrunner::render::placements::{View, light_path};
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, layout};
 use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;
 use lensrunner::scene::{self, GameConfig};
@@ -15,8 +15,9 @@ use lensrunner::sim::History;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, velocity};
 
-use crate::render_pictures::{exact, surroundings};
+use crate::render_pictures::exact;
 use crate::render_shaders::GPU;
+use crate::render_support::renderer;
 use crate::twin::run_with;
 
 /// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets there.
@@ -25,7 +26,7 @@ fn lines_shift_with_the_planets_rotation() {
     let config = GameConfig::default();
     let scene = scene::load("aurora-orbit").unwrap();
     let size = [256u32, 144];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap();
     let history = planet_history(&planet, 0.0, 60.0, DQuat::IDENTITY).unwrap();
@@ -46,7 +47,7 @@ fn lines_shift_with_the_planets_rotation() {
 fn without_doppler_and_beaming_no_shift_is_looked_for() {
     let scene = scene::load("aurora-orbit").unwrap();
     let size = [96u32, 54];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     for (doppler, beaming) in [(false, false), (true, false), (false, true)] {
         let mut config = GameConfig::default();
         (config.render.doppler, config.render.beaming) = (doppler, beaming);
