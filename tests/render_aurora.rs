@@ -279,3 +279,29 @@ fn rooms_of_strokes_do_not_overlap() {
         assert_eq!(u64::from(after), u64::from(CORNERS) * rooms.all() * u64::from(images));
     }
 }
+
+#[test]
+fn the_box_of_a_stroke_holds_it() {
+    // In units of a level's pixel: a blur that goes aslant, as narrow as is added there at all (the lesser eigenvalue is 0.6), and more and more drawn out.
+    let body = "let level = u32(row.x); let pixel = f32(1u << level); let u = vec2<f32>(cos(row.y), sin(row.y)); \
+                let shape = shape_of(level, u, row.w * pixel, vec3<f32>(row.z * row.z / 0.4 + 0.6, 1.0, row.z) * pixel * pixel); \
+                let around = box_of(vec2<f32>(0.0), shape, level); \
+                let corners = max(abs(shape.half + shape.side), abs(shape.half - shape.side)); \
+                twin_out[2u * id.x] = around; twin_out[2u * id.x + 1u] = vec4<f32>(corners, shape.sigma, dot(shape.side, u));";
+    let rows: Vec<[f32; 4]> = (0..PYRAMID as usize * 9 * 4)
+        .map(|k| [(k % PYRAMID as usize) as f32, 0.7 * (k / 7 % 9) as f32, [0.0, 1.0, 3.0, 6.0][k / 63], 2.0])
+        .collect();
+    for (row, got) in rows.iter().zip(run(Pass::AuroraWalk, body, [&[], &[]], &rows, 2).chunks(2)) {
+        // What enlarging adds: a texel of each level to either side, down to the second finest.
+        let pixel = 2f32.powf(row[0]);
+        let reach = 2.0 * pixel - 2.0;
+        let [left, top, right, bottom] = got[0];
+        let [x, y, sigma, aslant] = got[1];
+        assert!(x + reach <= right && y + reach <= bottom && -left == right && -top == bottom, "{row:?}: {got:?}");
+        // No wider than that, and as the stroke is added: narrower than it is seen by what enlarging adds.
+        assert!(right <= x + 2.0 * pixel + 1.0 && bottom <= y + 2.0 * pixel + 1.0, "{row:?}: {got:?}");
+        let narrow = (pixel * pixel - 0.25 * (pixel * pixel - 1.0)).sqrt();
+        assert!((sigma / narrow - 1.0).abs() < 1e-4, "{row:?}: {sigma}, not {narrow}");
+        assert!((aslant - 2.6 * row[2] * pixel * pixel / narrow).abs() < 1e-3 * pixel * (1.0 + row[2]), "{row:?}: {aslant} aslant");
+    }
+}

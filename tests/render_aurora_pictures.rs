@@ -217,25 +217,62 @@ fn the_same_frame_is_drawn_the_same() {
 
 #[test]
 fn nothing_is_left_of_an_earlier_frame() {
-    // The finest level is made black only where the new frame has light there; an odd size, that tiles do not divide.
-    let size = [197, 111];
+    // The finest level is made black only where the new frame has light there; odd sizes, that tiles do not divide.
     let config = GameConfig::default();
-    let drawn = |names: &[&str]| {
+    let drawn = |names: &[&str], size: [u32; 2], images: usize| {
         let mut renderer = renderer_under(&default_surroundings(), size);
         let pictures = names.iter().map(|name| {
             let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
             let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
-            frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
-            renderer.picture(&frame, false).unwrap()
+            let aurora = frame.aurora.as_mut().unwrap();
+            assert!(*name == "aurora-below" || aurora.placements.len() == images, "{name}: {} images", aurora.placements.len());
+            aurora.settings.strokes[1] = 1.0;
+            renderer.picture(&frame, false).unwrap().linear
         });
         pictures.last().unwrap()
     };
-    let [fresh, used] = [drawn(&["aurora-orbit"]), drawn(&["aurora-below", "aurora-orbit"])];
-    let most = fresh.linear.iter().flatten().copied().fold(0.0, f32::max);
-    assert!(most > 0.1, "{most}");
-    for (a, b) in fresh.linear.iter().flatten().zip(used.linear.iter().flatten()) {
+    // Of one image; and of both that the hole makes, in a picture that is large enough to have the second.
+    for (name, size, images, least) in [("aurora-orbit", [197, 111], 1, 0.1), ("aurora-lensed", LENSED_SIZE, 2, 0.05)] {
+        same(&drawn(&[name], size, images), &drawn(&["aurora-below", name], size, images), least, name);
+    }
+}
+
+/// Pixels of a picture in which the second image of the scene `aurora-lensed` is wide enough to show its aurora.
+const LENSED_SIZE: [u32; 2] = [591, 333];
+
+#[test]
+fn nothing_is_left_of_an_earlier_image() {
+    let config = GameConfig::default();
+    let mut renderer = renderer_under(&default_surroundings(), LENSED_SIZE);
+    let stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
+    let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), LENSED_SIZE, 0.0, &config);
+    let whole = frame.aurora.take().unwrap();
+    assert_eq!(whole.placements.len(), 2);
+    let mut drawn = |images: &[usize]| {
+        let mut aurora = whole.clone();
+        aurora.settings.strokes[1] = 1.0;
+        aurora.placements = images.iter().map(|&k| whole.placements[k]).collect();
+        aurora.parts = images.iter().map(|&k| whole.parts[k]).collect();
+        aurora.behind = images.iter().map(|&k| whole.behind[k]).collect();
+        aurora.colours = images.iter().map(|&k| whole.colours[k]).collect();
+        frame.aurora = Some(aurora);
+        renderer.picture(&frame, false).unwrap().linear
+    };
+    let alone = [drawn(&[0]), drawn(&[1])];
+    // Their light is added up in one picture after the other, so that two together are the sum of each by itself; the same one twice is in the same tiles.
+    for [one, other] in [[0, 1], [0, 0], [1, 1]] {
+        let sum = alone[one].iter().zip(&alone[other]).map(|(a, b)| [0, 1, 2, 3].map(|c| a[c] + b[c]));
+        same(&sum.collect::<Vec<_>>(), &drawn(&[one, other]), 0.05, &format!("images {one} and {other}"));
+    }
+}
+
+/// Two pictures are the same in colour, the brightest of which is more than `least`.
+fn same(one: &[[f32; 4]], other: &[[f32; 4]], least: f32, name: &str) {
+    let most = one.iter().flat_map(|p| &p[..3]).copied().fold(0.0, f32::max);
+    assert!(most > least, "{name}: {most}");
+    for (a, b) in one.iter().flat_map(|p| &p[..3]).zip(other.iter().flat_map(|p| &p[..3])) {
         // Halves lose the faintest strokes, where those are all that the adapter adds up in.
-        assert!((a - b).abs() <= 0.02 * most, "{a} and {b}, of {most}");
+        assert!((a - b).abs() <= 0.02 * most, "{name}: {a} and {b}, of {most}");
     }
 }
 
