@@ -27,6 +27,8 @@ mod reference_trace;
 #[cfg(feature = "game")]
 mod render_aurora;
 #[cfg(feature = "game")]
+mod render_aurora_pictures;
+#[cfg(feature = "game")]
 mod render_branches;
 #[cfg(feature = "game")]
 mod render_chords;
@@ -66,6 +68,8 @@ mod render_shift;
 mod render_sprites;
 #[cfg(feature = "game")]
 mod render_stars;
+#[cfg(feature = "game")]
+mod render_support;
 #[cfg(feature = "game")]
 mod render_swing;
 #[cfg(feature = "game")]

@@ -1,4 +1,4 @@
-//! The aurora on the GPU: its functions against their Rust twins, and what it draws.
+//! The aurora on the GPU: its functions against their Rust twins, its history, its numbers, and the experiment.
 
 use glam::{DVec2, DVec3};
 use lensrunner::lensing;
@@ -9,21 +9,17 @@ use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
 use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
 use lensrunner::render::aurora::{PYRAMID, RAYS_PERIOD, planet_history, veil};
-use lensrunner::render::frame::{Camera, FrameInput};
-use lensrunner::render::placements::against_static;
-use lensrunner::render::renderer::Surroundings;
+use lensrunner::render::layout;
 use lensrunner::render::shaders::Pass;
-use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, layout, readback};
+use lensrunner::render::stage::static_camera;
+use lensrunner::scene;
 use lensrunner::scene::aurora::air;
 use lensrunner::scene::aurora::dipole::on_field_line;
 use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::aurora::quantiles::Quantiles;
 use lensrunner::scene::aurora::random;
-use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::light::{self, Branch, Order};
-use std::sync::Arc;
 
 use crate::render_shaders::GPU;
 use crate::twin::{run, run_with};
@@ -104,6 +100,7 @@ fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
 
 /// The first of the levels of [`light_of_electrons`], and from each to the next, km.
 const TOP: f64 = 500.0;
+
 const LEVEL: f64 = 1.0;
 
 /// Photons of each line above levels down to 80 km, for each 35 eV that 16,000 electrons drawn one by one bring down, each falling by itself.
@@ -193,53 +190,6 @@ fn a_planet_far_away_has_a_history() {
     }
 }
 
-fn surroundings() -> Surroundings {
-    Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
-}
-
-/// Greens of a picture that stand out from red and blue.
-fn green(picture: &readback::Picture) -> f32 {
-    picture.linear.iter().map(|p| (p[1] - p[0].max(p[2])).max(0.0)).sum()
-}
-
-#[test]
-fn an_aurora_is_drawn_where_it_is_and_only_there() {
-    let scene = scene::load("aurora-orbit").unwrap();
-    let size = [160, 90];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let mut config = GameConfig::default();
-    config.aurora.streaks = 3000;
-    let stage = Stage::new(&mut renderer, &scene, &config);
-    let camera = stage.camera(0.0, &[]);
-    let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
-    let aurora = frame.aurora.as_ref().expect("the aurora is in sight");
-    let streaks = aurora.settings.counts[0];
-    // Each segment has at least its ten: five in the north and five in the south.
-    assert!(streaks <= 3000 + 10 * aurora.segments.len() as u32, "{streaks}");
-    assert!(aurora.segments.iter().all(|segment| segment.range[2] % 10 == 0 && segment.light[0].is_finite()));
-    let picture = renderer.picture(&frame, false).unwrap();
-    assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
-    let shines = green(&picture);
-    assert!(shines > 1.0, "{shines}");
-
-    // The paper's walk draws something else; switched off, there is none.
-    config.aurora.walk = "linear".into();
-    let linear = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
-    let linear = renderer.picture(&linear, false).unwrap();
-    let most = picture.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
-    assert!(linear.linear.iter().zip(&picture.linear).any(|(a, b)| (a[1] - b[1]).abs() > 0.01 * most));
-    config.aurora.enabled = false;
-    let off = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
-    assert!(off.aurora.is_none());
-    assert!(green(&renderer.picture(&off, false).unwrap()) < 0.05 * shines);
-
-    // Looking away from the planet, or from where it is a dot, nothing is simulated.
-    let away = static_camera(DVec3::new(400.0, 0.0, 0.0), DVec3::X, DVec3::Z, 1.0);
-    assert!(stage.frame(away, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
-    let far = static_camera(DVec3::new(400.0, 0.0, 0.0), DVec3::NEG_X, DVec3::Z, 1.0);
-    assert!(stage.frame(far, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
-}
-
 #[test]
 fn the_adapter_draws_the_experiment_as_the_processor_does() {
     let (_, mut runners) = aurora_race::runners();
@@ -308,129 +258,6 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
     assert!(found > 60, "{found}");
 }
 
-/// The aurora alone: no planet, no sky.
-fn aurora_alone(stage: &Stage, camera: Camera, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
-    let mut settings = settings(config);
-    (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
-    let mut frame = stage.frame(camera, size, time, &[], None, &settings);
-    frame.placed.clear();
-    frame
-}
-
-/// The light in a picture.
-fn total(picture: &readback::Picture) -> f64 {
-    picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum()
-}
-
-fn orbit_scene() -> (Scene, GameConfig) {
-    let mut config = GameConfig::default();
-    config.aurora.streaks = 4000;
-    (scene::load("aurora-orbit").unwrap(), config)
-}
-
-#[test]
-fn brightness_never_jumps() {
-    let (scene, config) = orbit_scene();
-    let size = [96, 54];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
-    let planet = scene.planet.unwrap().state(0.0).unwrap().position;
-    let aside = (planet.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
-    let mut light = |distance: f64, time: f64| {
-        let camera = static_camera(planet + aside * distance, -aside, DVec3::Z, 0.35);
-        let frame = aurora_alone(&stage, camera, size, time, &config);
-        let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.counts[0]);
-        (streaks, total(&renderer.picture(&frame, false).unwrap()))
-    };
-    // Away from the planet until it is out of sight by its size: fewer and fewer streaks, fewer strokes, fewer chords, none.
-    let away: Vec<(u32, f64)> = (0..54).map(|k| light(9.0 * 1.035f64.powi(k), 0.0)).collect();
-    assert!(away[0].0 > 100 && away[53] == (0, 0.0), "{:?} to {:?}", away[0], away[53]);
-    // Here a step is 3.5 % of the distance, hundreds of frames of the game. Fewer streaks stand elsewhere among the rays.
-    smooth(&away, 0.05);
-    // And as time goes by, past steps of the curtains' motion.
-    let still: Vec<(u32, f64)> = (0..30).map(|k| light(12.0, 0.05 * f64::from(k))).collect();
-    smooth(&still, 0.02);
-}
-
-/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of all.
-fn smooth(steps: &[(u32, f64)], part: f64) {
-    let least = 0.005 * steps.iter().map(|step| step.1).fold(0.0, f64::max);
-    for (k, three) in steps.windows(3).enumerate() {
-        let [a, b, c] = [three[0].1, three[1].1, three[2].1];
-        let jump = (b - 0.5 * (a + c)).abs();
-        assert!(jump <= part * a.max(b).max(c) + least, "step {k}: {three:?} (streaks, light)");
-    }
-}
-
-#[test]
-fn the_disk_dims_an_aurora_behind_it() {
-    let text = |phase: f64| {
-        format!(
-            "[camera]\nposition = [0.0, -14.0, 12.0]\n[disk]\n[planet]\norbit_radius = 8.0\ninclination = 0.35\nradius = 0.8\nphase = {phase}\n"
-        )
-    };
-    let size = [96, 54];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    // Light takes 14 r_s/c: the planet was half a radian back then, under the plane of the disk or above it.
-    for (phase, behind) in [(-1.1, true), (2.0, false)] {
-        let path = std::env::temp_dir().join(format!("lensrunner-veil-{}-{behind}.toml", std::process::id()));
-        std::fs::write(&path, text(phase)).unwrap();
-        let scene = scene::load(path.to_str().unwrap()).unwrap();
-        std::fs::remove_file(&path).unwrap();
-        let mut light = |opacity: f64| {
-            let mut config = GameConfig::default();
-            (config.aurora.streaks, config.aurora.brightness, config.disk.opacity) = (4000, 0.5, opacity);
-            let stage = Stage::new(&mut renderer, &scene, &config);
-            let planet = scene.planet.unwrap().state(-14.0).unwrap().position;
-            let eye = DVec3::new(0.0, -14.0, 12.0);
-            let camera = static_camera(eye, planet - eye, DVec3::Z, 0.35);
-            let mut frame = aurora_alone(&stage, camera, size, 0.0, &config);
-            let images = frame.aurora.as_ref().expect("the aurora is in sight").behind.clone();
-            assert_eq!(images[0], behind, "{images:?}");
-            let with = total(&renderer.picture(&frame, false).unwrap());
-            frame.aurora = None;
-            with - total(&renderer.picture(&frame, false).unwrap())
-        };
-        let share = light(0.9) / light(0.0);
-        // The disk lets a tenth through where it is seen face on.
-        assert!(if behind { (0.0..0.5).contains(&share) } else { (share - 1.0).abs() < 0.1 }, "{share} of the light is left");
-    }
-}
-
-#[test]
-fn the_pyramid_changes_no_picture() {
-    let size = [192, 108];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    for name in ["aurora-below", "aurora-orbit"] {
-        let scene = scene::load(name).unwrap();
-        let mut config = GameConfig::default();
-        // Points so wide that they go to coarse levels, and outlines of the planet among them.
-        (config.aurora.streaks, config.aurora.radius) = (1500, if name == "aurora-orbit" { 50.0 } else { 12.0 });
-        let stage = Stage::new(&mut renderer, &scene, &config);
-        let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings(&config));
-        (frame.settings.stars, frame.settings.milky_way, frame.settings.bloom) = (false, false, 0.0);
-        let got = renderer.picture(&frame, false).unwrap();
-        let levels = renderer.aurora_strokes().unwrap().unwrap();
-        let coarse: u32 = levels[1..].iter().sum();
-        assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
-        frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
-        let want = renderer.picture(&frame, false).unwrap();
-        assert_eq!(renderer.aurora_strokes().unwrap().unwrap().len(), 1);
-        let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
-        let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
-        let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
-        // As the experiment's: 2 % of the root mean square. Light is kept to what lies beyond three standard deviations.
-        assert!((off / all).sqrt() < 0.02, "{name}: off by {}", (off / all).sqrt());
-        let ratio = total(&got) / total(&want);
-        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio} of the light");
-        // No light where the planet hides it, not a pixel further than before.
-        let most = want.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
-        let worst = got.linear.iter().zip(&want.linear).map(|(p, q)| (p[1] - q[1]).abs()).fold(0.0, f32::max);
-        println!("{name}: rms {:.4}, light {ratio:.4}, worst pixel {:.4}, {levels:?}", (off / all).sqrt(), worst / most);
-        assert!(worst < 0.06 * most, "{name}: a pixel is off by {worst} of {most}");
-    }
-}
-
 #[test]
 fn rooms_of_strokes_do_not_overlap() {
     for (finest, levels, images) in [(8, 1, 3), (800, PYRAMID, 2), (64, 4, 3)] {
@@ -454,152 +281,27 @@ fn rooms_of_strokes_do_not_overlap() {
 }
 
 #[test]
-fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
-    let size = [192, 108];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let mut config = GameConfig::default();
-    config.aurora.streaks = 4000;
-    for name in ["aurora-below", "aurora-orbit"] {
-        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-        let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
-        // Parts of a streak, and a picture of each; room for the most.
-        let drawn = [24, 48].map(|parts| {
-            let settings = &mut frame.aurora.as_mut().unwrap().settings;
-            let streaks = settings.counts[0];
-            (settings.counts[2], settings.history[2]) = (parts, 48 * streaks);
-            let picture = renderer.picture(&frame, false).unwrap();
-            let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
-            assert!(f64::from(strokes) < 0.8 * f64::from(parts * streaks), "{name}: {strokes} strokes, {parts} parts");
-            picture
-        });
-        let [few, many] = &drawn;
-        let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
-        let off: f64 = few.linear.iter().zip(&many.linear).map(|(p, q)| square(p, q)).sum();
-        let all: f64 = many.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
-        println!("{name}: rms {:.4}, light {:.4}", (off / all).sqrt(), total(few) / total(many));
-        // 24 parts are themselves coarser than 48: 3 % seen from below. Joined wrongly they would have other light.
-        assert!((off / all).sqrt() < 0.05, "{name}: off by {}", (off / all).sqrt());
-        assert!((total(few) / total(many) - 1.0).abs() < 0.01, "{name}: {} of the light", total(few) / total(many));
+fn the_box_of_a_stroke_holds_it() {
+    // In units of a level's pixel: a blur that goes aslant, as narrow as is added there at all (the lesser eigenvalue is 0.6), and more and more drawn out.
+    let body = "let level = u32(row.x); let pixel = f32(1u << level); let u = vec2<f32>(cos(row.y), sin(row.y)); \
+                let shape = shape_of(level, u, row.w * pixel, vec3<f32>(row.z * row.z / 0.4 + 0.6, 1.0, row.z) * pixel * pixel); \
+                let around = box_of(vec2<f32>(0.0), shape, level); \
+                let corners = max(abs(shape.half + shape.side), abs(shape.half - shape.side)); \
+                twin_out[2u * id.x] = around; twin_out[2u * id.x + 1u] = vec4<f32>(corners, shape.sigma, dot(shape.side, u));";
+    let rows: Vec<[f32; 4]> = (0..PYRAMID as usize * 9 * 4)
+        .map(|k| [(k % PYRAMID as usize) as f32, 0.7 * (k / 7 % 9) as f32, [0.0, 1.0, 3.0, 6.0][k / 63], 2.0])
+        .collect();
+    for (row, got) in rows.iter().zip(run(Pass::AuroraWalk, body, [&[], &[]], &rows, 2).chunks(2)) {
+        // What enlarging adds: a texel of each level to either side, down to the second finest.
+        let pixel = 2f32.powf(row[0]);
+        let reach = 2.0 * pixel - 2.0;
+        let [left, top, right, bottom] = got[0];
+        let [x, y, sigma, aslant] = got[1];
+        assert!(x + reach <= right && y + reach <= bottom && -left == right && -top == bottom, "{row:?}: {got:?}");
+        // No wider than that, and as the stroke is added: narrower than it is seen by what enlarging adds.
+        assert!(right <= x + 2.0 * pixel + 1.0 && bottom <= y + 2.0 * pixel + 1.0, "{row:?}: {got:?}");
+        let narrow = (pixel * pixel - 0.25 * (pixel * pixel - 1.0)).sqrt();
+        assert!((sigma / narrow - 1.0).abs() < 1e-4, "{row:?}: {sigma}, not {narrow}");
+        assert!((aslant - 2.6 * row[2] * pixel * pixel / narrow).abs() < 1e-3 * pixel * (1.0 + row[2]), "{row:?}: {aslant} aslant");
     }
-}
-
-#[test]
-fn the_same_frame_is_drawn_the_same() {
-    // Halves lose what is faint in the order in which threads append it.
-    if !GPU.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE) {
-        return;
-    }
-    let size = [192, 108];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let config = GameConfig::default();
-    for name in ["aurora-below", "aurora-side"] {
-        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-        let frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
-        let [one, other] = [(), ()].map(|()| renderer.picture(&frame, false).unwrap());
-        let most = one.linear.iter().flatten().copied().fold(0.0, f32::max);
-        assert!(most > 0.1, "{name}: {most}");
-        for (a, b) in one.linear.iter().flatten().zip(other.linear.iter().flatten()) {
-            // Sums of 32-bit floats differ by some 1e-6 of themselves; in the picture, of halves, that is the next number at most.
-            assert!((a - b).abs() <= a.max(*b) / 1000.0 + 1e-6, "{name}: {a} and {b}");
-        }
-    }
-}
-
-#[test]
-fn nothing_is_left_of_an_earlier_frame() {
-    // The finest level is made black only where the new frame has light there; an odd size, that tiles do not divide.
-    let size = [197, 111];
-    let config = GameConfig::default();
-    let drawn = |names: &[&str]| {
-        let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-        let pictures = names.iter().map(|name| {
-            let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
-            let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
-            frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
-            renderer.picture(&frame, false).unwrap()
-        });
-        pictures.last().unwrap()
-    };
-    let [fresh, used] = [drawn(&["aurora-orbit"]), drawn(&["aurora-below", "aurora-orbit"])];
-    let most = fresh.linear.iter().flatten().copied().fold(0.0, f32::max);
-    assert!(most > 0.1, "{most}");
-    for (a, b) in fresh.linear.iter().flatten().zip(used.linear.iter().flatten()) {
-        // Halves lose the faintest strokes, where those are all that the adapter adds up in.
-        assert!((a - b).abs() <= 0.02 * most, "{a} and {b}, of {most}");
-    }
-}
-
-#[test]
-fn a_watched_aurora_goes_on_without_a_burst() {
-    let (scene, config) = orbit_scene();
-    let size = [96, 54];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &scene, &config).watched();
-    // The camera goes with the planet.
-    let mut light = |stage: &Stage, config: &GameConfig, time: f64| {
-        let frame = aurora_alone(stage, stage.camera(time, &[]), size, time, config);
-        let nodes = frame.aurora.as_ref().unwrap().nodes.clone();
-        (nodes, total(&renderer.picture(&frame, false).unwrap()))
-    };
-    // Ten frames, twelve days of the planet out of sight, ten more: curtains and their brightness go on where they were.
-    let gap = 12.0 * scene.planet.unwrap().day;
-    let times = (0..10).map(|k| 0.05 * f64::from(k)).chain((0..10).map(|k| gap + 0.05 * f64::from(k)));
-    let steps: Vec<_> = times.map(|time| light(&stage, &config, time)).collect();
-    for pair in steps.windows(2) {
-        // Other rays pass in the meantime; the planet turns a little.
-        let ratio = pair[1].1 / pair[0].1;
-        assert!((0.6..1.6).contains(&ratio), "{ratio} times as much light from one frame to the next");
-        // No row is older than four steps of half a second: the row that was the newest is among the first three.
-        let row = pair[0].0.len() / 128;
-        let kept = (0..3).any(|k| pair[1].0[k * row..(k + 1) * row] == pair[0].0[..row]);
-        assert!(kept, "the curtains have moved by more than two rows in a frame");
-    }
-    // Keys of brightness, walk and pace leave the curtains as they are, and another seed does not.
-    let before = light(&stage, &config, gap + 1.0).0;
-    let mut other = config.clone();
-    (other.aurora.brightness, other.aurora.pace, other.aurora.walk) = (0.02, 9.0, "linear".into());
-    stage.change_aurora(&other.aurora);
-    let row = before.len() / 128;
-    let after = light(&stage, &other, gap + 1.0).0;
-    assert!((0..2).any(|k| after[k * row..(k + 1) * row] == before[..row]), "another pace makes no other curtains");
-    other.aurora.seed += 1;
-    stage.change_aurora(&other.aurora);
-    assert!(light(&stage, &other, gap + 1.0).0[..row] != before[..row]);
-    other.aurora.enabled = false;
-    stage.change_aurora(&other.aurora);
-    assert!(aurora_alone(&stage, stage.camera(gap + 1.0, &[]), size, gap + 1.0, &other).aurora.is_none());
-}
-
-#[test]
-fn lines_shift_as_the_settings_ask() {
-    let (scene, mut config) = orbit_scene();
-    let size = [96, 54];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    // The red line's X over Y falls as it becomes greener.
-    let mut hue = |lensing: bool, light_delay: bool| {
-        (config.render.lensing, config.render.light_delay) = (lensing, light_delay);
-        let stage = Stage::new(&mut renderer, &scene, &config);
-        let camera = stage.camera(0.0, &[]);
-        let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
-        let red = frame.aurora.unwrap().colours[0].lines[0][Line::Red as usize];
-        (camera, f64::from(red[0] / red[1]))
-    };
-    let expected = |g: f64| {
-        let [x, y, _] = lines::kilorayleigh_xyz(g)[Line::Red as usize];
-        x / y
-    };
-    // Straight light, at once: g = γₑ(1 − n·vₑ)⁻¹ … of special relativity, with the speeds against what hovers there.
-    let (camera, flat) = hue(false, false);
-    let planet = scene.planet.unwrap().state(0.0).unwrap();
-    let speed = |position: DVec3, momentum: DVec3| {
-        let p = against_static(position, momentum);
-        p / (1.0 + p.length_squared()).sqrt()
-    };
-    let n = (camera.position - planet.position).normalize();
-    let doppler = |v: DVec3| (1.0 - v.dot(n)) / (1.0 - v.length_squared()).sqrt();
-    let g = doppler(speed(camera.position, camera.momentum)) / doppler(speed(planet.position, planet.momentum));
-    assert!((flat / expected(g) - 1.0).abs() < 1e-3, "{flat} in the frame, {} for g = {g}", expected(g));
-    // With the hole its field's part comes in, and with the delay another moment.
-    let (_, bent) = hue(true, true);
-    assert!((bent - flat).abs() > 1e-5, "{bent} and {flat}");
 }

@@ -1,48 +1,26 @@
 //! The drawn disk against the exact one: where it is seen, how it is shifted, what its picture looks like.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 use glam::DVec3;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
-use lensrunner::measure::disk::{self, Eye};
+use lensrunner::measure::disk;
+use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::readback;
-use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::shaders::Pass;
-use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::{Gas, RENEWAL, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
+use crate::render_support::{camera, eye, renderer, settings};
 use crate::twin::run;
-
-pub fn renderer(size: [u32; 2]) -> Renderer {
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
-}
 
 fn a_disk() -> Disk {
     let config = GameConfig::default();
     Disk::new(config.disk.clone(), &config)
-}
-
-/// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.
-pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
-    let position = DVec3::new(0.0, -l * sine, l * cosine);
-    static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
-}
-
-pub fn settings() -> Settings {
-    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
 }
 
 /// Seen vertices of the grid, with their circle, azimuth and order; and the indices of all triangles.
@@ -245,8 +223,7 @@ fn the_picture_is_the_exact_one() {
         renderer.set_disk(Some(disk.clone()));
         let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
         let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-        let eye =
-            Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+        let eye = eye(&camera);
         let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 2);
         let error = disk::compare(&got, &truth, size, disk::peak(&truth));
         println!("L = {l}, {degrees}°: {error:?}");
@@ -360,7 +337,7 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     renderer.set_disk(Some(disk.clone()));
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let eye = eye(&camera);
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
@@ -440,10 +417,6 @@ fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Camera, size: [
     let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
     let got = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
     [got, disk::picture(&disk.gas, &eye(&camera), size, time, orders, 2)]
-}
-
-pub fn eye(camera: &Camera) -> Eye {
-    Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
 }
 
 /// Where one generation of streaks dies and the next is born, at light that left at a whole number of renewals, the picture is as near to the truth as

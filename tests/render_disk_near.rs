@@ -1,17 +1,13 @@
 //! The drawn disk from close by, pixel by pixel: parts of the pictures of the scenes `disk-inner` and `disk-skim` against the exact ones.
 
-use std::sync::Arc;
-
 use glam::DVec3;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
-use lensrunner::measure::disk::{self, Eye};
+use lensrunner::measure::disk;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
-use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 
-use crate::render_shaders::GPU;
+use crate::render_support::{eye, renderer, settings};
 
 /// As large as a picture of the game: what is finer than a pixel elsewhere is seen here.
 const SIZE: [u32; 2] = [1280, 720];
@@ -21,19 +17,13 @@ const TIME: f64 = 100.0;
 /// The mean difference over the mean light in each part (where it begins, and its size in pixels) of the picture, against the exact one of 64 samples a
 /// pixel: lines of less than a pixel fall between 16.
 fn errors<const N: usize>(camera: Camera, parts: [[[u32; 2]; 2]; N]) -> [f64; N] {
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let mut renderer = renderer(SIZE);
     let config = GameConfig::default();
     let disk = Disk::new(config.disk.clone(), &config);
     renderer.set_disk(Some(disk.clone()));
-    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() };
-    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
+    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;
-    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let eye = eye(&camera);
     parts.map(|part| {
         let [[left, top], size] = part;
         let drawn = |k: u32| {

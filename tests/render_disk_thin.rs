@@ -1,14 +1,14 @@
 //! The light of the second and the third image of the disk, thin bands on the screen, against the exact ones.
 
 use glam::DVec3;
-use lensrunner::measure::disk::{self, Eye};
+use lensrunner::measure::disk;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 
-use crate::render_disk::renderer;
+use crate::render_support::{eye, renderer, settings};
 
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
@@ -29,10 +29,10 @@ fn light_over_exact(camera: Camera, size: [u32; 2], turbulence: Option<f64>) -> 
     config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence);
     let disk = Disk::new(config.disk.clone(), &config);
     renderer.set_disk(Some(disk.clone()));
-    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let eye = eye(&camera);
     let sums = [1, 2, 3].map(|orders| {
         // A budget of many pixels: no third image unasked.
-        let settings = Settings { stars: false, milky_way: false, bloom: 0.0, orders, pixel_error: 100.0, ..Settings::default() };
+        let settings = Settings { orders, pixel_error: 100.0, ..settings() };
         let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
         let got: f64 = renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).sum();
         let want: f64 = disk::picture(&disk.gas, &eye, size, TIME, orders, SAMPLES).iter().map(|p| f64::from(p[1])).sum();
@@ -83,7 +83,7 @@ fn thin_images_are_lines_without_a_break() {
     renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
     let position = DVec3::new(0.0, -47.74, 5.02);
     let camera = static_camera(position, -position, DVec3::Z, 60f64.to_radians());
-    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, orders: 3, ..Settings::default() };
+    let settings = Settings { orders: 3, ..settings() };
     let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings };
     let linear = renderer.picture(&input, false).unwrap().linear;
     let at = |x: f64, y: f64| f64::from(linear[(y as u32 * size[0] + x as u32) as usize][1]);
@@ -115,16 +115,7 @@ fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
     let mut light = |doppler: bool, beaming: bool| {
         let of = |orders: u32, renderer: &mut Renderer| {
-            let settings = Settings {
-                stars: false,
-                milky_way: false,
-                bloom: 0.0,
-                orders,
-                pixel_error: 100.0,
-                doppler,
-                beaming,
-                ..Settings::default()
-            };
+            let settings = Settings { orders, pixel_error: 100.0, doppler, beaming, ..settings() };
             let input = FrameInput { camera: far(30.0), time: TIME, placed: Vec::new(), aurora: None, settings };
             let luminance = |p: &[f32; 4]| f64::from(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]);
             renderer.picture(&input, false).unwrap().linear.iter().map(luminance).sum::<f64>()

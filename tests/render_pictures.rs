@@ -1,28 +1,17 @@
 //! Pictures against exact projection: vertices land where their light comes from, images are closed, the shadow is dark.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use lensrunner::lensing::Slice;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::placements::{Motion, Object, Surroundings as Light, View, place};
 use lensrunner::render::readback::{self, Picture};
-use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::{self, Body, GameConfig};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::render_shaders::GPU;
-
-pub fn surroundings() -> Surroundings {
-    Surroundings { table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
-}
-
-fn renderer(size: [u32; 2]) -> Renderer {
-    Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size)
-}
+use crate::render_support::{renderer, settings};
 
 /// A scene's picture with its layers.
 fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
@@ -31,8 +20,7 @@ fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
     let mut renderer = renderer(size);
     let stage = lensrunner::render::stage::Stage::new(&mut renderer, &scene, &config);
     let camera = stage.camera(0.0, &[]);
-    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() };
-    let frame = stage.frame(camera, size, 0.0, &[], None, &settings);
+    let frame = stage.frame(camera, size, 0.0, &[], None, &settings());
     (renderer.picture(&frame, true).unwrap(), camera)
 }
 

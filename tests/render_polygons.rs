@@ -10,8 +10,8 @@ use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::polygons::rings;
 
-use crate::render_disk::{camera, eye, renderer, settings};
 use crate::render_shaders::GPU;
+use crate::render_support::{camera, eye, renderer, settings};
 
 fn polygons(representation: &str) -> Disk {
     let mut config = GameConfig::default();

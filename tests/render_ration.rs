@@ -1,16 +1,12 @@
 //! A watched aurora that takes too much of a frame is drawn with fewer streaks, until it does not; and what that does to the picture.
 
-use lensrunner::lensing;
-use lensrunner::render::Renderer;
 use lensrunner::render::aurora::ration::{Ration, shares};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::readback::Picture;
-use lensrunner::render::renderer::Surroundings;
-use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
-use std::sync::Arc;
 
-use crate::render_shaders::GPU;
+use crate::render_support::{aurora_alone, default_surroundings, renderer_under};
 
 /// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells frames apart: times
 /// waver by a thousandth.
@@ -81,18 +77,13 @@ fn light(picture: &Picture) -> [f64; 3] {
 
 /// The aurora alone, of a scene's own camera.
 fn alone(stage: &Stage, size: [u32; 2], config: &GameConfig) -> FrameInput {
-    let mut settings = settings(config);
-    (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
-    let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);
-    frame.placed.clear();
-    frame
+    aurora_alone(stage, stage.camera(0.0, &[]), size, 0.0, config)
 }
 
 #[test]
 fn fewer_streaks_are_wider_and_as_bright() {
     let size = [320, 180];
-    let surroundings = Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer_under(&default_surroundings(), size);
     let mut config = GameConfig::default();
     config.aurora.streaks = 200_000;
     config.aurora.share = 0.02;
@@ -129,8 +120,7 @@ fn fewer_streaks_are_wider_and_as_bright() {
 
 #[test]
 fn an_aurora_is_as_bright_in_a_picture_of_any_size() {
-    let surroundings = Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    let mut renderer = renderer_under(&default_surroundings(), [1, 1]);
     let mut config = GameConfig::default();
     // So wide that strokes are hundreds of pixels wide in the larger picture.
     (config.aurora.radius, config.aurora.streaks) = (50.0, 3000);

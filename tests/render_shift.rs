@@ -4,18 +4,20 @@ use glam::{DQuat, DVec2, DVec3};
 use lensrunner::render::aurora::shift::Shift;
 use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
 use lensrunner::render::frame::Camera;
+use lensrunner::render::layout;
 use lensrunner::render::placements::{View, light_path};
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings, static_camera};
-use lensrunner::render::{Renderer, layout};
+use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::History;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, velocity};
 
-use crate::render_pictures::{exact, surroundings};
+use crate::render_pictures::exact;
 use crate::render_shaders::GPU;
+use crate::render_support::renderer;
 use crate::twin::run_with;
 
 /// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets there.
@@ -24,7 +26,7 @@ fn lines_shift_with_the_planets_rotation() {
     let config = GameConfig::default();
     let scene = scene::load("aurora-orbit").unwrap();
     let size = [256u32, 144];
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap();
     let history = planet_history(&planet, 0.0, 60.0, DQuat::IDENTITY).unwrap();
@@ -37,6 +39,33 @@ fn lines_shift_with_the_planets_rotation() {
         let view = View { camera: &camera, slice: &slice, pixel: 1e-3, aspect: Some(144.0 / 256.0), settings: &settings(&config) };
         let [least, greatest] = compare(&view, &planet, &history, allowed);
         assert!((differ[0]..differ[1]).contains(&(greatest / least)), "ratios from {least} to {greatest}");
+    }
+}
+
+/// What neither colours nor brightness go by is not worked out, and the lines are those of light at rest.
+#[test]
+fn without_doppler_and_beaming_no_shift_is_looked_for() {
+    let scene = scene::load("aurora-orbit").unwrap();
+    let size = [96u32, 54];
+    let mut renderer = renderer(size);
+    for (doppler, beaming) in [(false, false), (true, false), (false, true)] {
+        let mut config = GameConfig::default();
+        (config.render.doppler, config.render.beaming) = (doppler, beaming);
+        let settings = settings(&config);
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        // One that does not turn with the planet.
+        let state = scene.planet.unwrap().state(0.0).unwrap();
+        let aside = (state.position.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
+        let camera = static_camera(state.position + aside * 12.0, -aside, DVec3::Z, 0.35);
+        let colours = stage.frame(camera, size, 0.0, &[], None, &settings).aurora.expect("the aurora is in sight").colours[0];
+        let differ = (0..SHIFTS).any(|k| colours.lines[k] != colours.lines[0]) || colours.steps != [0.0; 4];
+        assert_eq!(differ, doppler || beaming, "doppler {doppler}, beaming {beaming}: {:?}", colours.steps);
+        let rest = kilorayleigh_xyz(1.0);
+        let unit = colours.lines[0][0][1] / rest[0][1] as f32;
+        for (got, want) in colours.lines[0].iter().zip(rest).filter(|_| !doppler && !beaming) {
+            // Rounding of 32-bit floats, once in the unit and once in the colour.
+            assert!((0..3).all(|k| (got[k] - want[k] as f32 * unit).abs() <= 3e-7 * got[k].abs()), "{got:?}, {want:?} at rest");
+        }
     }
 }
 

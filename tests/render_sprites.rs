@@ -1,36 +1,15 @@
 //! The disk of sprites beside the disk of arcs and the exact picture.
 
-use std::sync::Arc;
-
-use glam::DVec3;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
-use lensrunner::measure::disk::{self, Eye};
+use lensrunner::measure::disk;
+use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
-use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::shaders::Pass;
-use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::sprites::Sprites;
 
-use crate::render_shaders::GPU;
+use crate::render_support::{camera, eye, renderer, settings};
 use crate::twin::run;
-
-fn renderer(size: [u32; 2]) -> Renderer {
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: Vec::new(),
-        milky_way: vec![(1, 1, vec![0.0])],
-    };
-    Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
-}
-
-/// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.
-fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
-    let (sine, cosine) = degrees.to_radians().sin_cos();
-    let position = DVec3::new(0.0, -l * sine, l * cosine);
-    static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
-}
 
 fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
     let mut config = GameConfig::default();
@@ -47,13 +26,9 @@ fn from_80_degrees() -> Camera {
 /// Linear light of so many image orders, and no third one unasked.
 fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera, orders: u32) -> Vec<[f32; 3]> {
     renderer.set_disk(Some(disk.clone()));
-    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, orders, pixel_error: 100.0, ..Settings::default() };
+    let settings = Settings { orders, pixel_error: 100.0, ..settings() };
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings };
     renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
-}
-
-fn eye(camera: &Camera) -> Eye {
-    Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
 }
 
 /// Where the front of an opaque disk lies before its second image it hides it: there the light is that of arcs, and the same whether the second is drawn or not.

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3, DVec4};
 use lensrunner::spacetime::frames::{boost, dot, four_velocity, rain_to_ship, relative_velocity, ship_to_rain};
 use lensrunner::spacetime::matter::{
-    ShipState, angular_momentum, boosted_acceleration, energy, has_ended, rate, static_speed, step, step_until, velocity,
+    ShipState, angular_momentum, boosted_acceleration, energy, has_ended, momentum_of, rate, static_speed, step, step_until, velocity,
 };
 use lensrunner::spacetime::orbit::{Elements, circular_orbit, orbital_frequency, static_momentum};
 use proptest::prelude::*;
@@ -275,6 +275,16 @@ proptest! {
         let torque = start.position.cross(a);
         prop_assert!(((energy(&ahead) - energy(&back)) / d_tau - work).abs() < 2e-4);
         prop_assert!(((angular_momentum(&ahead) - angular_momentum(&back)) / d_tau).distance(torque) < 2e-3);
+    }
+
+    #[test]
+    fn momentum_is_found_from_the_velocity(state in any_state()) {
+        // Rounding of v is multiplied by dp/dv = γ³, 32 here at most.
+        let back = momentum_of(state.position, velocity(&state)).unwrap();
+        prop_assert!(back.distance(state.momentum) < ROUNDING, "{back} of {state:?}");
+        // Light goes past the rain at c, and nothing faster.
+        let n = state.position.normalize();
+        prop_assert!(momentum_of(state.position, n * (1.001 - 1.0 / state.position.length().sqrt())).is_none());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-// Before the aurora's walk: the least and the greatest depth of what is drawn, by tiles of 8 × 8 pixels, of 16 × 16, and so on. A wide stroke that is before or
+// Before the aurora's walk: the least and the greatest depth of what is drawn, by depth tiles of 8 × 8 pixels, of 16 × 16, and so on. A wide stroke that is before or
 // behind all of its box need not be tested pixel by pixel, so it may be added where pixels are coarse.
 
 @group(1) @binding(0) var depths: texture_depth_2d;

@@ -3,11 +3,11 @@
 
 /// There may be light in a box of pixels (left, top, right, bottom) of a screen of a size: from the finest level, or from a coarser one.
 fn light_up(placement: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
-    let tiles = vec2<f32>(f32(TILE_COLUMNS), f32(TILE_ROWS));
+    let tiles = vec2<f32>(f32(LIT_TILE_COLUMNS), f32(LIT_TILE_ROWS));
     let box = vec4<u32>(clamp(pixels / ceil(size / tiles).xyxy, vec4<f32>(0.0), (tiles - 1.0).xyxy));
     let columns = (0xffffffffu >> (31u - (box.z - box.x))) << box.x;
     for (var row = box.y; row <= box.w; row++) {
-        atomicOr(&stroke_draws[tiles_of(placement, finest) + row], columns);
+        atomicOr(&stroke_draws[lit_tiles_of(placement, finest) + row], columns);
     }
 }
 

@@ -2,7 +2,7 @@
 
 @group(1) @binding(0) var coarse: texture_2d<f32>;
 @group(1) @binding(1) var linear: sampler;
-/// Of each image, as in tiles.wgsl.
+/// Of each image, as in lit_tiles.wgsl.
 @group(1) @binding(2) var<storage, read> numbers: array<u32>;
 
 /// The instance is eight times the image and the finer level.

@@ -55,10 +55,10 @@ struct ChordEnd {
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
 @group(1) @binding(6) var<storage, read_write> strokes: array<Stroke>;
 /// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then strokes in each pair of levels,
-/// and a bit for each tile of the screen that may be lit (tiles.wgsl).
+/// and a bit for each tile of the screen that may be lit (lit_tiles.wgsl).
 @group(1) @binding(7) var<storage, read_write> stroke_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
-/// x: least, y: greatest depth of what is drawn, in tiles of 8 × 8 pixels and upwards.
+/// x: least, y: greatest depth of what is drawn, in depth tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;
 
 const ROWS: u32 = 32u;

@@ -18,17 +18,17 @@ fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
 /// Strokes whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more: less would be too narrow for
 /// the coarse pixels once what enlarging adds has been taken off.
 const NARROW: f32 = 1.5;
-/// Sizes of the tiles whose depths are known: 8 pixels, 16, and so on.
-const TILES: u32 = 6u;
-const LEAST_TILE: u32 = 8u;
+/// Sizes of the depth tiles, whose least and greatest depths are known: 8 pixels, 16, and so on. As in src/render/aurora/levels.rs.
+const DEPTH_TILES: u32 = 6u;
+const LEAST_DEPTH_TILE: u32 = 8u;
 
 /// The least and the greatest depth of what is drawn in a box of pixels (left, top, right, bottom) on the screen, at least.
 fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
     let inside = vec4<u32>(clamp(pixels, vec4<f32>(0.0), frame.size.xyxy - 1.0));
     let side = max(inside.z - inside.x, inside.w - inside.y);
     // Tiles as wide as the box, as far as there are: it touches two of them a side.
-    let size = min(firstLeadingBit(max(side, LEAST_TILE) / LEAST_TILE) + 1u, TILES - 1u);
-    let tile = inside >> vec4<u32>(size + firstTrailingBit(LEAST_TILE));
+    let size = min(firstLeadingBit(max(side, LEAST_DEPTH_TILE) / LEAST_DEPTH_TILE) + 1u, DEPTH_TILES - 1u);
+    let tile = inside >> vec4<u32>(size + firstTrailingBit(LEAST_DEPTH_TILE));
     var range = vec2<f32>(1.0, 0.0);
     for (var y = tile.y; y <= tile.w; y++) {
         for (var x = tile.x; x <= tile.z; x++) {
@@ -112,6 +112,37 @@ fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     let a = chords[first + chord].apparent;
     let b = chords[first + chord + 1u].apparent;
     return vec4<f32>(mix(a.xyz, b.xyz, s), a.w * b.w);
+}
+
+/// How a stroke is laid out on the screen, in pixels.
+struct Shape {
+    /// From its middle to its end along it, with its blur there, and to its side.
+    half: vec2<f32>,
+    side: vec2<f32>,
+    /// Length of what is evenly bright, half the width of the blur at its ends, and the standard deviation across it.
+    stretch: f32,
+    blurred: f32,
+    sigma: f32,
+}
+
+/// Of a stroke along the unit vector `u`, of that length, in a level; the blur's covariances (along, across, both) are those that it shall have on the screen.
+fn shape_of(level: u32, u: vec2<f32>, seen: f32, blur: vec3<f32>) -> Shape {
+    // Enlarging widens it, so it is added narrower by that.
+    let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
+    let narrower = max(blur.xy - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
+    var shape: Shape;
+    shape.sigma = sqrt(narrower.y);
+    shape.blurred = END * sqrt(max(narrower.x - blur.z * blur.z / narrower.y, 0.1 * narrower.x));
+    shape.stretch = max(seen, SHORTEST * shape.blurred);
+    shape.half = u * (0.5 * shape.stretch + shape.blurred);
+    shape.side = (vec2<f32>(-u.y, u.x) + u * (blur.z / narrower.y)) * SIGMAS * shape.sigma;
+    return shape;
+}
+
+/// The pixels (left, top, right, bottom) that it lights, with its middle at `pixel`: two pixels of its level further where that is enlarged.
+fn box_of(pixel: vec2<f32>, shape: Shape, level: u32) -> vec4<f32> {
+    let reach = abs(shape.half) + abs(shape.side) + select(1.0, 2.0 * f32(1u << level), level > 0u);
+    return vec4<f32>(pixel - reach, pixel + reach);
 }
 
 @compute @workgroup_size(64)
@@ -236,11 +267,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
         let depth = clip.z / clip.w;
         let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
-        // How far it goes, and two pixels of its level further where that is enlarged.
-        let ending = END * sqrt(max(uu - uv * uv / vv, 0.1 * uu));
-        let reach = abs(u) * (0.5 * max(seen, SHORTEST * ending) + ending) + abs(v + u * (uv / vv)) * (SIGMAS * sqrt(vv))
-            + select(1.0, 2.0 * f32(1u << level), level > 0u);
-        let around = vec4<f32>(pixel - reach, pixel + reach);
+        var shape = shape_of(level, u, seen, vec3<f32>(uu, vv, uv));
+        var around = box_of(pixel, shape, level);
         if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
             continue;
         }
@@ -250,21 +278,18 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             if depth < range.x {
                 continue;
             }
-            level = select(0u, level, depth >= range.y);
+            if depth < range.y {
+                level = 0u;
+                shape = shape_of(level, u, seen, vec3<f32>(uu, vv, uv));
+                around = box_of(pixel, shape, level);
+            }
         }
-        // Enlarging widens it, so it is added narrower by that.
-        let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
-        let narrower = max(vec2<f32>(uu, vv) - widening, vec2<f32>(0.5 * PIXEL_VARIANCE));
-        let sigma_v = sqrt(narrower.y);
-        let sigma_u = sqrt(max(narrower.x - uv * uv / narrower.y, 0.1 * narrower.x));
-        let blurred = END * sigma_u;
-        let stretch = max(seen, SHORTEST * blurred);
         // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km². (2.5066 is √2π.)
         let area = length(cross(x, y));
         let waited = mix(a.along.w, b.along.w, s);
         let prompt = mix(a.across.w, b.across.w, s);
         let photons = (made - made_before) * (left * collisions) * vec4<f32>(waited, prompt, waited, prompt);
-        let full = photons * (area / (FILLED * stretch * 2.5066283 * sigma_v));
+        let full = photons * (area / (FILLED * shape.stretch * 2.5066283 * shape.sigma));
         let light = full * min(1.0, BRIGHTEST / max(max(full.x, full.y), max(full.z, full.w)));
         if !(light.x + light.y + light.z + light.w > FAINTEST) {
             continue;
@@ -274,9 +299,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             return;
         }
         light_up(id.y, around, frame.size.xy, level == 0u);
-        let half = u * (0.5 * stretch + blurred) * 2.0 / frame.size.xy;
-        let side = (v + u * (uv / narrower.y)) * SIGMAS * sigma_v * 2.0 / frame.size.xy;
+        let half = shape.half * 2.0 / frame.size.xy;
+        let side = shape.side * 2.0 / frame.size.xy;
         let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
-        strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, stretch / (2.0 * blurred), halves);
+        strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, shape.stretch / (2.0 * shape.blurred), halves);
     }
 }

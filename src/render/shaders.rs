@@ -30,7 +30,8 @@ const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
 const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
 const ENLARGE: &str = include_str!("../../shaders/aurora/enlarge.wgsl");
 const STROKE: &str = include_str!("../../shaders/aurora/stroke.wgsl");
-const TILES: &str = include_str!("../../shaders/aurora/tiles.wgsl");
+const LIT_TILES: &str = include_str!("../../shaders/aurora/lit_tiles.wgsl");
+const LIT_CORNERS: &str = include_str!("../../shaders/aurora/lit_corners.wgsl");
 const ROOMS: &str = include_str!("../../shaders/aurora/rooms.wgsl");
 const STREAKS: &str = include_str!("../../shaders/aurora/streaks.wgsl");
 const DISK: &str = include_str!("../../shaders/functions/disk.wgsl");
@@ -91,6 +92,8 @@ pub enum Pass {
     AuroraDraw,
     /// Enlarges a coarse picture of it into the next finer one.
     AuroraSpread,
+    /// Makes the finest picture of it black where there will be light.
+    AuroraWipe,
     /// Makes it a colour.
     AuroraResolve,
     /// Lays thin triangles over the picture.
@@ -141,6 +144,7 @@ impl Pass {
         Pass::AuroraWalk,
         Pass::AuroraDraw,
         Pass::AuroraSpread,
+        Pass::AuroraWipe,
         Pass::AuroraResolve,
         Pass::Compose,
         Pass::Bloom,
@@ -177,6 +181,7 @@ impl Pass {
             Worldlines::Rings => RING,
         };
         let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, PLACEMENT, CLIP, swing, PROJECT, PATCH];
+        let disk = [TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_SIGMA];
         let own = match self {
             Pass::Vertices => include_str!("../../shaders/geometry/vertices.wgsl"),
             Pass::Edges => include_str!("../../shaders/geometry/edges.wgsl"),
@@ -195,6 +200,7 @@ impl Pass {
             Pass::AuroraWalk => include_str!("../../shaders/aurora/walk.wgsl"),
             Pass::AuroraDraw => include_str!("../../shaders/aurora/draw.wgsl"),
             Pass::AuroraSpread => include_str!("../../shaders/aurora/spread.wgsl"),
+            Pass::AuroraWipe => include_str!("../../shaders/aurora/wipe.wgsl"),
             Pass::AuroraResolve => include_str!("../../shaders/aurora/resolve.wgsl"),
             Pass::Compose => include_str!("../../shaders/develop/compose.wgsl"),
             Pass::Bloom => include_str!("../../shaders/develop/bloom.wgsl"),
@@ -222,50 +228,19 @@ impl Pass {
                 vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, swing, PROJECT, RANDOM, STROKE, STREAKS]
             }
             Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STROKE, STREAKS],
-            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, TILES, ROOMS],
+            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, LIT_TILES, ROOMS],
             Pass::AuroraRanges => vec![],
-            Pass::AuroraSpread | Pass::AuroraResolve => vec![TILES, ENLARGE],
+            Pass::AuroraSpread => vec![LIT_TILES, ENLARGE],
+            Pass::AuroraWipe => vec![LIT_TILES, LIT_CORNERS],
+            Pass::AuroraResolve => vec![LIT_TILES, LIT_CORNERS, ENLARGE],
             Pass::Compose => vec![COVERAGE],
             Pass::Bloom | Pass::Smooth => vec![],
             Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
-            Pass::DiskVertices => {
-                vec![
-                    TYPES,
-                    BINDINGS,
-                    SEES_OUTSIDE,
-                    LENSING,
-                    RESIDUALS,
-                    LENSING_CAMERA,
-                    CLIP,
-                    DISK,
-                    DISK_TYPES,
-                    DISK_BINDINGS,
-                    DISK_SIGMA,
-                    DISK_PLACE,
-                ]
-            }
+            Pass::DiskVertices => disk.into_iter().chain([DISK_BINDINGS, DISK_PLACE]).collect(),
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],
             Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
-            Pass::DiskSprites => {
-                vec![
-                    TYPES,
-                    BINDINGS,
-                    SEES_OUTSIDE,
-                    LENSING,
-                    RESIDUALS,
-                    LENSING_CAMERA,
-                    CLIP,
-                    COLOUR,
-                    DISK,
-                    DISK_TYPES,
-                    DISK_SPRITES_TYPES,
-                    DISK_GAS,
-                    DISK_SIGMA,
-                    DISK_LIGHT,
-                    DISK_RADIAL,
-                ]
-            }
+            Pass::DiskSprites => disk.into_iter().chain([COLOUR, DISK_SPRITES_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL]).collect(),
             Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
         };
         library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")

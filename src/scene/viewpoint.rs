@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::camera::{Camera, Mount};
 use crate::spacetime::frames;
-use crate::spacetime::matter::{ShipState, gamma, step};
+use crate::spacetime::matter::{ShipState, gamma, momentum_of, step};
 
 /// A camera at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,14 +59,6 @@ impl Camera {
 
 /// The part of a day over which a place of the planet goes straight.
 const TURNING_STEP: f64 = 1e-4;
-
-/// Rain-frame momentum per mass of what is at `position` and has that dx/dT (c); None where nothing can move so.
-fn momentum_of(position: DVec3, velocity: DVec3) -> Option<DVec3> {
-    // Against the rain, which falls with √(1/r).
-    let v = velocity + position / position.length().powf(1.5);
-    let square = v.length_squared();
-    (square < 1.0).then(|| v / (1.0 - square).sqrt())
-}
 
 /// A camera beside a ship: at `offset` (r_s) in the ship's rest frame and body axes, moving as the ship does, outside r = 1 as long as the
 /// ship is. `view` turns camera axes into body axes.

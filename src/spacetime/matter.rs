@@ -97,6 +97,16 @@ pub fn velocity(state: &ShipState) -> DVec3 {
     state.momentum / gamma(state.momentum) - state.position * (river_speed(r) / r)
 }
 
+/// The inverse of [`velocity`]: the rain-frame momentum per mass p (in c, on the rain tetrad's axes) of what is at `position` (r_s, on the slice
+/// T = const) and has dx/dT = `velocity` there (in c). None where nothing can move so, at the speed of light or faster against the rain.
+pub fn momentum_of(position: DVec3, velocity: DVec3) -> Option<DVec3> {
+    // Against the rain, which falls with −βn.
+    let r = position.length();
+    let v = velocity + position * (river_speed(r) / r);
+    let square = v.length_squared();
+    (square < 1.0).then(|| v / (1.0 - square).sqrt())
+}
+
 /// g = (β/r)[p − (3/2)(n·p)n], in c²/r_s: dp/dT of free fall.
 pub fn tidal_pull(position: DVec3, momentum: DVec3) -> DVec3 {
     let r_squared = position.length_squared();

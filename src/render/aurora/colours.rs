@@ -9,7 +9,7 @@ use super::shift::Shift;
 /// less than a thousandth of green's brightness.
 pub const SHIFTS: usize = 8;
 
-/// `Lines` in shaders/aurora/resolve.wgsl.
+/// `Lines` in shaders/aurora/lit_corners.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Colours {

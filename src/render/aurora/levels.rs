@@ -12,7 +12,7 @@ use crate::render::shaders::Pass;
 use crate::render::targets::target;
 use crate::render::timing::Timing;
 
-/// Levels of the pyramid, each of half the size of the one before; as in tiles.wgsl.
+/// Levels of the pyramid, each of half the size of the one before; as in lit_tiles.wgsl.
 pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
@@ -87,11 +87,11 @@ fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     [scale[0], scale[1], offset[0], offset[1]]
 }
 
-/// Sizes of tiles whose depths are known, from 8 × 8 pixels on; as in walk.wgsl.
-const TILES: u32 = 6;
-const LEAST_TILE: u32 = 8;
+/// Sizes of the depth tiles, whose least and greatest depths are known, from 8 × 8 pixels on; as in walk.wgsl.
+const DEPTH_TILES: u32 = 6;
+const LEAST_DEPTH_TILE: u32 = 8;
 
-/// The least and the greatest depth of what is drawn, by tiles.
+/// The least and the greatest depth of what is drawn, by depth tiles.
 #[derive(Debug)]
 pub struct Ranges {
     first: wgpu::RenderPipeline,
@@ -131,7 +131,7 @@ impl Ranges {
         };
         let mut nothing = self::texture(device, [1, 1]).create_view(&Default::default());
         self.steps.clear();
-        for step in 0..TILES {
+        for step in 0..DEPTH_TILES {
             let (own, finer) = (one(step), nothing);
             let textures = [depth, &finer].map(wgpu::BindingResource::TextureView);
             let resources = [&textures[..], &[wgpu::BindingResource::Sampler(&self.nearest)]].concat();
@@ -143,7 +143,7 @@ impl Ranges {
         true
     }
 
-    /// The texture, all sizes of tiles.
+    /// The texture, all sizes of depth tiles.
     pub fn view(&self) -> &wgpu::TextureView {
         &self.all
     }
@@ -172,13 +172,13 @@ impl Ranges {
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 
-/// Ranges of a screen of a size, for all sizes of tiles; a whole number of the widest.
+/// Ranges of a screen of a size, for all sizes of depth tiles; a whole number of the widest.
 fn texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Texture {
-    let [width, height] = size.map(|side| side.next_multiple_of(LEAST_TILE << (TILES - 1)) / LEAST_TILE);
+    let [width, height] = size.map(|side| side.next_multiple_of(LEAST_DEPTH_TILE << (DEPTH_TILES - 1)) / LEAST_DEPTH_TILE);
     device.create_texture(&wgpu::TextureDescriptor {
         label: Some("aurora ranges"),
         size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: TILES,
+        mip_level_count: DEPTH_TILES,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format: FORMAT,

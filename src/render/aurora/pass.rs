@@ -6,7 +6,7 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use super::colours::Colours;
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
-use super::rooms::{DRAWS_BYTES, Rooms, TILES};
+use super::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -122,6 +122,7 @@ impl Aurora {
         let spread_module = module(device, "aurora spread", Pass::AuroraSpread);
         let spread_groups = [Some(frame_layout), Some(&spread_layout)];
         let resolve_module = module(device, "aurora resolve", Pass::AuroraResolve);
+        let wipe_module = module(device, "aurora wipe", Pass::AuroraWipe);
         let resolve_groups = [Some(frame_layout), Some(&tiles_layout), Some(&resolve_layout)];
         let resolve = |fragment| raster(device, "aurora resolve", &resolve_module, stage(fragment, &picture, None), &resolve_groups);
         Aurora {
@@ -131,7 +132,7 @@ impl Aurora {
             ranges: Ranges::new(device, frame_layout),
             draw: [Some(false), None].map(draw_strokes),
             spread: raster(device, "aurora spread", &spread_module, stage("fragment", &set, None), &spread_groups),
-            wipe: raster(device, "aurora wipe", &resolve_module, stage("wipe", &set, Some(false)), &resolve_groups[..2]),
+            wipe: raster(device, "aurora wipe", &wipe_module, stage("fragment", &set, Some(false)), &resolve_groups[..2]),
             resolve: ["finest", "coarser", "both"].map(resolve),
             linear: device.create_sampler(&wgpu::SamplerDescriptor {
                 mag_filter: wgpu::FilterMode::Linear,
@@ -213,7 +214,7 @@ impl Aurora {
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
         gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
-        let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
+        let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(LIT_TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
             let rgb = |[x, y, z, _]: [f32; 4]| {
                 let [r, g, b] = xyz_to_rgb([x, y, z].map(f64::from));
@@ -357,10 +358,10 @@ impl Aurora {
     }
 }
 
-/// Draws those tiles of an image that are of a kind; as in resolve.wgsl.
+/// Draws those tiles of an image that are of a kind; as in lit_corners.wgsl.
 fn draw_tiles(pass: &mut wgpu::RenderPass, image: u32, kind: u32) {
     let instance = 4 * image + kind;
-    pass.draw(0..6 * TILES[0] * TILES[1], instance..instance + 1);
+    pass.draw(0..6 * LIT_TILES[0] * LIT_TILES[1], instance..instance + 1);
 }
 
 /// Pixels that strokes reach over the edge of where their middles are.

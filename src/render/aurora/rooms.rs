@@ -3,11 +3,11 @@
 
 use super::levels::PYRAMID;
 
-/// Tiles that the screen is divided into, columns and rows: the passes that go over whole pictures leave out those without light. As in tiles.wgsl.
-pub const TILES: [u32; 2] = [32, 16];
-/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each tile whether light may be there, first from the
+/// Lit tiles, which the screen is divided into, columns and rows: the passes that go over whole pictures leave out those without light. As in lit_tiles.wgsl.
+pub const LIT_TILES: [u32; 2] = [32, 16];
+/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each lit tile whether light may be there, first from the
 /// finest level and then from coarser ones.
-pub const FOURS: usize = PYRAMID as usize + 1 + 2 * TILES[1] as usize / 4;
+pub const FOURS: usize = PYRAMID as usize + 1 + 2 * LIT_TILES[1] as usize / 4;
 /// Bytes of them.
 pub const DRAWS_BYTES: u64 = 16 * FOURS as u64;
 

@@ -8,7 +8,7 @@ use crate::render::placements::{View, departure};
 use crate::sim::History;
 use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};
-use crate::spacetime::matter::gamma;
+use crate::spacetime::matter::{gamma, momentum_of};
 
 /// Height of the places that are looked at, in planet radii: 130 km over the Earth.
 const HEIGHT: f64 = 1.02;
@@ -40,7 +40,11 @@ impl Shift {
     }
 
     /// Of the image of `order` of a planet of that radius (r_s) with this history, by places all over what is seen of it. None where too little is.
+    /// Where neither colours nor brightness go by it, it is 1 everywhere and not looked for.
     pub fn new(view: &View, time: f64, history: &History, order: Order, radius: f64) -> Option<Shift> {
+        if !view.settings.doppler && !view.settings.beaming {
+            return Some(Shift::even(1.0));
+        }
         let aspect = view.aspect.filter(|_| view.settings.method.bends())?;
         let mut began = departure(view, time, history, order)?;
         let away = view.camera.position - history.at(began).position;
@@ -112,12 +116,9 @@ impl Ends {
 
     /// ν_observed/ν_emitted for what goes through `position` with that dx/dT.
     fn ratio(&self, camera: &Camera, position: DVec3, velocity: DVec3) -> Option<f64> {
-        // Against the rain, which falls with √(1/r).
-        let v = velocity + position / position.length().powf(1.5);
-        let emitted = (self.leaving.length() - v.dot(self.leaving)) / (1.0 - v.length_squared()).sqrt();
-        let p = camera.momentum;
-        let observed = gamma(p) * self.arriving.length() - p.dot(self.arriving);
-        let ratio = observed / emitted;
+        // Energy of a photon against what has that momentum, per its own.
+        let frequency = |p: DVec3, photon: DVec3| gamma(p) * photon.length() - p.dot(photon);
+        let ratio = frequency(camera.momentum, self.arriving) / frequency(momentum_of(position, velocity)?, self.leaving);
         (ratio.is_finite() && ratio > 0.0).then_some(ratio)
     }
 }

@@ -1,0 +1,352 @@
+//! What is drawn of the aurora: where it is, how bright, and that nothing shows which is only there to be fast.
+
+use glam::DVec3;
+use lensrunner::render::aurora::PYRAMID;
+use lensrunner::render::placements::against_static;
+use lensrunner::render::readback;
+use lensrunner::render::stage::{Stage, settings, static_camera};
+use lensrunner::scene::aurora::lines::{self, Line};
+use lensrunner::scene::{self, GameConfig, Scene};
+
+use crate::render_shaders::GPU;
+use crate::render_support::{aurora_alone, default_surroundings, renderer_under, total};
+
+/// Greens of a picture that stand out from red and blue.
+fn green(picture: &readback::Picture) -> f32 {
+    picture.linear.iter().map(|p| (p[1] - p[0].max(p[2])).max(0.0)).sum()
+}
+
+fn orbit_scene() -> (Scene, GameConfig) {
+    let mut config = GameConfig::default();
+    config.aurora.streaks = 4000;
+    (scene::load("aurora-orbit").unwrap(), config)
+}
+
+#[test]
+fn an_aurora_is_drawn_where_it_is_and_only_there() {
+    let scene = scene::load("aurora-orbit").unwrap();
+    let size = [160, 90];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut config = GameConfig::default();
+    config.aurora.streaks = 3000;
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let camera = stage.camera(0.0, &[]);
+    let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
+    let aurora = frame.aurora.as_ref().expect("the aurora is in sight");
+    let streaks = aurora.settings.counts[0];
+    // Each segment has at least its ten: five in the north and five in the south.
+    assert!(streaks <= 3000 + 10 * aurora.segments.len() as u32, "{streaks}");
+    assert!(aurora.segments.iter().all(|segment| segment.range[2] % 10 == 0 && segment.light[0].is_finite()));
+    let picture = renderer.picture(&frame, false).unwrap();
+    assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
+    let shines = green(&picture);
+    assert!(shines > 1.0, "{shines}");
+
+    // The paper's walk draws something else; switched off, there is none.
+    config.aurora.walk = "linear".into();
+    let linear = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
+    let linear = renderer.picture(&linear, false).unwrap();
+    let most = picture.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
+    assert!(linear.linear.iter().zip(&picture.linear).any(|(a, b)| (a[1] - b[1]).abs() > 0.01 * most));
+    config.aurora.enabled = false;
+    let off = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
+    assert!(off.aurora.is_none());
+    assert!(green(&renderer.picture(&off, false).unwrap()) < 0.05 * shines);
+
+    // Looking away from the planet, or from where it is a dot, nothing is simulated.
+    let away = static_camera(DVec3::new(400.0, 0.0, 0.0), DVec3::X, DVec3::Z, 1.0);
+    assert!(stage.frame(away, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
+    let far = static_camera(DVec3::new(400.0, 0.0, 0.0), DVec3::NEG_X, DVec3::Z, 1.0);
+    assert!(stage.frame(far, size, 0.0, &[], None, &settings(&config)).aurora.is_none());
+}
+
+#[test]
+fn brightness_never_jumps() {
+    let (scene, config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let planet = scene.planet.unwrap().state(0.0).unwrap().position;
+    let aside = (planet.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
+    let mut light = |distance: f64, time: f64| {
+        let camera = static_camera(planet + aside * distance, -aside, DVec3::Z, 0.35);
+        let frame = aurora_alone(&stage, camera, size, time, &config);
+        let streaks = frame.aurora.as_ref().map_or(0, |aurora| aurora.settings.counts[0]);
+        (streaks, total(&renderer.picture(&frame, false).unwrap()))
+    };
+    // Away from the planet until it is out of sight by its size: fewer and fewer streaks, fewer strokes, fewer chords, none.
+    let away: Vec<(u32, f64)> = (0..54).map(|k| light(9.0 * 1.035f64.powi(k), 0.0)).collect();
+    assert!(away[0].0 > 100 && away[53] == (0, 0.0), "{:?} to {:?}", away[0], away[53]);
+    // Here a step is 3.5 % of the distance, hundreds of frames of the game. Fewer streaks stand elsewhere among the rays.
+    smooth(&away, 0.05);
+    // And as time goes by, past steps of the curtains' motion.
+    let still: Vec<(u32, f64)> = (0..30).map(|k| light(12.0, 0.05 * f64::from(k))).collect();
+    smooth(&still, 0.02);
+}
+
+/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of all.
+fn smooth(steps: &[(u32, f64)], part: f64) {
+    let least = 0.005 * steps.iter().map(|step| step.1).fold(0.0, f64::max);
+    for (k, three) in steps.windows(3).enumerate() {
+        let [a, b, c] = [three[0].1, three[1].1, three[2].1];
+        let jump = (b - 0.5 * (a + c)).abs();
+        assert!(jump <= part * a.max(b).max(c) + least, "step {k}: {three:?} (streaks, light)");
+    }
+}
+
+#[test]
+fn the_disk_dims_an_aurora_behind_it() {
+    let text = |phase: f64| {
+        format!(
+            "[camera]\nposition = [0.0, -14.0, 12.0]\n[disk]\n[planet]\norbit_radius = 8.0\ninclination = 0.35\nradius = 0.8\nphase = {phase}\n"
+        )
+    };
+    let size = [96, 54];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    // Light takes 14 r_s/c: the planet was half a radian back then, under the plane of the disk or above it.
+    for (phase, behind) in [(-1.1, true), (2.0, false)] {
+        let path = std::env::temp_dir().join(format!("lensrunner-veil-{}-{behind}.toml", std::process::id()));
+        std::fs::write(&path, text(phase)).unwrap();
+        let scene = scene::load(path.to_str().unwrap()).unwrap();
+        std::fs::remove_file(&path).unwrap();
+        let mut light = |opacity: f64| {
+            let mut config = GameConfig::default();
+            (config.aurora.streaks, config.aurora.brightness, config.disk.opacity) = (4000, 0.5, opacity);
+            let stage = Stage::new(&mut renderer, &scene, &config);
+            let planet = scene.planet.unwrap().state(-14.0).unwrap().position;
+            let eye = DVec3::new(0.0, -14.0, 12.0);
+            let camera = static_camera(eye, planet - eye, DVec3::Z, 0.35);
+            let mut frame = aurora_alone(&stage, camera, size, 0.0, &config);
+            let images = frame.aurora.as_ref().expect("the aurora is in sight").behind.clone();
+            assert_eq!(images[0], behind, "{images:?}");
+            let with = total(&renderer.picture(&frame, false).unwrap());
+            frame.aurora = None;
+            with - total(&renderer.picture(&frame, false).unwrap())
+        };
+        let share = light(0.9) / light(0.0);
+        // The disk lets a tenth through where it is seen face on.
+        assert!(if behind { (0.0..0.5).contains(&share) } else { (share - 1.0).abs() < 0.1 }, "{share} of the light is left");
+    }
+}
+
+#[test]
+fn the_pyramid_changes_no_picture() {
+    let size = [192, 108];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    for name in ["aurora-below", "aurora-orbit"] {
+        let scene = scene::load(name).unwrap();
+        let mut config = GameConfig::default();
+        // Points so wide that they go to coarse levels, and outlines of the planet among them.
+        (config.aurora.streaks, config.aurora.radius) = (1500, if name == "aurora-orbit" { 50.0 } else { 12.0 });
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings(&config));
+        (frame.settings.stars, frame.settings.milky_way, frame.settings.bloom) = (false, false, 0.0);
+        let got = renderer.picture(&frame, false).unwrap();
+        let levels = renderer.aurora_strokes().unwrap().unwrap();
+        let coarse: u32 = levels[1..].iter().sum();
+        assert!(levels.len() == PYRAMID as usize && coarse > levels[0] / 10, "{name}: {levels:?}");
+        frame.aurora.as_mut().unwrap().settings.strokes[1] = 1.0;
+        let want = renderer.picture(&frame, false).unwrap();
+        assert_eq!(renderer.aurora_strokes().unwrap().unwrap().len(), 1);
+        let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
+        let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
+        let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
+        // As the experiment's: 2 % of the root mean square. Light is kept to what lies beyond three standard deviations.
+        assert!((off / all).sqrt() < 0.02, "{name}: off by {}", (off / all).sqrt());
+        let ratio = total(&got) / total(&want);
+        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio} of the light");
+        // No light where the planet hides it, not a pixel further than before.
+        let most = want.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
+        let worst = got.linear.iter().zip(&want.linear).map(|(p, q)| (p[1] - q[1]).abs()).fold(0.0, f32::max);
+        println!("{name}: rms {:.4}, light {ratio:.4}, worst pixel {:.4}, {levels:?}", (off / all).sqrt(), worst / most);
+        assert!(worst < 0.06 * most, "{name}: a pixel is off by {worst} of {most}");
+    }
+}
+
+#[test]
+fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
+    let size = [192, 108];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut config = GameConfig::default();
+    config.aurora.streaks = 4000;
+    for name in ["aurora-below", "aurora-orbit"] {
+        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+        let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+        // Parts of a streak, and a picture of each; room for the most.
+        let drawn = [24, 48].map(|parts| {
+            let settings = &mut frame.aurora.as_mut().unwrap().settings;
+            let streaks = settings.counts[0];
+            (settings.counts[2], settings.history[2]) = (parts, 48 * streaks);
+            let picture = renderer.picture(&frame, false).unwrap();
+            let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
+            assert!(f64::from(strokes) < 0.8 * f64::from(parts * streaks), "{name}: {strokes} strokes, {parts} parts");
+            picture
+        });
+        let [few, many] = &drawn;
+        let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
+        let off: f64 = few.linear.iter().zip(&many.linear).map(|(p, q)| square(p, q)).sum();
+        let all: f64 = many.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
+        println!("{name}: rms {:.4}, light {:.4}", (off / all).sqrt(), total(few) / total(many));
+        // 24 parts are themselves coarser than 48: 3 % seen from below. Joined wrongly they would have other light.
+        assert!((off / all).sqrt() < 0.05, "{name}: off by {}", (off / all).sqrt());
+        assert!((total(few) / total(many) - 1.0).abs() < 0.01, "{name}: {} of the light", total(few) / total(many));
+    }
+}
+
+#[test]
+fn the_same_frame_is_drawn_the_same() {
+    // Halves lose what is faint in the order in which threads append it.
+    if !GPU.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE) {
+        return;
+    }
+    let size = [192, 108];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let config = GameConfig::default();
+    for name in ["aurora-below", "aurora-side"] {
+        let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+        let frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+        let [one, other] = [(), ()].map(|()| renderer.picture(&frame, false).unwrap());
+        let most = one.linear.iter().flatten().copied().fold(0.0, f32::max);
+        assert!(most > 0.1, "{name}: {most}");
+        for (a, b) in one.linear.iter().flatten().zip(other.linear.iter().flatten()) {
+            // Sums of 32-bit floats differ by some 1e-6 of themselves; in the picture, of halves, that is the next number at most.
+            assert!((a - b).abs() <= a.max(*b) / 1000.0 + 1e-6, "{name}: {a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_of_an_earlier_frame() {
+    // The finest level is made black only where the new frame has light there; odd sizes, that tiles do not divide.
+    let config = GameConfig::default();
+    let drawn = |names: &[&str], size: [u32; 2], images: usize| {
+        let mut renderer = renderer_under(&default_surroundings(), size);
+        let pictures = names.iter().map(|name| {
+            let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
+            let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
+            let aurora = frame.aurora.as_mut().unwrap();
+            assert!(*name == "aurora-below" || aurora.placements.len() == images, "{name}: {} images", aurora.placements.len());
+            aurora.settings.strokes[1] = 1.0;
+            renderer.picture(&frame, false).unwrap().linear
+        });
+        pictures.last().unwrap()
+    };
+    // Of one image; and of both that the hole makes, in a picture that is large enough to have the second.
+    for (name, size, images, least) in [("aurora-orbit", [197, 111], 1, 0.1), ("aurora-lensed", LENSED_SIZE, 2, 0.05)] {
+        same(&drawn(&[name], size, images), &drawn(&["aurora-below", name], size, images), least, name);
+    }
+}
+
+/// Pixels of a picture in which the second image of the scene `aurora-lensed` is wide enough to show its aurora.
+const LENSED_SIZE: [u32; 2] = [591, 333];
+
+#[test]
+fn nothing_is_left_of_an_earlier_image() {
+    let config = GameConfig::default();
+    let mut renderer = renderer_under(&default_surroundings(), LENSED_SIZE);
+    let stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
+    let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), LENSED_SIZE, 0.0, &config);
+    let whole = frame.aurora.take().unwrap();
+    assert_eq!(whole.placements.len(), 2);
+    let mut drawn = |images: &[usize]| {
+        let mut aurora = whole.clone();
+        aurora.settings.strokes[1] = 1.0;
+        aurora.placements = images.iter().map(|&k| whole.placements[k]).collect();
+        aurora.parts = images.iter().map(|&k| whole.parts[k]).collect();
+        aurora.behind = images.iter().map(|&k| whole.behind[k]).collect();
+        aurora.colours = images.iter().map(|&k| whole.colours[k]).collect();
+        frame.aurora = Some(aurora);
+        renderer.picture(&frame, false).unwrap().linear
+    };
+    let alone = [drawn(&[0]), drawn(&[1])];
+    // Their light is added up in one picture after the other, so that two together are the sum of each by itself; the same one twice is in the same tiles.
+    for [one, other] in [[0, 1], [0, 0], [1, 1]] {
+        let sum = alone[one].iter().zip(&alone[other]).map(|(a, b)| [0, 1, 2, 3].map(|c| a[c] + b[c]));
+        same(&sum.collect::<Vec<_>>(), &drawn(&[one, other]), 0.05, &format!("images {one} and {other}"));
+    }
+}
+
+/// Two pictures are the same in colour, the brightest of which is more than `least`.
+fn same(one: &[[f32; 4]], other: &[[f32; 4]], least: f32, name: &str) {
+    let most = one.iter().flat_map(|p| &p[..3]).copied().fold(0.0, f32::max);
+    assert!(most > least, "{name}: {most}");
+    for (a, b) in one.iter().flat_map(|p| &p[..3]).zip(other.iter().flat_map(|p| &p[..3])) {
+        // Halves lose the faintest strokes, where those are all that the adapter adds up in.
+        assert!((a - b).abs() <= 0.02 * most, "{name}: {a} and {b}, of {most}");
+    }
+}
+
+#[test]
+fn a_watched_aurora_goes_on_without_a_burst() {
+    let (scene, config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let stage = Stage::new(&mut renderer, &scene, &config).watched();
+    // The camera goes with the planet.
+    let mut light = |stage: &Stage, config: &GameConfig, time: f64| {
+        let frame = aurora_alone(stage, stage.camera(time, &[]), size, time, config);
+        let nodes = frame.aurora.as_ref().unwrap().nodes.clone();
+        (nodes, total(&renderer.picture(&frame, false).unwrap()))
+    };
+    // Ten frames, twelve days of the planet out of sight, ten more: curtains and their brightness go on where they were.
+    let gap = 12.0 * scene.planet.unwrap().day;
+    let times = (0..10).map(|k| 0.05 * f64::from(k)).chain((0..10).map(|k| gap + 0.05 * f64::from(k)));
+    let steps: Vec<_> = times.map(|time| light(&stage, &config, time)).collect();
+    for pair in steps.windows(2) {
+        // Other rays pass in the meantime; the planet turns a little.
+        let ratio = pair[1].1 / pair[0].1;
+        assert!((0.6..1.6).contains(&ratio), "{ratio} times as much light from one frame to the next");
+        // No row is older than four steps of half a second: the row that was the newest is among the first three.
+        let row = pair[0].0.len() / 128;
+        let kept = (0..3).any(|k| pair[1].0[k * row..(k + 1) * row] == pair[0].0[..row]);
+        assert!(kept, "the curtains have moved by more than two rows in a frame");
+    }
+    // Keys of brightness, walk and pace leave the curtains as they are, and another seed does not.
+    let before = light(&stage, &config, gap + 1.0).0;
+    let mut other = config.clone();
+    (other.aurora.brightness, other.aurora.pace, other.aurora.walk) = (0.02, 9.0, "linear".into());
+    stage.change_aurora(&other.aurora);
+    let row = before.len() / 128;
+    let after = light(&stage, &other, gap + 1.0).0;
+    assert!((0..2).any(|k| after[k * row..(k + 1) * row] == before[..row]), "another pace makes no other curtains");
+    other.aurora.seed += 1;
+    stage.change_aurora(&other.aurora);
+    assert!(light(&stage, &other, gap + 1.0).0[..row] != before[..row]);
+    other.aurora.enabled = false;
+    stage.change_aurora(&other.aurora);
+    assert!(aurora_alone(&stage, stage.camera(gap + 1.0, &[]), size, gap + 1.0, &other).aurora.is_none());
+}
+
+#[test]
+fn lines_shift_as_the_settings_ask() {
+    let (scene, mut config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    // The red line's X over Y falls as it becomes greener.
+    let mut hue = |lensing: bool, light_delay: bool| {
+        (config.render.lensing, config.render.light_delay) = (lensing, light_delay);
+        let stage = Stage::new(&mut renderer, &scene, &config);
+        let camera = stage.camera(0.0, &[]);
+        let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
+        let red = frame.aurora.unwrap().colours[0].lines[0][Line::Red as usize];
+        (camera, f64::from(red[0] / red[1]))
+    };
+    let expected = |g: f64| {
+        let [x, y, _] = lines::kilorayleigh_xyz(g)[Line::Red as usize];
+        x / y
+    };
+    // Straight light, at once: g = γₑ(1 − n·vₑ)⁻¹ … of special relativity, with the speeds against what hovers there.
+    let (camera, flat) = hue(false, false);
+    let planet = scene.planet.unwrap().state(0.0).unwrap();
+    let speed = |position: DVec3, momentum: DVec3| {
+        let p = against_static(position, momentum);
+        p / (1.0 + p.length_squared()).sqrt()
+    };
+    let n = (camera.position - planet.position).normalize();
+    let doppler = |v: DVec3| (1.0 - v.dot(n)) / (1.0 - v.length_squared()).sqrt();
+    let g = doppler(speed(camera.position, camera.momentum)) / doppler(speed(planet.position, planet.momentum));
+    assert!((flat / expected(g) - 1.0).abs() < 1e-3, "{flat} in the frame, {} for g = {g}", expected(g));
+    // With the hole its field's part comes in, and with the delay another moment.
+    let (_, bent) = hue(true, true);
+    assert!((bent - flat).abs() > 1e-5, "{bent} and {flat}");
+}

@@ -1,0 +1,72 @@
+//! What several tests of the renderer need.
+
+use std::sync::{Arc, LazyLock};
+
+use glam::DVec3;
+use lensrunner::lensing::{self, SMALL_NODES, Scheme, Table, bake};
+use lensrunner::measure::disk::Eye;
+use lensrunner::render::Renderer;
+use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::readback::Picture;
+use lensrunner::render::renderer::Surroundings;
+use lensrunner::render::stage::{self, Stage, static_camera};
+use lensrunner::scene::GameConfig;
+
+use crate::render_shaders::GPU;
+
+/// A sky without light, seen through a table.
+fn dark(table: Arc<Table>) -> Surroundings {
+    Surroundings { table, stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
+}
+
+/// A sky without light, seen through a small table.
+pub fn surroundings() -> Surroundings {
+    static SMALL: LazyLock<Arc<Table>> = LazyLock::new(|| Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())));
+    dark(SMALL.clone())
+}
+
+/// The same through the table of the game.
+pub fn default_surroundings() -> Surroundings {
+    dark(Arc::new(lensing::default_table()))
+}
+
+/// A renderer of pictures of a size under such a sky.
+pub fn renderer_under(surroundings: &Surroundings, size: [u32; 2]) -> Renderer {
+    Renderer::new(&GPU, surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
+}
+
+/// The same with the small table.
+pub fn renderer(size: [u32; 2]) -> Renderer {
+    renderer_under(&surroundings(), size)
+}
+
+/// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.
+pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
+    let (sine, cosine) = degrees.to_radians().sin_cos();
+    let position = DVec3::new(0.0, -l * sine, l * cosine);
+    static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
+}
+
+/// That camera as the exact picture of the disk takes it.
+pub fn eye(camera: &Camera) -> Eye {
+    Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
+}
+
+/// Without a sky and without what blurs.
+pub fn settings() -> Settings {
+    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
+}
+
+/// The aurora alone: no planet, no sky.
+pub fn aurora_alone(stage: &Stage, camera: Camera, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
+    let mut settings = stage::settings(config);
+    (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
+    let mut frame = stage.frame(camera, size, time, &[], None, &settings);
+    frame.placed.clear();
+    frame
+}
+
+/// The light in a picture.
+pub fn total(picture: &Picture) -> f64 {
+    picture.linear.iter().map(|p| f64::from(p[0] + p[1] + p[2])).sum()
+}
