@@ -7,8 +7,8 @@ use lensrunner::render::renderer::Renderer;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render_pictures::surroundings;
 use crate::render_shaders::GPU;
+use crate::render_support::surroundings;
 
 /// A scene at T = 0, with its layers.
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {

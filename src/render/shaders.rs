@@ -126,7 +126,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 31] = [
+    pub const ALL: [Pass; 32] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
