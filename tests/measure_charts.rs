@@ -237,15 +237,16 @@ fn the_scripted_chase_passes_through_every_situation() {
 /// Of 1,000 frames 1 to 1,000 ms long, 999 are no longer than 999 ms.
 #[test]
 fn the_flight_is_summed_up() {
-    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms"]);
+    let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
     for k in 0..1000u32 {
         // In no order of length.
         let time = f64::from(k * 7 % 1000) + 1.0;
-        sheet.push([k.to_string(), "from far".into(), time.to_string(), (0.5 * time).to_string(), "3".into()]);
+        sheet.push([k.to_string(), "from far".into(), time.to_string(), (0.5 * time).to_string(), "3".into(), (1_000_000 + k).to_string()]);
     }
     let summary = flight::summary(&sheet);
-    let of = |row: usize| ["mean_ms", "p99_ms", "p99_9_ms", "worst_ms"].map(|column| summary.number(&summary.rows[row], column));
+    let of = |row: usize| ["mean", "p99", "p99_9", "worst"].map(|column| summary.number(&summary.rows[row], column));
     assert_eq!(of(0), [500.5, 990.0, 999.0, 1000.0]);
     assert_eq!(of(1), [250.25, 495.0, 499.5, 500.0]);
     assert_eq!(of(2), [3.0; 4]);
+    assert_eq!(of(3), [1_000_499.5, 1_000_989.0, 1_000_998.0, 1_000_999.0]);
 }
