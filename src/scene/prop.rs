@@ -10,7 +10,7 @@
 //! triangles = 1200               # of the whole sphere or square; of one sphere of a lattice
 //! anchor = "centre"              # "square" only: "centre", or the point of the grid at position: "inside" a triangle, "edge", "vertex"
 //! texture = "checker"            # or "galaxy"; none if absent
-//! colour = [0.8, 0.8, 0.8]       # linear, multiplied by the texture
+//! colour = [0.8, 0.8, 0.8]       # linear, multiplied by the texture; black is no surface and mirrors nothing
 //! emissive = [0.0, 0.0, 0.0]     # light given off (times the texture)
 //! temperature = 0.0              # K: glows as a black body; 0 does not
 //! count = [14, 14, 14]           # "lattice" only: spheres along x, y, z, centred on position
@@ -169,11 +169,13 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
             attitude.normalize()
         }
     };
+    let [r, g, b] = colour(&entry.colour, "colour", 1.0, [0.8; 3])?;
+    // What only shines is a light and no surface: it mirrors nothing. In glTF's model a black metal without gloss is that.
+    let surface = if [r, g, b] == [0.0; 3] { (1.0, 1.0) } else { (Material::default().metallic, Material::default().roughness) };
     let material = Material {
-        base_colour: {
-            let [r, g, b] = colour(&entry.colour, "colour", 1.0, [0.8; 3])?;
-            [r, g, b, 1.0]
-        },
+        base_colour: [r, g, b, 1.0],
+        metallic: surface.0,
+        roughness: surface.1,
         emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
         temperature: or(&entry.temperature, "temperature", 0.0, 1e9, "K", 0.0)? as f32,
         texture: entry.texture.map(|name| match name {
