@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 use bevy_egui::EguiContexts;
-use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as Size, pos2, vec2};
+use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 use glam::DVec3;
 
 use crate::render::frame::Camera;
@@ -11,29 +11,17 @@ use crate::sim::{Chase, ChaseRules};
 
 use super::camera::View;
 use super::game::Seat;
-use super::instruments::Scale;
+use super::instruments::{Countdown, Scale, hold_words};
 use super::live::Notice;
+use super::plate::{ALARM, FAINT, OWN, Plate, SEEN, TEXT, TRUE, bar, text};
 use super::screens::Screen;
 use super::session::Session;
 use super::window::Panel;
 
-/// What is read.
-const TEXT: Color32 = Color32::from_rgb(222, 232, 240);
-/// What explains it.
-const FAINT: Color32 = Color32::from_rgb(168, 184, 200);
-/// The image of the target.
-const SEEN: Color32 = Color32::from_rgb(96, 220, 255);
-/// The target itself.
-const TRUE: Color32 = Color32::from_rgb(255, 176, 72);
-/// One's own motion.
-const OWN: Color32 = Color32::from_rgb(150, 240, 150);
-/// Danger.
-const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
-/// Behind text, so that it stays readable before stars and before the bright disk.
-const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 242);
-
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
+/// What comes down from the upper edge ends above this, in points.
+const BELOW_DIALS: f32 = 122.0;
 
 /// Draws the HUD.
 #[allow(clippy::too_many_arguments)]
@@ -56,16 +44,21 @@ pub fn draw(
         text(&painter, pos2(rect.center().x, rect.bottom() - 24.0), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
     if real.elapsed_secs_f64() < notice.until {
-        plate(&painter, pos2(rect.center().x, rect.top() + 70.0), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
+        plate(&painter, pos2(rect.center().x, rect.top() + BELOW_DIALS), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
     }
     if player.bare || matches!(screen.get(), Screen::Title | Screen::Result) {
         return Ok(());
     }
     markers(&painter, rect, &panel);
-    if let Some(chase) = chase.filter(|chase| chase.held > 0.0 && chase.outcome.is_none()) {
-        let share = (chase.held / rules.0.hold_time.max(1e-9)).clamp(0.0, 1.0);
-        arc(&painter, rect.center(), 46.0, share, Stroke::new(4.0, OWN));
-        text(&painter, rect.center() + vec2(0.0, 62.0), Align2::CENTER_TOP, "HOLD", 15.0, OWN);
+    let rules = rules.0;
+    if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
+        if chase.held > 0.0 {
+            hold(&painter, rect.center(), chase.held, rules.hold_time);
+        }
+        if let Some(read) = panel.instruments {
+            let scale = Scale::of(session.config.hole.mass_solar);
+            countdown(&painter, pos2(rect.center().x, rect.top() + MARGIN), &scale, &Countdown::at(read.far_time, rules.time_limit));
+        }
     }
     dials(&painter, rect, &session, &player, &panel);
     Ok(())
@@ -97,27 +90,30 @@ fn left_out(config: &GameConfig) -> Option<&'static str> {
     }
 }
 
-fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
-    painter.text(at + vec2(1.0, 1.0), anchor, words, FontId::proportional(size), Color32::from_black_alpha(200));
-    painter.text(at, anchor, words, FontId::proportional(size), colour)
+fn plate(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color32)]) {
+    Plate::lay(painter, at, anchor, f32::INFINITY, lines).paint(painter);
 }
 
-/// Lines on a dark plate.
-fn plate(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color32)]) {
-    let galleys: Vec<_> = lines
-        .iter()
-        .map(|&(words, size, colour)| (painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour), colour))
-        .collect();
-    let inside = galleys.iter().fold(Size::ZERO, |sum, (galley, _)| vec2(sum.x.max(galley.size().x), sum.y + galley.size().y));
-    let frame = anchor.anchor_size(at, inside + vec2(20.0, 12.0));
-    painter.rect_filled(frame, 6.0, SHADE);
-    let mut corner = frame.min + vec2(10.0, 6.0);
-    for (galley, colour) in galleys {
-        let width = galley.size();
-        let x = if anchor.x() == egui::Align::RIGHT { frame.right() - 10.0 - width.x } else { corner.x };
-        painter.galley(pos2(x, corner.y), galley, colour);
-        corner.y += width.y;
-    }
+/// How long one has been near enough, on a ring and in words.
+fn hold(painter: &Painter, middle: Pos2, held: f64, needed: f64) {
+    arc(painter, middle, 46.0, (held / needed.max(1e-9)).clamp(0.0, 1.0), Stroke::new(4.0, OWN));
+    text(painter, middle + vec2(0.0, 58.0), Align2::CENTER_TOP, &hold_words(held, needed), 15.0, OWN);
+}
+
+/// What is left of the chase's time, on the far clock, over a bar that grows shorter.
+fn countdown(painter: &Painter, top: Pos2, scale: &Scale, countdown: &Countdown) {
+    let colour = if countdown.late() { ALARM } else { TEXT };
+    let lines = [
+        ("TIME LEFT", 11.0, FAINT),
+        (&scale.clock(countdown.left), 19.0, colour),
+        (&format!("T = {:.1} of {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
+    ];
+    let plate = Plate::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines);
+    let below = plate.frame.left_bottom() + vec2(2.0, 4.0);
+    let length = plate.frame.width() - 4.0;
+    plate.paint(painter);
+    let colour = if countdown.late() { ALARM } else { OWN };
+    bar(painter, Rect::from_min_size(below, vec2(length, 4.0)), countdown.share() as f32, colour);
 }
 
 fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel: &Panel) {
@@ -204,17 +200,14 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, panel:
 }
 
 fn fuel(painter: &Painter, bottom: Pos2, share: Option<f64>) {
-    let bar = Rect::from_center_size(bottom - vec2(0.0, 12.0), vec2(300.0, 12.0));
-    painter.rect_filled(bar.expand(2.0), 4.0, SHADE);
+    let place = Rect::from_center_size(bottom - vec2(0.0, 12.0), vec2(300.0, 12.0));
     let share = share.map(|share| share as f32);
     let colour = if share.is_some_and(|share| share < 0.15) { ALARM } else { OWN };
-    let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share.unwrap_or(1.0), bar.height()));
-    painter.rect_filled(filled, 3.0, colour.gamma_multiply(0.75));
-    painter.rect_stroke(bar, 3.0, Stroke::new(1.0, FAINT), StrokeKind::Outside);
+    bar(painter, place, share.unwrap_or(1.0), colour);
     let words = share.map_or("FUEL".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     // Dark on the bar, light on the shade beside it.
     let ink = if share.unwrap_or(1.0) > 0.5 { Color32::BLACK } else { TEXT };
-    text(painter, bar.center(), Align2::CENTER_CENTER, &words, 10.5, ink);
+    text(painter, place.center(), Align2::CENTER_CENTER, &words, 10.5, ink);
 }
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.

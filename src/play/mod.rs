@@ -15,6 +15,7 @@ pub mod instruments;
 pub mod live;
 pub mod menu;
 pub mod overlay;
+pub mod plate;
 pub mod race;
 pub mod record;
 pub mod screens;
