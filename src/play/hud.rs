@@ -44,7 +44,9 @@ pub fn draw(
         text(&painter, pos2(rect.center().x, rect.bottom() - 24.0), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
     if real.elapsed_secs_f64() < notice.until {
-        plate(&painter, pos2(rect.center().x, rect.top() + BELOW_DIALS), Align2::CENTER_TOP, &[(&notice.text, 14.0, TRUE)]);
+        // In front of menus and the overlay too.
+        let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
+        message(&front, rect, &notice.text).paint(&front);
     }
     if player.bare || matches!(screen.get(), Screen::Title | Screen::Result) {
         return Ok(());
@@ -62,6 +64,12 @@ pub fn draw(
     }
     dials(&painter, rect, &session, &player, &panel);
     Ok(())
+}
+
+/// A line for the player, wrapped where it is wider than the screen.
+fn message(painter: &Painter, rect: Rect, words: &str) -> Plate {
+    let at = pos2(rect.center().x, rect.top() + BELOW_DIALS);
+    Plate::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
 }
 
 /// Sizes of all text of the HUD, in points.
@@ -319,6 +327,22 @@ fn arc(painter: &Painter, at: Pos2, radius: f32, share: f64, stroke: Stroke) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::play::plate::tests::on_canvas;
+    use crate::scene::config::parse;
+
+    /// The longest complaint about game.toml names every key of [controls].
+    #[test]
+    fn a_long_message_stays_on_the_screen() {
+        let file = std::path::Path::new("a/folder/of/somebody/game.toml");
+        let complaint = parse(file, "[controls]\nnone = 1\n").expect_err("no such key").to_string();
+        assert!(complaint.len() > 300, "{complaint}");
+        for size in [[900.0, 620.0], [1280.0, 720.0]] {
+            on_canvas(size, |painter, rect| {
+                let frame = message(painter, rect, &complaint).frame;
+                assert!(rect.contains_rect(frame) && frame.height() > 40.0, "{frame}");
+            });
+        }
+    }
 
     #[test]
     fn ahead_is_the_middle() {
