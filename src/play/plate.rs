@@ -46,6 +46,7 @@ pub struct Plate {
     /// What it covers, in points.
     pub frame: Rect,
     lines: Vec<(Pos2, Arc<Galley>, Color32)>,
+    bar: Option<(Rect, f32, Color32)>,
 }
 
 impl Plate {
@@ -69,12 +70,22 @@ impl Plate {
             top += galley.size().y;
             (place, galley, colour)
         });
-        Plate { frame, lines: lines.collect() }
+        Plate { frame, lines: lines.collect(), bar: None }
+    }
+
+    /// With a thin bar below the words, `share` of which is filled.
+    pub fn over_bar(self, share: f32, colour: Color32) -> Plate {
+        let place = Rect::from_min_size(self.frame.left_bottom() + vec2(PAD.x, 0.0), vec2(self.frame.width() - 2.0 * PAD.x, 4.0));
+        let frame = Rect::from_min_max(self.frame.min, pos2(self.frame.right(), place.bottom() + PAD.y));
+        Plate { frame, bar: Some((place, share, colour)), ..self }
     }
 
     /// Paints it.
     pub fn paint(self, painter: &Painter) {
         painter.rect_filled(self.frame, 6.0, SHADE);
+        if let Some((place, share, colour)) = self.bar {
+            bar(painter, place, share, colour);
+        }
         for (place, galley, colour) in self.lines {
             painter.galley(place, galley, colour);
         }
