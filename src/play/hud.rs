@@ -12,7 +12,7 @@ use super::game::Seat;
 use super::instruments::{Countdown, Instruments, Scale, hold_words};
 use super::live::Notice;
 use super::markers::{self, arc};
-use super::plate::{ALARM, FAINT, OWN, Plate, TEXT, TRUE, bar, text};
+use super::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
 use super::screens::Screen;
 use super::session::Session;
 use super::window::Panel;
@@ -39,20 +39,22 @@ pub fn draw(
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
     lay_in(context, &painter);
+    let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
-        text(&painter, pos2(rect.center().x, rect.bottom() - 24.0), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
+        let above = if shown { 80.0 } else { 24.0 };
+        text(&painter, pos2(rect.center().x, rect.bottom() - above), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
     if real.elapsed_secs_f64() < notice.until {
         // In front of menus and the overlay too.
         let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
         message(&front, rect, &notice.text).paint(&front);
     }
-    if player.bare || matches!(screen.get(), Screen::Title | Screen::Result) {
+    if !shown {
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
     let mut plates = dials(&painter, rect, &session, &player, &read);
-    let mut taken = vec![fuel_place(rect)];
+    let mut taken = Vec::new();
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         if chase.held > 0.0 {
@@ -67,9 +69,13 @@ pub fn draw(
     for plate in plates {
         plate.paint(&painter);
     }
-    fuel(&painter, fuel_place(rect), read.fuel);
     warnings(&painter, rect, player.avoiding, read.radius);
     Ok(())
+}
+
+/// Whether dials and markers are shown: in play alone, since menus lie on them.
+fn shows(screen: Screen, bare: bool) -> bool {
+    screen == Screen::Playing && !bare
 }
 
 /// A line for the player, wrapped where it is wider than the screen.
@@ -122,10 +128,11 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
     Plate::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
-/// The dials in the corners and the line that says who flies.
+/// The dials in the corners, and below the middle who flies and what is in the tanks.
 fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: &Instruments) -> Vec<Plate> {
     let mut plates = Vec::new();
-    let mut plate = |at, anchor, lines: &[(&str, f32, Color32)]| plates.push(Plate::lay(painter, at, anchor, f32::INFINITY, lines));
+    let lay = |at, anchor, lines: &[(&str, f32, Color32)]| Plate::lay(painter, at, anchor, f32::INFINITY, lines);
+    let mut plate = |at, anchor, lines: &[(&str, f32, Color32)]| plates.push(lay(at, anchor, lines));
     let scale = Scale::of(session.config.hole.mass_solar);
     let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
     let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
@@ -194,7 +201,11 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
     let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
     let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
-    plate(pos2(rect.center().x, bottom - 26.0), Align2::CENTER_BOTTOM, &[(&state, 12.0, TEXT)]);
+    let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
+    let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };
+    let lines = [(&*state, 12.0, TEXT), (&*tanks, 12.0, colour)];
+    let middle = lay(pos2(rect.center().x, bottom - BAR_ROOM), Align2::CENTER_BOTTOM, &lines);
+    plates.push(middle.over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
     plates
 }
 
@@ -208,26 +219,14 @@ fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
     text(painter, pos2(rect.center().x, rect.bottom() - 110.0), Align2::CENTER_BOTTOM, words, 18.0, ALARM);
 }
 
-/// Where the tanks are shown.
-fn fuel_place(rect: Rect) -> Rect {
-    Rect::from_center_size(pos2(rect.center().x, rect.bottom() - MARGIN - 12.0), vec2(300.0, 12.0))
-}
-
-fn fuel(painter: &Painter, place: Rect, share: Option<f64>) {
-    let share = share.map(|share| share as f32);
-    let colour = if share.is_some_and(|share| share < 0.15) { ALARM } else { OWN };
-    bar(painter, place, share.unwrap_or(1.0), colour);
-    let words = share.map_or("FUEL".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
-    // Dark on the bar, light on the shade beside it.
-    let ink = if share.unwrap_or(1.0) > 0.5 { Color32::BLACK } else { TEXT };
-    text(painter, place.center(), Align2::CENTER_CENTER, &words, 10.5, ink);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::play::layout::overlap;
     use crate::play::plate::tests::on_canvas;
     use crate::scene::config::parse;
+    use crate::spacetime::matter::ShipState;
+    use glam::DVec3;
 
     /// The longest complaint about game.toml names every key of [controls].
     #[test]
@@ -239,6 +238,35 @@ mod tests {
             on_canvas(size, |painter, rect| {
                 let frame = message(painter, rect, &complaint).frame;
                 assert!(rect.contains_rect(frame) && frame.height() > 40.0, "{frame}");
+            });
+        }
+    }
+
+    #[test]
+    fn dials_are_shown_in_play_alone() {
+        assert!(shows(Screen::Playing, false) && !shows(Screen::Playing, true));
+        for screen in [Screen::Title, Screen::Paused, Screen::Result] {
+            assert!(!shows(screen, false), "{screen:?}");
+        }
+    }
+
+    /// Clocks, time, hole, speed, range, who flies: none lies on another in the narrowest window and at 16:9, however full the tanks.
+    #[test]
+    fn dials_do_not_overlap() {
+        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let scale = Scale::of(session.config.hole.mass_solar);
+        let state = ShipState::new(DVec3::X * 9.0, DVec3::ZERO);
+        let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
+        for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
+            on_canvas(size, |painter, rect| {
+                let mut plates = dials(painter, rect, &session, &Seat::default(), &read);
+                plates.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
+                assert_eq!(plates.len(), 6);
+                for (k, plate) in plates.iter().enumerate() {
+                    assert!(rect.contains_rect(plate.frame), "{}", plate.frame);
+                    assert!(plate.frame.bottom() < BELOW_DIALS || plate.frame.top() > rect.center().y, "{}", plate.frame);
+                    assert!(plates[..k].iter().all(|other| !overlap(&other.frame, &plate.frame)), "{}", plate.frame);
+                }
             });
         }
     }

@@ -20,6 +20,10 @@ pub const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
 const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 242);
 /// Space between a plate's edge and its words, in points.
 const PAD: Size = vec2(10.0, 6.0);
+/// How thick bars are, in points.
+const BAR: f32 = 5.0;
+/// How much higher a plate is by its bar, in points.
+pub const BAR_ROOM: f32 = BAR + PAD.y;
 
 /// Words with a shadow.
 pub fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
@@ -34,8 +38,7 @@ pub fn rimmed(painter: &Painter, stroke: Stroke, shape: impl Fn(Stroke) -> Shape
 }
 
 /// A bar, `share` of which is filled.
-pub fn bar(painter: &Painter, bar: Rect, share: f32, colour: Color32) {
-    painter.rect_filled(bar.expand(2.0), 4.0, SHADE);
+fn bar(painter: &Painter, bar: Rect, share: f32, colour: Color32) {
     let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share.clamp(0.0, 1.0), bar.height()));
     painter.rect_filled(filled, 3.0, colour.gamma_multiply(0.75));
     painter.rect_stroke(bar, 3.0, Stroke::new(1.0, FAINT), StrokeKind::Outside);
@@ -73,9 +76,9 @@ impl Plate {
         Plate { frame, lines: lines.collect(), bar: None }
     }
 
-    /// With a thin bar below the words, `share` of which is filled.
+    /// Higher by [`BAR_ROOM`], with a thin bar below the words, `share` of which is filled.
     pub fn over_bar(self, share: f32, colour: Color32) -> Plate {
-        let place = Rect::from_min_size(self.frame.left_bottom() + vec2(PAD.x, 0.0), vec2(self.frame.width() - 2.0 * PAD.x, 4.0));
+        let place = Rect::from_min_size(self.frame.left_bottom() + vec2(PAD.x, 0.0), vec2(self.frame.width() - 2.0 * PAD.x, BAR));
         let frame = Rect::from_min_max(self.frame.min, pos2(self.frame.right(), place.bottom() + PAD.y));
         Plate { frame, bar: Some((place, share, colour)), ..self }
     }
