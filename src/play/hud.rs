@@ -85,7 +85,7 @@ fn message(painter: &Painter, rect: Rect, words: &str) -> Plate {
 }
 
 /// Sizes of all text of the HUD, in points.
-const SIZES: [f32; 8] = [11.0, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
+const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
 
 /// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what is
 /// written with it, and a digit that is seen for the first time would be missing meanwhile.

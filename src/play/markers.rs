@@ -1,6 +1,6 @@
 //! The HUD's markers: where hole, target and course are on the screen, or arrows at its edge that point to them, each with its name.
 
-use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2 as Size, pos2, vec2};
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2 as Size, vec2};
 use glam::DVec3;
 
 use crate::render::frame::Camera;
@@ -185,6 +185,7 @@ mod tests {
     use crate::play::layout::overlap;
     use crate::play::plate::tests::on_canvas;
     use crate::play::seen::Apparition;
+    use bevy_egui::egui::pos2;
 
     #[test]
     fn ahead_is_the_middle() {

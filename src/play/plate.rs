@@ -96,7 +96,7 @@ impl Plate {
 }
 
 #[cfg(test)]
-pub mod tests {
+pub(super) mod tests {
     use super::*;
     use bevy_egui::egui::{Context, LayerId, RawInput, vec2};
 
