@@ -44,17 +44,19 @@ pub fn draw(
         let above = if shown { 80.0 } else { 24.0 };
         text(&painter, pos2(rect.center().x, rect.bottom() - above), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
+    let mut taken = Vec::new();
     if real.elapsed_secs_f64() < notice.until {
         // In front of menus and the overlay too.
         let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
-        message(&front, rect, &notice.text).paint(&front);
+        let message = message(&front, rect, &notice.text);
+        taken.push(message.frame);
+        message.paint(&front);
     }
     if !shown {
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
     let mut plates = dials(&painter, rect, &session, &player, &read);
-    let mut taken = Vec::new();
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         if chase.held > 0.0 {

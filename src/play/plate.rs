@@ -1,4 +1,4 @@
-//! What the HUD is painted with: words with a shadow, plates, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
+//! What the HUD is painted with: words with a dark rim, plates, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
 
 use std::sync::Arc;
 
@@ -25,9 +25,11 @@ const BAR: f32 = 5.0;
 /// How much higher a plate is by its bar, in points.
 pub const BAR_ROOM: f32 = BAR + PAD.y;
 
-/// Words with a shadow.
+/// Words with a dark rim.
 pub fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
-    painter.text(at + vec2(1.0, 1.0), anchor, words, FontId::proportional(size), Color32::from_black_alpha(200));
+    for corner in [vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0), vec2(-1.0, -1.0)] {
+        painter.text(at + corner, anchor, words, FontId::proportional(size), Color32::from_black_alpha(150));
+    }
     painter.text(at, anchor, words, FontId::proportional(size), colour)
 }
 
