@@ -128,7 +128,7 @@ pub struct ChartFrameArgs {
     /// Frames of each scene.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     frames: u32,
-    /// The time T, in r_s/c.
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].

@@ -56,7 +56,7 @@ struct ShotArgs {
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
     size: [u32; 2],
-    /// The time T, in r_s/c.
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Adds object id, image order, travel time and g to an .exr.
@@ -83,7 +83,7 @@ struct TraceArgs {
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
-    /// The time T, in r_s/c.
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// Rays a pixel: a square number, 1 to 256.
@@ -124,7 +124,7 @@ struct CompareArgs {
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
-    /// The time T, in r_s/c.
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
     /// The judge's rays a pixel: a square number, 1 to 256.

@@ -359,19 +359,26 @@ mod tests {
         write("[ship]\nthrust = 0.05\n", 1000);
         let mut app = game();
         app.world_mut().resource_mut::<Session>().config_file = Some(file.clone());
-        let mut wait = || {
+        let wait = |app: &mut App| {
             for _ in 0..12 {
                 app.update();
             }
             (app.world().resource::<Session>().config.ship.thrust, app.world().resource::<Notice>().text.clone())
         };
-        wait();
+        wait(&mut app);
+        // The pace that the player chose stays.
+        push(&mut app, KeyCode::Period);
+        let pace = |app: &App| app.world().resource::<Session>().config.clock.pace;
+        let chosen = pace(&app);
         write("[ship]\nthrust = 0.07\n", 2000);
-        assert_eq!(wait().0, 0.07);
+        assert_eq!((wait(&mut app).0, pace(&app)), (0.07, chosen));
+        write("[ship]\nthrust = 0.07\n[clock]\npace = 0.7\n", 2500);
+        wait(&mut app);
+        assert_eq!(pace(&app), 0.7);
         write("[ship]\nthrust = -3\n", 3000);
-        let (thrust, said) = wait();
+        let (thrust, said) = wait(&mut app);
         std::fs::remove_file(&file).expect("the same file");
-        assert_eq!(thrust, 0.07);
+        assert_eq!((thrust, pace(&app)), (0.07, 0.7));
         for word in ["lensrunner-reload", "2", "thrust", "10"] {
             assert!(said.contains(word), "`{said}` does not name {word}");
         }

@@ -116,6 +116,39 @@ impl Instruments {
     }
 }
 
+/// The time for the chase, in r_s/c of T.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Countdown {
+    /// What is left of it.
+    pub left: f64,
+    /// All of it.
+    pub limit: f64,
+}
+
+impl Countdown {
+    /// At T = `time` in a chase that is lost at T = `limit`.
+    pub fn at(time: f64, limit: f64) -> Countdown {
+        Countdown { left: (limit - time).clamp(0.0, limit.max(0.0)), limit }
+    }
+
+    /// The share that is left, of 1.
+    pub fn share(&self) -> f64 {
+        if self.limit > 0.0 { self.left / self.limit } else { 0.0 }
+    }
+
+    /// Whether it is the last tenth.
+    pub fn late(&self) -> bool {
+        self.share() <= 0.1
+    }
+}
+
+/// How long the target has been held, of what a catch needs, both in r_s/c: `HOLD 0.8 / 2.0 r_s/c`.
+pub fn hold_words(held: f64, needed: f64) -> String {
+    // Rounded down: what reads as held is held.
+    let tenths = |time: f64| (time * 10.0 + 1e-9).floor() / 10.0;
+    format!("HOLD {:.1} / {needed:.1} r_s/c", tenths(held.min(needed)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -166,5 +199,24 @@ mod tests {
         assert_eq!(scale.clock(1.0), "1 d 03:21:49");
         // c²/r_s = 3,043.3 m/s².
         assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
+    }
+
+    #[test]
+    fn the_last_tenth_is_late() {
+        let begin = Countdown::at(0.0, 400.0);
+        assert_eq!((begin.left, begin.share(), begin.late()), (400.0, 1.0, false));
+        assert!(!Countdown::at(359.0, 400.0).late());
+        let late = Countdown::at(361.0, 400.0);
+        assert!(late.late() && late.left == 39.0, "{late:?}");
+        let over = Countdown::at(500.0, 400.0);
+        assert_eq!((over.left, over.share(), over.late()), (0.0, 0.0, true));
+    }
+
+    #[test]
+    fn a_hold_is_said_with_what_it_needs() {
+        assert_eq!(hold_words(0.84, 2.0), "HOLD 0.8 / 2.0 r_s/c");
+        // One step of 1/32 short of the end is not the end.
+        assert_eq!(hold_words(1.96875, 2.0), "HOLD 1.9 / 2.0 r_s/c");
+        assert_eq!(hold_words(3.0, 2.0), "HOLD 2.0 / 2.0 r_s/c");
     }
 }

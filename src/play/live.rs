@@ -44,6 +44,7 @@ fn reload(
     real: Res<Time<Real>>,
     mut notice: ResMut<Notice>,
     mut look: Local<(Duration, Option<SystemTime>)>,
+    mut last: Local<Option<GameConfig>>,
 ) {
     let (next, seen) = &mut *look;
     let Some(file) = session.config_file.clone() else { return };
@@ -52,12 +53,15 @@ fn reload(
     }
     *next = real.elapsed() + PERIOD;
     let Some(changed) = std::fs::metadata(&file).and_then(|data| data.modified()).ok() else { return };
+    // What plays at the first look is what the file said.
+    let said = last.get_or_insert_with(|| session.config.clone());
     if seen.replace(changed).is_none_or(|before| before == changed) {
         return;
     }
     let text = match config::load(&file) {
         Ok(config) => {
-            session.config = config;
+            session.config = taken_up(&session.config, said, &config);
+            *said = config;
             format!("{} read again", file.display())
         }
         Err(error) => {
@@ -66,6 +70,19 @@ fn reload(
         }
     };
     *notice = Notice { text, until: real.elapsed_secs_f64() + 6.0 };
+}
+
+/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys change (the pace, the assist)
+/// stays as it is in `playing` unless the file changed just that.
+fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
+    let mut config = now.clone();
+    if now.clock.pace == before.clock.pace {
+        config.clock.pace = playing.clock.pace;
+    }
+    if now.assist.enabled == before.assist.enabled {
+        config.assist.enabled = playing.assist.enabled;
+    }
+    config
 }
 
 /// Whether the models and the disk of the scene are to be made again.
@@ -107,4 +124,26 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     }
     *before = Some(session.config);
     debug_assert!(world.get_resource::<Clock>().is_some());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The player's pace and assist outlive a change of anything else in the file, and end with a change of their own.
+    #[test]
+    fn a_reload_keeps_what_the_keys_changed() {
+        let before = GameConfig::default();
+        let mut playing = before.clone();
+        playing.clock.pace = 3.0;
+        playing.assist.enabled = false;
+        let mut now = before.clone();
+        now.disk.arcs = 900;
+        let kept = taken_up(&playing, &before, &now);
+        assert_eq!((kept.disk.arcs, kept.clock.pace, kept.assist.enabled), (900, 3.0, false));
+
+        now.clock.pace = 0.5;
+        let slowed = taken_up(&kept, &before, &now);
+        assert_eq!((slowed.clock.pace, slowed.assist.enabled), (0.5, false));
+    }
 }

@@ -75,7 +75,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     };
     let mut app = App::new();
     app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
-        filter: "warn,wgpu_hal=error,bevy_egui=error".into(),
+        filter: "warn,lensrunner=info,wgpu_hal=error,bevy_egui=error".into(),
         level: bevy::log::Level::WARN,
         ..default()
     }))
