@@ -33,6 +33,17 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f3
     return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
 }
 
+/// How often light from a part of an image, `height` over the disk's plane, crosses that plane on its way: `plane_crossings` of Rust, told here where parts of the image
+/// differ.
+fn crossings_of(placement: Placement, height: f32) -> f32 {
+    if placement.snap.w >= 0.0 {
+        return placement.snap.w;
+    }
+    let order = placement.ids.x;
+    let across = (height < 0.0) != (frame.radial.z < 0.0);
+    return f32(order) - select(0.0, 1.0, across == (order % 2u == 0u));
+}
+
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
 /// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
 /// `outward_normal`, `turn` its `turn_on_screen`, `seen_from` tells which directions see it.
@@ -89,10 +100,11 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
+    let crossings = crossings_of(placement, seen[i0].fan.w + seen[i1].fan.w + seen[i2].fan.w);
     let scale = 2.0 / frame.size.xy;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, 0.0, 0.0));
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, 0.0, 0.0));
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, 0.0, 0.0));
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, crossings, 0.0));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, crossings, 0.0));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, crossings, 0.0));
     return true;
 }
 

@@ -10,6 +10,7 @@
 
 struct ThinVertex {
     position: vec4<f32>,
+    /// x: seen vertex (bits), y: coverage, z: how often its light crosses the disk's plane.
     data: vec4<f32>,
 }
 
