@@ -114,8 +114,9 @@ fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
             for left in left_at_all(&mut renderer, eye, degrees, size, &config).iter().filter(|left| left.order <= orders) {
                 // The exact gas is that at the middle of a pixel, the drawn one the mean over the pixel where the disk's image is as thin, as those of order 3 are.
                 let off = if left.order == 3 { 0.08 } else { 0.04 };
-                println!("{representation} from {eye} under {degrees}°, balls of {size}: {left:?}");
-                assert!((left.drawn - left.exact).abs() < off, "{representation} from {eye} under {degrees}°, balls of {size}: {left:?}");
+                let place = PLACES[left.number - 1];
+                println!("{representation} from {eye} under {degrees}°, ball of {size} at {place}: {left:?}");
+                assert!((left.drawn - left.exact).abs() < off, "{representation} from {eye}, ball of {size} at {place}: {left:?}");
                 found[left.order as usize][left.crossings[0]] += 1;
             }
         }
@@ -143,14 +144,16 @@ fn a_thin_ball_in_the_plane_of_the_disk_is_partly_before_it() {
     let eye = DVec3::new(0.0, -20.0, 12.0);
     let place = DVec3::new(3.0, -6.0, 0.0);
     let config = dark("arcs");
+    // Of the thousands of triangles of the ball itself each covers so little of a pixel that sums of halves lose it.
+    let settings = Settings { coarse_below: 2.0, ..settings() };
     let mut drawn = |degrees: f64| {
         let camera = static_camera(eye, place - eye, DVec3::Z, f64::to_radians(degrees));
-        left(&mut renderer, camera, &[(place, 0.02)], &config, &settings()).iter().find(|left| left.order == 1).unwrap().drawn
+        left(&mut renderer, camera, &[(place, 0.02)], &config, &settings).iter().find(|left| left.order == 1).unwrap().drawn
     };
     // Half a pixel of it, and some eighty.
     let (thin, wide) = (drawn(60.0), drawn(0.4));
     println!("{thin:.3} of the light of a thin image is left, {wide:.3} of a wide one");
     assert!((0.6..0.95).contains(&wide), "{wide} is left of a wide image");
-    // Which side a triangle is on its middle tells, and what stands for a ball that is so small has few.
-    assert!((thin - wide).abs() < 0.08, "{thin} of the light of a thin image is left, {wide} of a wide one");
+    // What stands for a ball that is so small is not round.
+    assert!((thin - wide).abs() < 0.05, "{thin} of the light of a thin image is left, {wide} of a wide one");
 }

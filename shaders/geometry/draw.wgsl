@@ -41,23 +41,25 @@ fn layers_fragment(in: Surface) -> Layers {
 
 @vertex
 fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_surface(index);
+    return thin_surface(index, 1.0);
 }
 
-fn thin_surface(index: u32) -> Surface {
+fn thin_surface(index: u32, share: f32) -> Surface {
     let corner = thin[index];
-    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y);
+    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * share);
 }
 
-/// Those alone whose light crosses the disk's plane so often on its way.
+/// The part of those alone whose light crosses the disk's plane so often on its way.
 fn thin_across(index: u32, crossings: f32) -> Surface {
-    if thin[index].data.z != crossings {
+    let data = thin[index].data;
+    let share = select(0.0, data.w, crossings == data.z) + select(0.0, 1.0 - data.w, crossings == data.z - 1.0);
+    if share == 0.0 {
         // All three corners at one place, beyond the nearest depth.
         var nothing: Surface;
         nothing.position = vec4<f32>(0.0, 0.0, 2.0, 1.0);
         return nothing;
     }
-    return thin_surface(index);
+    return thin_surface(index, share);
 }
 
 @vertex

@@ -33,15 +33,23 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f3
     return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
 }
 
-/// How often light from a part of an image, `height` over the disk's plane, crosses that plane on its way: `plane_crossings` of Rust, told here where parts of the image
-/// differ.
-fn crossings_of(placement: Placement, height: f32) -> f32 {
-    if placement.snap.w >= 0.0 {
-        return placement.snap.w;
-    }
+/// The part of a triangle whose light crosses the disk's plane as often on its way as the order says; that of the rest crosses it once less. `plane_crossings` of Rust,
+/// told here where parts of the image differ, from the heights of its corners over the plane.
+fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
     let order = placement.ids.x;
-    let across = (height < 0.0) != (frame.radial.z < 0.0);
-    return f32(order) - select(0.0, 1.0, across == (order % 2u == 0u));
+    if placement.snap.w >= 0.0 {
+        return select(0.0, 1.0, placement.snap.w == f32(order));
+    }
+    // First the corner that is alone on its side, if one is: the plane cuts off so much of the area there.
+    let below = heights < vec3<f32>(0.0);
+    var h = heights;
+    if below.y != below.x && below.y != below.z { h = heights.yxz; }
+    if below.z != below.x && below.z != below.y { h = heights.zxy; }
+    let cut = (h.x < 0.0) != (h.y < 0.0);
+    let part = select(1.0, h.x * h.x / ((h.x - h.y) * (h.x - h.z)), cut);
+    let above = select(part, 1.0 - part, h.x < 0.0);
+    let other_side = select(1.0 - above, above, frame.radial.z < 0.0);
+    return select(other_side, 1.0 - other_side, order % 2u == 0u);
 }
 
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
@@ -100,11 +108,12 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
-    let crossings = crossings_of(placement, seen[i0].fan.w + seen[i1].fan.w + seen[i2].fan.w);
+    let order = f32(placement.ids.x);
+    let share = share_across(placement, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
     let scale = 2.0 / frame.size.xy;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, crossings, 0.0));
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, crossings, 0.0));
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, crossings, 0.0));
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, order, share));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, order, share));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, order, share));
     return true;
 }
 
