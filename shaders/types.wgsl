@@ -64,7 +64,7 @@ struct Placement {
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,
     turn_z: vec4<f32>,
-    /// d⁴x/dT⁴ of the centre; w unused.
+    /// d⁴x/dT⁴ of the centre; w: how often light of this image crosses the plane z = 0 of the disk on its way, −1 if parts of it differ.
     snap: vec4<f32>,
     /// Light that falls on a surface of normal n (rain axes): ambient + direction·n, per channel.
     light_red: vec4<f32>,
@@ -134,6 +134,7 @@ struct SeenVertex {
     surface: vec4<f32>,
     /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer edge
     /// that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
+    /// w: height over the disk's plane at emission, in r_s.
     fan: vec4<f32>,
 }
 

@@ -41,6 +41,8 @@ mod render_disk;
 #[cfg(feature = "game")]
 mod render_disk_near;
 #[cfg(feature = "game")]
+mod render_disk_order;
+#[cfg(feature = "game")]
 mod render_disk_thin;
 #[cfg(feature = "game")]
 mod render_fallbacks;

@@ -41,8 +41,45 @@ fn layers_fragment(in: Surface) -> Layers {
 
 @vertex
 fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
+    return thin_surface(index, 1.0);
+}
+
+fn thin_surface(index: u32, share: f32) -> Surface {
     let corner = thin[index];
-    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y);
+    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * share);
+}
+
+/// The part of those alone whose light crosses the disk's plane so often on its way.
+fn thin_across(index: u32, crossings: f32) -> Surface {
+    let data = thin[index].data;
+    let share = select(0.0, data.w, crossings == data.z) + select(0.0, 1.0 - data.w, crossings == data.z - 1.0);
+    if share == 0.0 {
+        // All three corners at one place, beyond the nearest depth.
+        var nothing: Surface;
+        nothing.position = vec4<f32>(0.0, 0.0, 2.0, 1.0);
+        return nothing;
+    }
+    return thin_surface(index, share);
+}
+
+@vertex
+fn thin_vertex_0(@builtin(vertex_index) index: u32) -> Surface {
+    return thin_across(index, 0.0);
+}
+
+@vertex
+fn thin_vertex_1(@builtin(vertex_index) index: u32) -> Surface {
+    return thin_across(index, 1.0);
+}
+
+@vertex
+fn thin_vertex_2(@builtin(vertex_index) index: u32) -> Surface {
+    return thin_across(index, 2.0);
+}
+
+@vertex
+fn thin_vertex_3(@builtin(vertex_index) index: u32) -> Surface {
+    return thin_across(index, 3.0);
 }
 
 struct Thin {

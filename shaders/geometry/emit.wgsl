@@ -33,6 +33,25 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f3
     return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
 }
 
+/// The part of a triangle whose light crosses the disk's plane as often on its way as the order says; that of the rest crosses it once less. `plane_crossings` of Rust,
+/// told here where parts of the image differ, from the heights of its corners over the plane.
+fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
+    let order = placement.ids.x;
+    if placement.snap.w >= 0.0 {
+        return select(0.0, 1.0, placement.snap.w == f32(order));
+    }
+    // First the corner that is alone on its side, if one is: the plane cuts off so much of the area there.
+    let below = heights < vec3<f32>(0.0);
+    var h = heights;
+    if below.y != below.x && below.y != below.z { h = heights.yxz; }
+    if below.z != below.x && below.z != below.y { h = heights.zxy; }
+    let cut = (h.x < 0.0) != (h.y < 0.0);
+    let part = select(1.0, h.x * h.x / ((h.x - h.y) * (h.x - h.z)), cut);
+    let above = select(part, 1.0 - part, h.x < 0.0);
+    let other_side = select(1.0 - above, above, frame.radial.z < 0.0);
+    return select(other_side, 1.0 - other_side, order % 2u == 0u);
+}
+
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
 /// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
 /// `outward_normal`, `turn` its `turn_on_screen`, `seen_from` tells which directions see it.
@@ -89,10 +108,12 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
+    let order = f32(placement.ids.x);
+    let share = share_across(placement, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
     let scale = 2.0 / frame.size.xy;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, 0.0, 0.0));
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, 0.0, 0.0));
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, 0.0, 0.0));
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, order, share));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, order, share));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, order, share));
     return true;
 }
 

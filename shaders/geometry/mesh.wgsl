@@ -49,7 +49,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     fan_place = s;
     var vertex = vertex_at(item, placement, triangle, corner, s);
     if item.piece.what.z == PIECE_FAN {
-        vertex.fan = vec4<f32>(texture_coordinates(placement, triangle, item.piece.corner_0.xyz), fan_place, 0.0);
+        vertex.fan = vec4<f32>(texture_coordinates(placement, triangle, item.piece.corner_0.xyz), fan_place, vertex.fan.w);
     }
     seen[index] = vertex;
 }

@@ -22,7 +22,7 @@ fn seen_vertex(placement: Placement, index: u32, found: Answer, normal: vec3<f32
     vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
     vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
-    vertex.fan = vec4<f32>(uv, 1.0, 0.0);
+    vertex.fan = vec4<f32>(uv, 1.0, found.position.z);
     return vertex;
 }
 

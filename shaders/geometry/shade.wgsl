@@ -10,6 +10,7 @@
 
 struct ThinVertex {
     position: vec4<f32>,
+    /// x: seen vertex (bits), y: coverage, z: image order, w: the part whose light crosses the disk's plane as often, and not once less.
     data: vec4<f32>,
 }
 

@@ -82,6 +82,9 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
         placement.ids = [u32::from(order.number()), object.id, 0, 0];
+        // Within this of its centre are all points of it, each where its light leaves.
+        let whole = position.z.abs() > MARGIN * object.reach;
+        placement.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
         if !settings.method.bends() {
             // Drawn straight, light leaves otherwise than the shape on the slice is meant for.
             placement.triangles[3] |= TWO_SIDED;
@@ -115,6 +118,15 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
     let orders = orders.min(settings.method.orders());
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
+}
+
+/// How often light of an image order from `height` over the plane z = 0, or below it, crosses that plane on its way to a camera at another height. It stays in a
+/// plane through the hole and sweeps n − 1 to n half turns about it, of which each crosses z = 0 once: n − 1 times or n times, the odd number if its ends lie on
+/// different sides. The image is behind as many of the disk's own orders.
+pub fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
+    let n = u32::from(order.number());
+    let across = (height < 0.0) != (camera_height < 0.0);
+    if across == n.is_multiple_of(2) { n - 1 } else { n }
 }
 
 /// Both sides of all triangles; as in shaders/types.wgsl.

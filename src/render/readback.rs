@@ -109,7 +109,7 @@ pub struct Picture {
     pub layers: Vec<[f32; 4]>,
     /// Texture coordinates and coverage of that surface; as `layers`.
     pub surface: Vec<[f32; 4]>,
-    /// The part of each pixel that thin images cover together; empty where there are none.
+    /// The part of each pixel that thin images cover together, whatever of the disk is before them; as `layers`, and empty where there are none.
     pub thin: Vec<f32>,
 }
 

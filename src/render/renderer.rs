@@ -1,5 +1,6 @@
 //! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it alike.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
@@ -298,31 +299,18 @@ impl Renderer {
         }
         // What is behind the disk is dimmed by it.
         draw_aurora(&self.aurora, true, &mut self.timing, encoder, group, &self.targets);
-        if let Some(disk) = disk {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("disk"),
-                color_attachments: &[Some(colour(&self.targets.picture, false))],
-                depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
-                timestamp_writes: self.timing.render("disk"),
-                ..Default::default()
-            });
-            pass.set_bind_group(0, group, &[]);
-            self.timing.count("disk", &mut pass, |pass| disk.draw(pass));
-        }
-        if geometry.has_thin() {
-            {
-                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                    label: Some("thin"),
-                    color_attachments: &[Some(colour(&self.targets.thin, true)), Some(colour(&self.targets.thin_signed, true))],
-                    depth_stencil_attachment: Some(depth(&self.targets.depth, false)),
-                    timestamp_writes: self.timing.render("thin"),
-                    ..Default::default()
-                });
-                pass.set_bind_group(0, group, &[]);
-                geometry.draw_thin(&mut pass);
-            }
+        // Images of the disk from the farthest on, each over what is behind it. Thin images have no depth: they come among those of the disk, by how often their
+        // light crosses its plane. Polygons have depth.
+        let laid_over = disk.is_some_and(DiskPasses::is_laid_over);
+        let among = |crossings: u32| if laid_over { geometry.has_thin_across(crossings) } else { crossings == 0 && geometry.has_thin() };
+        let mut left = 3;
+        for crossings in (0..=3).rev().filter(|crossings| among(*crossings)) {
+            draw_disk(disk, crossings + 1..=left, &mut self.timing, encoder, group, &self.targets);
+            left = crossings;
+            draw_thin(geometry, laid_over.then_some(crossings), self.timing.render("thin"), encoder, group, &self.targets);
             self.develop.compose(encoder, &mut self.timing, group, &self.targets);
         }
+        draw_disk(disk, 1..=left, &mut self.timing, encoder, group, &self.targets);
         draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
         self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
         self.timing.end(encoder);
@@ -353,7 +341,7 @@ impl Renderer {
             Some(targets) if layers => (readback::floats(&self.gpu, &targets.what.0)?, readback::floats(&self.gpu, &targets.surface.0)?),
             _ => Default::default(),
         };
-        let thin = if self.geometry.has_thin() {
+        let thin = if !layers.is_empty() && self.geometry.has_thin() {
             let sums = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
             let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 2)?;
             let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
@@ -365,6 +353,10 @@ impl Renderer {
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if self.geometry.has_thin() {
+            // The sum of all: among images of the disk they are drawn in parts.
+            draw_thin(&self.geometry, None, None, encoder, &self.frame_group, &self.targets);
+        }
         let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("layers"),
@@ -405,6 +397,47 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
+}
+
+/// Lays these orders of the disk over the picture, if there are any.
+fn draw_disk(
+    disk: Option<&DiskPasses>,
+    orders: RangeInclusive<u32>,
+    timing: &mut Timing,
+    encoder: &mut wgpu::CommandEncoder,
+    group: &wgpu::BindGroup,
+    targets: &Targets,
+) {
+    let Some(disk) = disk.filter(|_| !orders.is_empty()) else { return };
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("disk"),
+        color_attachments: &[Some(colour(&targets.picture, false))],
+        depth_stencil_attachment: Some(depth(&targets.depth, false)),
+        timestamp_writes: timing.render("disk"),
+        ..Default::default()
+    });
+    pass.set_bind_group(0, group, &[]);
+    timing.count("disk", &mut pass, |pass| disk.draw(pass, orders));
+}
+
+/// Sums thin images: all, or those whose light crosses the disk's plane so often.
+fn draw_thin(
+    geometry: &Geometry,
+    crossings: Option<u32>,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
+    encoder: &mut wgpu::CommandEncoder,
+    group: &wgpu::BindGroup,
+    targets: &Targets,
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("thin"),
+        color_attachments: &[Some(colour(&targets.thin, true)), Some(colour(&targets.thin_signed, true))],
+        depth_stencil_attachment: Some(depth(&targets.depth, false)),
+        timestamp_writes,
+        ..Default::default()
+    });
+    pass.set_bind_group(0, group, &[]);
+    geometry.draw_thin(&mut pass, crossings);
 }
 
 /// Adds the images of the aurora that are behind the disk, or the others.

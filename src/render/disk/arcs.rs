@@ -1,5 +1,7 @@
 //! The disk of arcs: four stages of compute and a draw for each image order.
 
+use std::ops::RangeInclusive;
+
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
@@ -158,12 +160,12 @@ impl ArcPass {
         pass.dispatch_workgroups(1, 1, 1);
     }
 
-    /// The draws: the farthest order first.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass) {
+    /// Draws these orders, from 1 on: the farthest first.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, orders: RangeInclusive<u32>) {
         let Some((_, group)) = &self.groups else { return };
         pass.set_bind_group(1, group, &[]);
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for order in (0..3).rev() {
+        for order in orders.rev().map(|order| u64::from(order) - 1) {
             pass.set_pipeline(match order {
                 order if order < u64::from(self.close) => &self.near,
                 0 => &self.far,

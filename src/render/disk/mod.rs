@@ -11,6 +11,8 @@ pub mod textures;
 pub mod types;
 pub mod view;
 
+use std::ops::RangeInclusive;
+
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::lensing::Slice;
@@ -189,14 +191,19 @@ impl DiskPasses {
         }
     }
 
-    /// The draws.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass) {
+    /// Whether its orders are laid over what is behind them one by one, and nothing of it stays in the depth.
+    pub fn is_laid_over(&self) -> bool {
+        !self.is_straight && !matches!(self.representation, Representation::Polygons(_))
+    }
+
+    /// Draws these of its orders, from 1 on; polygons are drawn all at once.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, orders: RangeInclusive<u32>) {
         pass.set_bind_group(2, &self.gas_group, &[]);
         match &self.representation {
             _ if self.is_straight => self.straight.iter().for_each(|polygons| polygons.draw(pass)),
-            Representation::Arcs => self.arcs.draw(pass),
+            Representation::Arcs => self.arcs.draw(pass, orders),
             Representation::Polygons(polygons) => polygons.draw(pass),
-            Representation::Sprites(sprites) => sprites.draw(pass),
+            Representation::Sprites(sprites) => sprites.draw(pass, orders),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The disk of point sprites: projected in one stage of compute, drawn as soft spots, for each image order.
 
+use std::ops::RangeInclusive;
+
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
@@ -84,24 +86,25 @@ impl SpritePass {
         self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring[2] == order));
     }
 
-    /// The orders that are drawn, the farthest first.
-    fn drawn(&self) -> impl Iterator<Item = &Image> {
-        self.images.iter().zip(self.drawn).rev().filter_map(|(image, drawn)| drawn.then_some(image))
+    /// Those of these orders that are drawn, the farthest first.
+    fn drawn(&self, orders: RangeInclusive<u32>) -> impl Iterator<Item = &Image> {
+        let all = self.images.iter().zip(self.drawn).zip([1, 2, 3]).rev();
+        all.filter_map(move |((image, drawn), order)| (drawn && orders.contains(&order)).then_some(image))
     }
 
     /// Projects them.
     pub fn compute(&self, pass: &mut wgpu::ComputePass) {
         pass.set_pipeline(&self.project);
-        for image in self.drawn() {
+        for image in self.drawn(1..=3) {
             pass.set_bind_group(1, &image.project, &[]);
             pass.dispatch_workgroups(image.count.div_ceil(64), 1, 1);
         }
     }
 
-    /// Draws them, each order over what is behind it.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass) {
+    /// Draws these orders, from 1 on, each over what is behind it.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass, orders: RangeInclusive<u32>) {
         pass.set_pipeline(&self.draw);
-        for image in self.drawn() {
+        for image in self.drawn(orders) {
             pass.set_bind_group(1, &image.draw, &[]);
             pass.draw(0..3 * image.count, 0..1);
         }

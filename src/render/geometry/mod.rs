@@ -54,7 +54,8 @@ pub struct Geometry {
     arguments_group: wgpu::BindGroup,
     sampler: wgpu::Sampler,
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
-    has_thin: bool,
+    /// Whether any image of the prepared frame is thin, by how often its light crosses the disk's plane.
+    thin_across: [bool; 4],
     capacity: Capacity,
 }
 
@@ -75,6 +76,8 @@ struct Stages {
 struct Draws {
     opaque: wgpu::RenderPipeline,
     thin: wgpu::RenderPipeline,
+    /// Those whose light crosses the disk's plane never, once, twice, three times.
+    thin_across: [wgpu::RenderPipeline; 4],
     layers: wgpu::RenderPipeline,
     layers_thin: wgpu::RenderPipeline,
 }
@@ -143,9 +146,11 @@ impl Geometry {
         };
         let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
         let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
+        let thin = |vertex| draw_to(vertex, vertex, "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false);
         let draws = Draws {
             opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
-            thin: draw_to("thin", "thin_vertex", "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false),
+            thin: thin("thin_vertex"),
+            thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
             layers: layers("layers", "opaque_vertex"),
             layers_thin: layers("layers thin", "thin_vertex"),
         };
@@ -183,7 +188,7 @@ impl Geometry {
             arguments_group,
             sampler,
             groups: None,
-            has_thin: false,
+            thin_across: [false; 4],
             capacity: room(0, 0, 0),
         }
     }
@@ -195,7 +200,12 @@ impl Geometry {
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
     pub fn has_thin(&self) -> bool {
-        self.has_thin
+        self.thin_across.contains(&true)
+    }
+
+    /// Whether any of them may be thin and of light that crosses the disk's plane so often, up to three times.
+    pub fn has_thin_across(&self, crossings: u32) -> bool {
+        self.thin_across.get(crossings as usize).is_some_and(|any| *any)
     }
 
     /// Room in the buffers, as the shaders are told.
@@ -235,7 +245,12 @@ impl Geometry {
             triangles += model.triangles[1];
             placements.push(placement);
         }
-        self.has_thin = placements.iter().any(|placement| placement.triangles[3] & THIN != 0);
+        self.thin_across = [false; 4];
+        for placement in placements.iter().filter(|placement| placement.triangles[3] & THIN != 0) {
+            let (order, crossings) = (placement.ids[0] as usize, placement.snap[3]);
+            let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
+            self.thin_across[range].fill(true);
+        }
         self.capacity = room(budget, vertices, triangles);
         let device = &gpu.device;
         let mut replaced = self.placements.write(gpu, &placements);
@@ -375,9 +390,10 @@ impl Geometry {
         self.draw(pass, &self.draws.opaque, false);
     }
 
-    /// Thin triangles, summed.
-    pub fn draw_thin(&self, pass: &mut wgpu::RenderPass) {
-        self.draw(pass, &self.draws.thin, true);
+    /// Thin triangles, summed: all, or those whose light crosses the disk's plane so often.
+    pub fn draw_thin(&self, pass: &mut wgpu::RenderPass, crossings: Option<u32>) {
+        let across = crossings.and_then(|crossings| self.draws.thin_across.get(crossings as usize));
+        self.draw(pass, across.unwrap_or(&self.draws.thin), true);
     }
 
     /// The layers of both.
