@@ -27,6 +27,10 @@ mod reference_trace;
 #[cfg(feature = "game")]
 mod render_aurora;
 #[cfg(feature = "game")]
+mod render_aurora_chords;
+#[cfg(feature = "game")]
+mod render_aurora_sight;
+#[cfg(feature = "game")]
 mod render_branches;
 #[cfg(feature = "game")]
 mod render_chords;
