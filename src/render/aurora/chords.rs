@@ -35,6 +35,8 @@ pub struct Bend<'a, 'b> {
     pub history: &'a History,
     /// r_s in a km of the planet.
     pub scale: f64,
+    /// Of green and of red light, the height (km) above which hardly any is made: chords up there may lie as they like.
+    pub tops: [f64; 2],
 }
 
 impl Bend<'_, '_> {
@@ -99,7 +101,8 @@ impl Bend<'_, '_> {
             };
             let Some(seen) = (0..=2 * count).map(apparent).collect::<Option<Vec<DVec3>>>() else { return true };
             let allowed = (OF_LENGTH * seen[0].angle_between(seen[2 * count])).max(PIXELS * self.view.pixel);
-            seen.windows(3).step_by(2).all(|chord| (0.5 * (chord[0] + chord[2])).angle_between(chord[1]) <= allowed)
+            let mut middles = seen.windows(3).step_by(2).enumerate().filter(|(chord, _)| height(2 * chord + 1) <= self.tops[kind]);
+            middles.all(|(_, chord)| (0.5 * (chord[0] + chord[2])).angle_between(chord[1]) <= allowed)
         })
     }
 

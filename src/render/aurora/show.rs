@@ -20,7 +20,7 @@ use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_lin
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
 use crate::scene::aurora::motion::{Motion, Plan, STEP};
-use crate::scene::aurora::quantiles::Quantiles;
+use crate::scene::aurora::quantiles::{DELAYS, PARTS, Quantiles, ROWS as ROWS_OF_FALLS};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Surroundings;
 use crate::scene::planet::{AuroraShape, Planet};
@@ -57,6 +57,8 @@ const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = 400.0;
+/// In the falls, the height above which one of [`PARTS`] equal parts of green light is made where the curtain is faintest; that of red follows.
+const TOPS: usize = 4 * ROWS_OF_FALLS * (PARTS + 1) + 2 * DELAYS + 1;
 /// Room for strokes: more are not drawn in one order.
 pub const MOST_STROKES: usize = 1 << 20;
 
@@ -244,7 +246,7 @@ impl Show {
             flags |= BOTH_POLES;
         }
         let orders: Vec<Order> = frame.placements.iter().filter_map(|placement| Order::new(placement.ids[0] as u8)).collect();
-        let bend = Bend { view, time, history: &history, scale };
+        let bend = Bend { view, time, history: &history, scale, tops: [0, 1].map(|kind| f64::from(self.falls[TOPS + kind * (PARTS + 1)])) };
         let chords = bend.chords(&segments, |segment, wait| self.middle(segment, wait + ahead), &orders, flags);
         let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.

@@ -41,6 +41,9 @@ pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reac
     let is_round = view.settings.method.bends() && off_axis < ROUND * reach && (order.number() > 1 || middle.dot(n) < 0.0);
     let about = if is_round { Some(-n) } else { view.look(middle, order, time - began).map(|(look, _)| look) };
     let Some(about) = about.map(|look| camera.seen_direction(look)) else { return true };
+    if cone_may_be_seen(camera, about, 0.0, aspect) {
+        return true;
+    }
     let angle = |place: DVec3| {
         let mut emission = began;
         let mut seen = None;
