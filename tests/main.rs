@@ -27,7 +27,11 @@ mod reference_trace;
 #[cfg(feature = "game")]
 mod render_aurora;
 #[cfg(feature = "game")]
+mod render_aurora_chords;
+#[cfg(feature = "game")]
 mod render_aurora_pictures;
+#[cfg(feature = "game")]
+mod render_aurora_sight;
 #[cfg(feature = "game")]
 mod render_branches;
 #[cfg(feature = "game")]

@@ -183,6 +183,28 @@ impl Extent {
 }
 
 impl View<'_> {
+    /// In which direction (a unit vector, rain axes) light that is `age` old comes from a place, and how long its path is. `age` decides, inside the horizon,
+    /// which light is meant.
+    pub(super) fn look(&self, position: DVec3, order: Order, age: f64) -> Option<(DVec3, f64)> {
+        let n = self.camera.position.normalize();
+        let height = position.dot(n);
+        let across = position - n * height;
+        let (psi, path) = self.angle([(position - self.camera.position).dot(n), across.length(), height], order, age)?;
+        let turn = if order.flips() { -1.0 } else { 1.0 };
+        Some((n * psi.cos() + across.normalize_or_zero() * (turn * psi.sin()), path))
+    }
+
+    /// The angle ψ from outwards at which a place is seen, and the length of the light's path: the place by how far it is outward of the camera, across the axis,
+    /// and along the axis from the hole.
+    fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
+        if !self.settings.method.bends() {
+            return Some((across.atan2(along), along.hypot(across)));
+        }
+        let [along, across, height] = [along, across, height].map(|x| x as f32);
+        let ray = lens_lookup_aged(self.slice, along, across, height, u32::from(order.number()), age as f32);
+        ray.valid.then(|| (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay)))
+    }
+
     /// Where the image of a ball of radius `reach` at `position` is seen.
     /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
     /// `age` decides, inside the horizon, which light is meant.
@@ -195,13 +217,7 @@ impl View<'_> {
         let half = if reach < r { (reach / r).asin() } else { return anywhere };
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
-            if !self.settings.method.bends() {
-                let (along, across) = (r * cosine - l, r * sine);
-                return Some((across.atan2(along), along.hypot(across)));
-            }
-            let [along, across, height] = [r * cosine - l, r * sine, r * cosine].map(|x| x as f32);
-            let ray = lens_lookup_aged(self.slice, along, across, height, u32::from(order.number()), age as f32);
-            ray.valid.then(|| (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay)))
+            self.angle([r * cosine - l, r * sine, r * cosine], order, age)
         };
         let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
         let places = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];

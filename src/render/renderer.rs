@@ -388,6 +388,11 @@ impl Renderer {
         })))
     }
 
+    /// The aurora's passes, for tests that read their buffers.
+    pub fn aurora(&self) -> &Aurora {
+        &self.aurora
+    }
+
     /// The geometry stages, for tests that read their buffers.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry

@@ -40,13 +40,21 @@ fn seen_radius(camera: &Camera, look: DVec3, radius: f64) -> Option<f64> {
 /// added in the camera's frame. `aspect` is height over width. Errs towards yes.
 pub fn may_be_seen(camera: &Camera, look: DVec3, radius: f64, margin: f64, aspect: f64) -> bool {
     let Some(radius) = seen_radius(camera, look, radius) else { return true };
-    let centre = camera.seen_direction(look);
-    let radius = radius + margin;
-    if radius > FRAC_PI_2 {
+    cone_may_be_seen(camera, camera.seen_direction(look), radius + margin, aspect)
+}
+
+/// Whether any of a cone of directions about `centre` (a unit vector, camera axes) may fall on the screen, `radius` in radians. Errs towards yes.
+pub fn cone_may_be_seen(camera: &Camera, centre: DVec3, radius: f64, aspect: f64) -> bool {
+    if radius.is_nan() || radius > FRAC_PI_2 {
         return true;
     }
-    // Outside one plane of the view's pyramid by more than the radius: not seen.
     let tangent = (0.5 * camera.field_of_view).tan();
+    // Farther from the screen's middle than a corner is, by more than the radius: not seen, as what lies behind the camera is not.
+    let corner = (tangent * aspect.hypot(1.0)).atan();
+    if centre.angle_between(DVec3::NEG_Z) > corner + radius {
+        return false;
+    }
+    // Nor outside one plane of the view's pyramid by more than the radius.
     let inside = |across: f64, tangent: f64| (-centre.z * tangent - across.abs()) / tangent.hypot(1.0) > -radius.sin();
     inside(centre.x, tangent) && inside(centre.y, tangent * aspect)
 }

@@ -4,6 +4,7 @@
 //! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
 //! experiment of paper 3 for the chart.
 
+mod chords;
 mod colours;
 mod levels;
 mod pass;
@@ -12,6 +13,7 @@ pub mod ration;
 pub mod rooms;
 pub mod shift;
 mod show;
+pub mod sight;
 pub mod veil;
 
 pub use colours::{Colours, SHIFTS};

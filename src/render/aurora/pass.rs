@@ -352,6 +352,12 @@ impl Aurora {
         }
     }
 
+    /// Places amid the parts of the curtains at each height of chord ends, as the last frame's camera sees them (`Reference` in streaks.wgsl), by image, part and
+    /// pole; for tests that read them.
+    pub fn references(&self) -> &wgpu::Buffer {
+        &self.references.buffer
+    }
+
     /// Strokes of the last frame by image and level, as in [`Rooms::empty`].
     pub fn draws(&self) -> &wgpu::Buffer {
         &self.draws

@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
+use super::chords::Bend;
 use super::colours::Colours;
 use super::levels::PYRAMID;
 use super::ration::Ration;
 use super::shift::Shift;
-use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, veil};
+use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
 use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
 use crate::render::placements::{Motion as Movement, Object, View, against_static, departure, light_path, place};
@@ -19,7 +20,7 @@ use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_lin
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
 use crate::scene::aurora::motion::{Motion, Plan, STEP};
-use crate::scene::aurora::quantiles::Quantiles;
+use crate::scene::aurora::quantiles::{DELAYS, PARTS, Quantiles, ROWS as ROWS_OF_FALLS};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Surroundings;
 use crate::scene::planet::{AuroraShape, Planet};
@@ -56,6 +57,8 @@ const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = 400.0;
+/// In the falls, the height above which one of [`PARTS`] equal parts of green light is made where the curtain is faintest; that of red follows.
+const TOPS: usize = 4 * ROWS_OF_FALLS * (PARTS + 1) + 2 * DELAYS + 1;
 /// Room for strokes: more are not drawn in one order.
 pub const MOST_STROKES: usize = 1 << 20;
 
@@ -210,11 +213,12 @@ impl Show {
             let Some(order) = Order::new(placement.ids[0] as u8) else { continue };
             let position = DVec3::from_array([0, 1, 2].map(|k| f64::from(placement.position[k])));
             let extent = view.extent(position, object.reach, order, 0.0);
-            let near = distance < 2.0 * object.reach;
+            // Light of higher orders comes round the hole: from there even a near planet is far away.
+            let near = distance < 2.0 * object.reach && order.number() == 1;
             let width = if near { pixels } else { extent.width / view.pixel };
             // It comes and goes by degrees.
             let part = (width / LEAST_PIXELS - 1.0).min(1.0);
-            if part > 0.0 {
+            if part > 0.0 && sight::may_be_seen(view, time, &history, order, object.reach) {
                 let whole = [0.0, 0.0, 1.0, 1.0];
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
@@ -237,7 +241,13 @@ impl Show {
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
         frame.nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
         let row = self.rows.front().map_or(0, Vec::len);
-        let chords = if pixels > 200.0 { 4 } else { 2 };
+        let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
+        if both {
+            flags |= BOTH_POLES;
+        }
+        let orders: Vec<Order> = frame.placements.iter().filter_map(|placement| Order::new(placement.ids[0] as u8)).collect();
+        let bend = Bend { view, time, history: &history, scale, tops: [0, 1].map(|kind| f64::from(self.falls[TOPS + kind * (PARTS + 1)])) };
+        let chords = bend.chords(&segments, |segment, wait| self.middle(segment, wait + ahead), &orders, flags);
         let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.
         let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * drawn_out;
@@ -248,10 +258,6 @@ impl Show {
         let spread = segments.iter().map(|segment| spread(segment, poles)).fold(0.0, f64::max);
         let widest = self.config.radius.hypot(spread) * scale / (nearest * view.pixel) * drawn_out;
         let levels = if nearest <= object.reach || widest > NARROW { PYRAMID } else { 1 };
-        let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
-        if both {
-            flags |= BOTH_POLES;
-        }
         frame.settings = AuroraSettings {
             counts: [streaks, chords, parts, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
@@ -261,6 +267,17 @@ impl Show {
         frame.segments = segments;
         frame.falls = self.falls.clone();
         (streaks > 0 && self.rows.len() > 1).then_some(frame)
+    }
+
+    /// Where the middle of a part of a curtain was `age` seconds before the newest row; as in streaks.wgsl.
+    fn middle(&self, segment: &Segment, age: f64) -> DVec2 {
+        let [_, first, _, span] = segment.range.map(|number| number as usize);
+        let x = (age / ROW).clamp(0.0, self.rows.len().saturating_sub(1) as f64);
+        let at = |row: usize| {
+            let middle = |row: &Vec<[f32; 4]>| 0.5 * (node_place(row, first) + node_place(row, first + span));
+            self.rows.get(row).or(self.rows.back()).map_or(DVec2::ZERO, middle)
+        };
+        at(x as usize).lerp(at(x as usize + 1), x.fract())
     }
 
     /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing moved; when it comes into sight again it
