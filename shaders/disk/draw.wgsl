@@ -9,20 +9,6 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     return gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
 }
 
-/// The part of a pixel that a thin image covers, `d` pixels from its middle: its share of a tent two least widths wide. A box would leave a line that is
-/// thinner than a pixel in steps of whole pixels, which along a diagonal are beads. The tent narrows as the image is drawn no wider than it is: all
-/// of its light is there at any width.
-fn coverage(d: f32, half_width: f32) -> f32 {
-    let width = max(disk.gas.w * (1.0 - own_share(half_width)), 0.05);
-    return tent_below((d + half_width) / width) - tent_below((d - half_width) / width);
-}
-
-/// The area of the tent 1 − |x| below x.
-fn tent_below(x: f32) -> f32 {
-    let t = 1.0 - min(abs(x), 1.0);
-    return select(0.5 * t * t, 1.0 - 0.5 * t * t, x > 0.0);
-}
-
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {

@@ -10,6 +10,9 @@ const THIN_AZIMUTHS: u32 = 12u;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f32 = 26160.0;
 
+/// Of light behind the second image as much is taken to pass at least: what was stopped is made up for by no more than one over that.
+const LEAST_PASSED: f32 = 0.1;
+
 /// The variance of the pattern and its finest octaves: 1 and 0.35².
 const VARIANCE: f32 = 1.1225;
 
@@ -51,8 +54,8 @@ fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
 /// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
 /// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
-/// `count` are taken.
-fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32) -> vec3<f32> {
+/// `count` are taken. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
+fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, before: vec2<f32>) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
@@ -70,6 +73,7 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         let next = circles[k + THIN_SAMPLES];
         there.gas = mix(there.gas, next.gas, t);
         there.motion = mix(there.motion, next.motion, t);
+        there.place = mix(there.place, next.place, t);
         // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
         let ratio = clamp(observed / found.x, 1e-3, 1e3);
@@ -77,7 +81,14 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         let depth = there.gas.w / max(found.y, LEAST_COSINE);
         let x = GREEN / temperature;
         // Density is the fourth power of the temperature.
-        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v));
+        let nearer = there.place;
+        let slanted = disk_frequency(energy, angular, nearer.w, nearer.w < 1.5, nearer.yz).y;
+        let through = nearer.x / max(slanted, LEAST_COSINE);
+        // In the mean over streaks, by three places of a normal distribution.
+        let denser = exp(4.0 * sqrt(3.0 * v));
+        let passed = (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0;
+        let drawn = 1.0 - before.x - before.y * (1.0 - passed);
+        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
         light += shown;
         shifted += shown * log(ratio);
         stopped += 1.0 - exp(-depth);
@@ -85,6 +96,23 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
     let own = max(stopped, 1e-6);
     let x = -log(clamp(light / own, 1e-37, 0.999));
     return vec3<f32>(log(GREEN / max(x, 1e-3)), -log(1.0 - min(own / f32(THIN_SAMPLES), 0.999)), shifted / max(light, 1e-37));
+}
+
+/// Half the width that a thin image is drawn with, in pixels.
+fn drawn_half(half: f32) -> f32 {
+    return half + (disk.gas.w + SOFT) * (1.0 - own_share(half));
+}
+
+/// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles: x of all light, y of the light that this gas
+/// itself stops. Light of the third image comes through one place of the second, where that passes the photon sphere, and a pixel has the mean of
+/// the second's gas and covers with it what is beside the image as well. The third is so thin that all of it is `d` pixels from the middle of the second, of
+/// the half width `half`, under a tent; the second's gas has the mean optical depth `depth`.
+fn second_before(d: f32, half: f32, depth: f32) -> vec2<f32> {
+    // Over the tent by three places with its variance, 1/6.
+    let aside = 0.57735027 * disk.gas.w;
+    let covered = 0.5 * coverage(d, half) + 0.25 * (coverage(d - aside, half) + coverage(d + aside, half));
+    let own = own_share(half);
+    return covered * vec2<f32>((1.0 - own) * (1.0 - exp(-depth)), own);
 }
 
 /// The vertex of `row` at θ.
@@ -105,22 +133,32 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     var ray: LensRay;
     var psi = vec3<f32>(0.0);
     var valid = true;
+    // Where the second image begins and ends beside the third: the same ray has crossed the plane on the other side of the hole.
+    var second = vec2<f32>(0.0);
+    var behind_second = order == 3u;
     // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. The lookup is called from this one place.
-    for (var k = 0u; k < select(3u, 1u, order == 1u); k++) {
-        let which = select(select(circle.rows.z, circle.rows.y, k == 1u), row, k == 0u);
+    for (var k = 0u; k < select(select(3u, 1u, order == 1u), 5u, order == 3u); k++) {
+        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u);
+        let opposite = k > 2u;
         let there = circles[which];
         let r = there.gas.x;
-        let along = there.place.x - 2.0 * r * disk.sideways.w * half_sine * half_sine;
-        let found = lens_lookup_at(along, r * reach, r * c * disk.sideways.w, order);
-        valid = valid && found.valid && found.delay > 0.0;
+        let along = there.place.x - 2.0 * r * disk.sideways.w * select(half_sine * half_sine, 1.0 - half_sine * half_sine, opposite);
+        let found = lens_lookup_at(along, r * reach, r * select(c, -c, opposite) * disk.sideways.w, select(order, 2u, opposite));
+        let seen = found.valid && found.delay > 0.0;
+        valid = valid && (seen || opposite);
+        behind_second = behind_second && (seen || !opposite);
         let angle_seen = atan2(found.sin_psi, found.cos_psi);
         if k == 0u {
             ray = found;
             psi.x = angle_seen;
         } else if k == 1u {
             psi.y = angle_seen;
-        } else {
+        } else if k == 2u {
             psi.z = angle_seen;
+        } else if k == 3u {
+            second.x = angle_seen;
+        } else {
+            second.y = angle_seen;
         }
     }
 
@@ -128,14 +166,16 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     var thin = vec2<f32>(0.0, 1e6);
     // Where all of a thin image is seen.
     var all_at = seen_at;
+    // The same of the second image behind which the third is: from the middle of the one to that of the other, and half its width, in pixels.
+    var nearer = vec2<f32>(0.0, 1e6);
     if order > 1u {
         // Pixels by the size of one at this place of the picture.
         let pixel = frame.size.z * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
         let half = 0.5 * abs(psi.z - psi.y) / pixel;
         let middle = 0.5 * (psi.y + psi.z);
-        let drawn = half + (disk.gas.w + SOFT) * (1.0 - own_share(half));
-        let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn;
+        let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
         thin = vec2<f32>(d, half);
+        nearer = vec2<f32>(middle - 0.5 * (second.x + second.y), 0.5 * abs(second.y - second.x)) / pixel;
         let moved = middle + d * pixel;
         seen_at = n * cos(moved) + side * (turn * sin(moved));
         all_at = n * cos(middle) + side * (turn * sin(middle));
@@ -171,9 +211,15 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let azimuth = atan2(abs(s), c);
+    let coming = -all_at * ray.frequency;
+    let seen_as = camera_doppler_of(all_at) * ray.frequency;
     // A loop over nothing is all that software drivers skip: a branch is run through by all.
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), atan2(abs(s), c), -all_at * ray.frequency, ray.frequency,
-        camera_doppler_of(all_at) * ray.frequency);
+    let is_behind = behind_second && own_share(nearer.y) < 1.0;
+    let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, order == 3u);
+    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, vec2<f32>(0.0, 1.0)).y;
+    let before = select(vec2<f32>(0.0, 1.0), second_before(nearer.x, nearer.y, hiding), is_behind);
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), azimuth, coming, ray.frequency, seen_as, before);
     if own < 1.0 {
         let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
         shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));

@@ -31,7 +31,9 @@ struct Circle {
     gas: vec4<f32>,
     /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
     motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, differenced in f64; y, z, w unused.
+    /// x: radius·√(1 − h²) − L, differenced in f64; y, z, w unused. Of the circles behind the rows: the gas of the second image that light of the third
+    /// from there comes through: optical depth straight through (0 in the second image itself), rain-frame momentum per mass outward and along the
+    /// rotation, radius in r_s.
     place: vec4<f32>,
     /// x: image order; y, z: innermost and outermost row of that order; w: for orders 2 and 3 the first of the circles behind the rows, for each of
     /// THIN_AZIMUTHS azimuths THIN_SAMPLES on radii that share the width of that image equally there.
@@ -69,4 +71,18 @@ const MEAN: vec2<f32> = vec2<f32>(0.75, 2.0);
 /// The share of its circles' own gas that a thin image shows.
 fn own_share(half_width: f32) -> f32 {
     return smoothstep(MEAN.x, MEAN.y, half_width);
+}
+
+/// The part of a pixel that a thin image covers, `d` pixels from its middle: its share of a tent two least widths wide. A box would leave a line that is
+/// thinner than a pixel in steps of whole pixels, which along a diagonal are beads. The tent narrows as the image is drawn no wider than it is: all
+/// of its light is there at any width.
+fn coverage(d: f32, half_width: f32) -> f32 {
+    let width = max(disk.gas.w * (1.0 - own_share(half_width)), 0.05);
+    return tent_below((d + half_width) / width) - tent_below((d - half_width) / width);
+}
+
+/// The area of the tent 1 − |x| below x.
+fn tent_below(x: f32) -> f32 {
+    let t = 1.0 - min(abs(x), 1.0);
+    return select(0.5 * t * t, 1.0 - 0.5 * t * t, x > 0.0);
 }

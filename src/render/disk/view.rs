@@ -98,9 +98,13 @@ impl DiskView {
         let mut samples = Vec::new();
         let mut rings = Vec::new();
         for order in 1..=3 {
-            // The third is drawn unasked where it is wider than the pixel budget.
+            // The third is drawn unasked where it is wider than the pixel budget, behind the second.
             let unasked = order > input.settings.orders;
-            if unasked && (order < 3 || widest(disk, camera, slice, width, order) < f64::from(input.settings.pixel_error)) {
+            if unasked
+                && (order < 3
+                    || input.settings.orders < 2
+                    || widest(disk, camera, slice, width, order) < f64::from(input.settings.pixel_error))
+            {
                 continue;
             }
             let first = circles.len() as u32;
@@ -111,8 +115,10 @@ impl DiskView {
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
-                let shares = (0..AZIMUTHS).flat_map(|azimuth| equal_shares(&seen, azimuth));
-                samples.extend(shares.map(|r| circle(disk, r, level, l, [order, 0, 0, 0])));
+                for azimuth in 0..AZIMUTHS {
+                    let shares = equal_shares(&seen, azimuth).into_iter();
+                    samples.extend(shares.map(|r| sample(disk, r, (order == 3).then(|| through_second(l, level, azimuth, r)))));
+                }
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
             if disk.config.gap <= 0.0 && order > close {
@@ -275,6 +281,25 @@ fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
     })
 }
 
+/// The azimuths that are tried, from the camera's, in rad: closest where the disk comes closest to the camera.
+fn azimuth(k: usize) -> f64 {
+    let share = (k as f64 + 0.5) / AZIMUTHS as f64;
+    PI * share * share
+}
+
+/// The radius at which light of the third image from radius `r` at one of the azimuths crosses the disk's plane in between, in r_s, half a turn before it would
+/// there: the camera is at radius `l` and the cosine of its height over the plane is `level`. Both ends wind from the photon sphere as the rays do that
+/// wind for ever, u + 1/3 = ((1 − ρ)/(1 + ρ))² with ρ growing by e for each radian (Chandrasekhar 1983, section 20); near it both ways add up.
+fn through_second(l: f64, level: f64, k: usize, r: f64) -> f64 {
+    let from_photon_sphere = |r: f64, turned: f64| {
+        let y = (1.0 / r + 1.0 / 3.0).sqrt();
+        let rho = (1.0 - y) / (1.0 + y) * (-turned).exp();
+        ((1.0 - rho) / (1.0 + rho)).powi(2) - 1.0
+    };
+    let angle = (azimuth(k).cos() * level).acos();
+    1.0 / (2.0 / 3.0 + from_photon_sphere(l, PI + angle) + from_photon_sphere(r, PI))
+}
+
 /// The width of the image of an order where it is widest, in pixels.
 fn widest(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -> f64 {
     let [inner, outer] = disk.gas.extent().map(|r| SeenCircle::new(disk, camera, slice, order, r));
@@ -315,9 +340,7 @@ impl SeenCircle {
         let n = camera.position / l;
         let level = (1.0 - n.z * n.z).max(0.0).sqrt();
         let places = std::array::from_fn(|k| {
-            // Closest where the disk comes closest to the camera.
-            let share = (k as f64 + 0.5) / AZIMUTHS as f64;
-            let (sine, cosine) = (PI * share * share).sin_cos();
+            let (sine, cosine) = azimuth(k).sin_cos();
             let (along, across) = (r * cosine * level, r * (n.z * cosine).hypot(sine));
             let ray = lens_lookup_at(slice, (along - l) as f32, across as f32, along as f32, order);
             DVec2::new(f64::from(ray.cos_psi), f64::from(ray.sin_psi)) * if ray.valid { f64::from(ray.delay) } else { f64::NAN }
@@ -379,6 +402,15 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     let round = TAU * end / l / pixel / LEAST_ARC;
     let count = (round.ceil() as usize).clamp(16.min(all), all);
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
+}
+
+/// A circle whose gas takes part in the mean of a thin image; light of the third comes `through` this radius of the second.
+fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
+    let radial = &disk.gas.radial;
+    let nearer = through.unwrap_or(r);
+    let [outward, along] = radial.momentum(nearer);
+    let depth = through.map_or(0.0, |r| radial.depth(r));
+    Circle { place: [depth, outward, along, nearer].map(|value| value as f32), ..circle(disk, r, 0.0, 0.0, [0; 4]) }
 }
 
 fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
