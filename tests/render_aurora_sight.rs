@@ -10,8 +10,8 @@ use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};
 
-use crate::render_pictures::surroundings;
 use crate::render_shaders::GPU;
+use crate::render_support::surroundings;
 
 const SIZE: [u32; 2] = [160, 90];
 

@@ -10,7 +10,7 @@ use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render_disk::{renderer, settings};
+use crate::render_support::{renderer, settings};
 
 const SIZE: [u32; 2] = [320, 180];
 

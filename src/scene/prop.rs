@@ -182,7 +182,6 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
             TextureName::Checker => texture::checker(),
             TextureName::Galaxy => texture::galaxy(),
         }),
-        ..Material::default()
     };
     Ok(Prop {
         name: entry.name.clone().unwrap_or_else(|| format!("prop {index}")),
