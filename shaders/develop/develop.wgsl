@@ -27,8 +27,24 @@ fn tone_curve(x: vec3<f32>) -> vec3<f32> {
     return toned + bleach * bleach * (vec3<f32>(1.0) - toned);
 }
 
+/// The picture, and once more for what smooths its outlines.
+struct Twice {
+    @location(0) shown: vec4<f32>,
+    @location(1) kept: vec4<f32>,
+}
+
+@fragment
+fn twice(in: Screen) -> Twice {
+    let colour = fragment_colour(in);
+    return Twice(colour, colour);
+}
+
 @fragment
 fn fragment(in: Screen) -> @location(0) vec4<f32> {
+    return fragment_colour(in);
+}
+
+fn fragment_colour(in: Screen) -> vec4<f32> {
     let light = textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb;
     let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
     let exposed = mix(light, glow, frame.light.w) * (adapted.x * frame.light.x);

@@ -10,6 +10,9 @@ use super::shaders::Pass;
 use super::targets::{Targets, target};
 use super::timing::Timing;
 
+/// Pixels along the side of a tile in which outlines are smoothed; as in shaders/develop/smooth.wgsl.
+const TILE: u32 = 16;
+
 /// The passes after the picture is drawn.
 #[derive(Debug)]
 pub struct Develop {
@@ -23,6 +26,7 @@ pub struct Develop {
     up: wgpu::RenderPipeline,
     meter: wgpu::ComputePipeline,
     develop: wgpu::RenderPipeline,
+    develop_twice: wgpu::RenderPipeline,
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
@@ -58,13 +62,18 @@ impl Develop {
         };
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let mixed = wgpu::BlendState::ALPHA_BLENDING;
-        let smooth_layout = layout(device, "smooth", fragment, &[Slot::Texture, Slot::Sampler, Slot::Depth]);
+        let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &[Slot::Texture, Slot::Sampler, Slot::Depth]);
         Develop {
             compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
             develop: pass("develop", Pass::Develop, "fragment", &develop_layout, output, None),
+            develop_twice: {
+                let shader = module(device, "develop", Pass::Develop);
+                let stage = Raster { vertex: "vertex", fragment: "twice", targets: &[(output, None), (output, None)], depth: None };
+                raster(device, "develop", &shader, stage, &[Some(frame_layout), None, Some(&develop_layout)])
+            },
             smooth: pass("smooth", Pass::Smooth, "fragment", &smooth_layout, output, None),
             output,
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
@@ -155,11 +164,30 @@ impl Develop {
                 &groups.sampled[level + 1],
             );
         }
-        let developed = if smooth { &groups.developed } else { output };
-        screen(encoder, timing.render("develop"), "develop", developed, true, &self.develop, frame, &groups.develop);
-        if smooth {
-            screen(encoder, timing.render("smooth"), "smooth", output, true, &self.smooth, frame, &groups.smooth);
+        if !smooth {
+            screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
+            return;
         }
+        let attachment = |view, load| {
+            let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+            Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
+        };
+        let fresh = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
+        let mut draw = |label, attachments: &[_], pipeline, group, corners, instances| {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some(label),
+                color_attachments: attachments,
+                timestamp_writes: timing.render(label),
+                ..Default::default()
+            });
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, frame, &[]);
+            pass.set_bind_group(2, group, &[]);
+            pass.draw(0..corners, 0..instances);
+        };
+        draw("develop", &[attachment(output, fresh), attachment(&groups.developed, fresh)], &self.develop_twice, &groups.develop, 3, 1);
+        let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
+        draw("smooth", &[attachment(output, wgpu::LoadOp::Load)], &self.smooth, &groups.smooth, 6, tiles);
     }
 }
 
