@@ -5,7 +5,6 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use glam::DVec3;
-use rayon::prelude::*;
 
 use super::eye::Eye;
 use super::lattice::Lattice;
@@ -215,11 +214,21 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     };
     let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
     let share = job.streaks.len().div_ceil(threads).max(1);
-    let parts: Vec<(Canvas, [f64; 2])> =
-        if variant.threads { job.streaks.par_chunks(share).map(part).collect() } else { vec![part(job.streaks)] };
+    // This thread takes the first part itself: the others alone have to be woken.
+    let mut parts: Vec<Option<(Canvas, [f64; 2])>> = std::iter::repeat_with(|| None).take(threads).collect();
+    rayon::in_place_scope(|scope| {
+        let mut shares = parts.iter_mut().zip(job.streaks.chunks(share));
+        let own = shares.next();
+        for (drawn, streaks) in shares {
+            scope.spawn(|_| *drawn = Some(part(streaks)));
+        }
+        if let Some((drawn, streaks)) = own {
+            *drawn = Some(part(streaks));
+        }
+    });
     let drawn = start.elapsed().as_secs_f64();
-    let times = parts.iter().fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
-    let canvas = parts.into_iter().map(|(canvas, _)| canvas).reduce(Canvas::merge);
+    let times = parts.iter().flatten().fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
+    let canvas = parts.into_iter().flatten().map(|(canvas, _)| canvas).reduce(Canvas::merge);
     let picture = canvas.map_or_else(|| Picture::new(job.eye.size), Canvas::picture);
     let total = start.elapsed().as_secs_f64();
     let walk = before + (drawn - before) * times[0] / (times[0] + times[1]).max(1e-12);
