@@ -487,3 +487,39 @@ fn a_small_picture_has_the_light_of_a_large_one() {
         assert!((0.9..1.1).contains(&(got / truth)), "{degrees}°: {:.3} of the light", got / truth);
     }
 }
+
+/// Gas of mean temperature has nearly no blue below 1,900 K, its hotter streaks have: a picture has the exact one's colour wherever the gas is cold. Compared by blocks of 8 × 8
+/// pixels, over which streaks that fall beside one another weigh nothing.
+#[test]
+fn cold_gas_has_the_colour_of_its_streaks() {
+    const SIDE: u32 = 8;
+    let size = [192, 104];
+    let mut renderer = renderer(size);
+    for (accretion_rate, degrees) in [(2.5e-5, 30.0), (2.5e-5, 75.0), (5e-6, 30.0)] {
+        let mut config = GameConfig::default();
+        config.disk.accretion_rate = accretion_rate;
+        let disk = Disk::new(config.disk.clone(), &config);
+        let pictures = drawn_and_exact(&mut renderer, &disk, camera(27.0, degrees, 60f64.to_radians()), size, 100.0, 2);
+        let blocks = pictures.map(|picture| {
+            let mut blocks = vec![[0.0f64; 3]; (size[0] * size[1] / (SIDE * SIDE)) as usize];
+            for (k, pixel) in picture.iter().enumerate() {
+                let [x, y] = [k as u32 % size[0] / SIDE, k as u32 / size[0] / SIDE];
+                let block = &mut blocks[(y * (size[0] / SIDE) + x) as usize];
+                (0..3).for_each(|c| block[c] += f64::from(pixel[c]));
+            }
+            blocks
+        });
+        let brightest = blocks[1].iter().map(|block| block[0]).fold(0.0, f64::max);
+        // Green and blue over red, off by in the mean over what of the picture is gas.
+        let shining = || blocks[0].iter().zip(&blocks[1]).filter(|(_, want)| want[0] > 1e-3 * brightest);
+        let off = [1, 2]
+            .map(|c| shining().map(|(got, want)| (got[c] / got[0] - want[c] / want[0]).abs()).sum::<f64>() / shining().count() as f64);
+        println!("{accretion_rate} from {degrees}°: green over red off by {:.3}, blue by {:.3}", off[0], off[1]);
+        assert!(
+            off[0] < 0.008 && off[1] < 0.008,
+            "{accretion_rate} from {degrees}°: green over red off by {:.3}, blue by {:.3}",
+            off[0],
+            off[1]
+        );
+    }
+}

@@ -10,6 +10,13 @@ pub const UNIT_TEMPERATURE: f64 = 5772.0;
 /// The least a channel has of the colour's luminance in [`table`], where logarithms are kept: less does not show beside the others.
 const LEAST_CHANNEL: f64 = 1e-4;
 
+/// Below this, in K, blue ends at the edge of sRGB and would be nothing from 1,900 K on, 7 % to 0 % of red. It falls on as between 2,500 and 3,000 K instead: ln(blue/red) is
+/// the first number less the second, in K, over T. That cannot be seen by itself (1.4 % of red at 1,900 K), but gas is lit by its mean temperature's light and that light's slope, and
+/// from none at all no hotter streak got its blue: they were yellow.
+const DIM_BLUE: f64 = 2500.0;
+/// See [`DIM_BLUE`].
+const TAIL: [f64; 2] = [2.255, 12_370.0];
+
 /// Second radiation constant hc/k in nm·K (CODATA 2018, exact).
 const C2: f64 = 1.438_776_877e7;
 /// First radiation constant for radiance 2hc², in W·m²/sr (CODATA 2018, exact).
@@ -56,7 +63,8 @@ pub fn unit_luminance() -> f64 {
 }
 
 /// Linear sRGB of a black body at `temperature` (K), in units in which its luminance at [`UNIT_TEMPERATURE`] is 1. Colours outside sRGB
-/// (below about 1,900 K) are brought in by adding grey at the same luminance. Zero for a temperature that is not positive.
+/// (below about 1,900 K) are brought in by adding grey at the same luminance, and blue goes on to fall as by Wien's law (see [`DIM_BLUE`]). Zero for a
+/// temperature that is not positive.
 pub fn blackbody_rgb(temperature: f64) -> [f64; 3] {
     if !(temperature > 0.0 && temperature.is_finite()) {
         return [0.0; 3];
@@ -65,7 +73,9 @@ pub fn blackbody_rgb(temperature: f64) -> [f64; 3] {
     if y <= 0.0 {
         return [0.0; 3];
     }
-    into_gamut(xyz_to_rgb([x / y, 1.0, z / y])).map(|channel| channel * y / unit_luminance())
+    let [r, g, b] = into_gamut(xyz_to_rgb([x / y, 1.0, z / y]));
+    let dim = if temperature < DIM_BLUE { r * (TAIL[0] - TAIL[1] / temperature).exp() } else { 0.0 };
+    [r, g, b.max(dim)].map(|channel| channel * y / unit_luminance())
 }
 
 /// Linear sRGB (IEC 61966-2-1, white D65) of CIE XYZ; negative where the colour is outside sRGB.

@@ -159,22 +159,22 @@ config! {
         exposure_speed: f64 = 2.0, number(0.05, 60.0), "stops per second", "how fast exposure adapts";
         exposure_key: f64 = 0.35, number(0.01, 1.0), "", "light that what shines in the picture is brought to; 1 is white";
         antialiasing: bool = true, Switch, "", "outlines of ships and other bodies are smoothed";
-        bloom: f64 = 0.25, number(0.0, 1.0), "", "share of light spread by the lens";
+        bloom: f64 = 0.3, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
     }
     /// Stars and Milky Way.
     sky: Sky {
-        star_brightness: f64 = 0.5, number(0.0, 1000.0), "", "factor on the flux of every star";
+        star_brightness: f64 = 0.35, number(0.0, 1000.0), "", "factor on the flux of every star";
         star_size: f64 = 1.1, number(0.5, 6.0), "pixels", "radius of a star's spot on the screen";
         faintest_magnitude: f64 = 12.0, number(0.0, 16.0), "magnitudes", "fainter stars are left out";
-        milky_way_brightness: f64 = 0.5, number(0.0, 1000.0), "", "factor on the Milky Way";
+        milky_way_brightness: f64 = 0.4, number(0.0, 1000.0), "", "factor on the Milky Way";
     }
     /// The accretion disk.
     disk: Disk {
         representation: String = "arcs", Choice(&["arcs", "sprites", "polygons", "polygons-at-rest"]), "", "what the disk is made of";
         inner: f64 = 3.0, number(3.0, 50.0), "r_s", "inner edge of the orbits; from 3, the last stable one, gas goes on falling in";
         outer: f64 = 12.0, number(3.1, 200.0), "r_s", "outer edge";
-        accretion_rate: f64 = 6e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
+        accretion_rate: f64 = 2.5e-5, number(1e-9, 10.0), "Eddington rates", "matter falling in; sets the temperature";
         efficiency: f64 = 0.0572, number(0.001, 0.5), "", "share of the accreted rest energy that is radiated";
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
         sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";
@@ -183,8 +183,8 @@ config! {
         width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius, seen from within the disk";
-        exposure_key: f64 = 0.8, number(0.01, 8.0), "", "light that what shines is brought to where there is a disk; 1 is white";
-        opacity: f64 = 0.8, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
+        exposure_key: f64 = 1.1, number(0.01, 8.0), "", "light that what shines is brought to where there is a disk; 1 is white";
+        opacity: f64 = 0.95, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
     }

@@ -30,9 +30,9 @@ pub const RENEWAL: f64 = 40.0;
 pub const SHEARED: f64 = 20.0;
 /// The height of the pattern in ln r: after a factor of 16 in radius it begins anew. More than a disk shows at once with detail.
 pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
-/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). A disk of a few thousand kelvin outshines a
+/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). A disk of less than three thousand kelvin outshines a
 /// lit ship a few times, and stars show beside it.
-pub const DISK_UNIT: f64 = 4.0;
+pub const DISK_UNIT: f64 = 24.0;
 /// Octaves for close looks: the pattern again, this many times finer, this strong.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);
 /// From one generation's place in the pattern to the next one's, in turns and heights: powers of the plastic number's inverse (Roberts 2018), of
