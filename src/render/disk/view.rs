@@ -32,7 +32,7 @@ struct Straight {
 /// fifth more.
 const FROM_FAR: Straight = Straight { across: 0.05, along: 4.0, light: 0.02, stopped: 0.03 };
 /// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
-const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, stopped: 0.03 };
+const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, light: 0.015, stopped: 0.01 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/types.wgsl has it.
 const MEAN: [f64; 2] = [0.75, 2.0];

@@ -12,7 +12,7 @@ pub const LAST_ORBIT: f64 = 3.0;
 const PLUNGE: (f64, f64) = (0.942_809_041_582_063_4, 1.732_050_807_568_877_2);
 /// Where the falling gas ends to be drawn, in r_s: it is thinner there than a hundredth of the disk and redshifted away.
 const PLUNGE_END: f64 = 1.25;
-/// Speed at which gas drifts in at the last stable orbit, in c. Falling gas thins out as its speed grows beyond it.
+/// Speed at which gas drifts in at the last stable orbit, in c: slow, as friction lets it. Falling gas thins out as its speed grows beyond it, and what is behind shows through.
 const DRIFT: f64 = 0.002;
 /// Share of the outer part of the disk over which it thins out.
 const OUTER_FADE: f64 = 0.35;
