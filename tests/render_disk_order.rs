@@ -115,8 +115,9 @@ fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
             // Third images of large balls are arcs far narrower than a pixel: what crosses the plane before and beyond them at a pixel's middle is not what does in them.
             let seen = |left: &&Left| left.order <= orders && (left.order < 3 || size < 1.0);
             for left in left_at_all(&mut renderer, eye, degrees, size, &config).iter().filter(seen) {
-                // The exact gas is that at the middle of a pixel, the drawn one the mean over the pixel where the disk's image is as thin, as those of order 3 are.
-                let off = if left.order == 3 { 0.08 } else { 0.04 };
+                // The exact gas is that at the middle of a pixel, the drawn one the mean over the pixel where the disk's image is as thin, as those of order 3 are, and of
+                // falling gas, which thins out within a tenth of r_s, the mean between two circles.
+                let off = if left.order > 1 { 0.08 } else { 0.04 };
                 let place = PLACES[left.number - 1];
                 println!("{representation} from {eye} under {degrees}°, ball of {size} at {place}: {left:?}");
                 assert!((left.drawn - left.exact).abs() < off, "{representation} from {eye}, ball of {size} at {place}: {left:?}");
