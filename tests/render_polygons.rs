@@ -2,16 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
+use glam::DVec3;
 use lensrunner::measure::disk;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::FrameInput;
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::readback;
+use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::polygons::rings;
 
 use crate::render_shaders::GPU;
-use crate::render_support::{camera, eye, renderer, settings};
+use crate::render_support::{camera, eye, renderer, settings, total};
 
 fn polygons(representation: &str) -> Disk {
     let mut config = GameConfig::default();
@@ -85,5 +87,34 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
         println!("{degrees}°: {:.1} dB, {holes} holes", error.psnr);
         assert!(holes == 0, "{degrees}°: {holes} holes");
         assert!(error.psnr > 30.0, "{degrees}°: {:.1} dB", error.psnr);
+    }
+}
+
+/// Of a disk seen exactly edge on light comes round the hole on all sides, from the places behind it. Where the axis lay in the triangles, that is from nearly the plane on, they had no
+/// image or a part of it; and rings that turn had all their sides taken for outlines from there, so that most of their vertices found no room.
+#[test]
+fn polygons_are_seen_from_within_their_plane() {
+    let size = [480, 270];
+    let mut renderer = renderer(size);
+    let mut light = |representation: &str, height: f64| {
+        renderer.set_disk(Some(polygons(representation)));
+        let position = DVec3::new(0.0, -20.0, height);
+        let camera = static_camera(position, -position, DVec3::Z, 60f64.to_radians());
+        // The game's budget.
+        let settings = Settings { pixel_error: GameConfig::default().render.pixel_error_budget as f32, ..settings() };
+        let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
+        total(&renderer.picture(&input, false).unwrap())
+    };
+    let arcs = light("arcs", 0.0);
+    // Chords, and the height at which they are drawn. Not all vertices of rings that turn find room from here; which do not is chance.
+    for (representation, off) in [("polygons-at-rest", 0.03), ("polygons", 0.12)] {
+        let in_plane = light(representation, 0.0);
+        println!("{representation}: {:.3} of the light of arcs from within the plane", in_plane / arcs);
+        assert!((in_plane / arcs - 1.0).abs() < off, "{representation}: {in_plane}, arcs {arcs}");
+        for height in [1e-4, -1e-4, 0.01, 0.03] {
+            let part = light(representation, height) / in_plane;
+            println!("{representation}: {part:.3} of that from {height} r_s");
+            assert!((part - 1.0).abs() < off, "{representation}: {part} of the light within the plane from {height} r_s");
+        }
     }
 }

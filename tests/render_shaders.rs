@@ -132,9 +132,9 @@ fn the_panorama_is_the_same_in_both_languages() {
 
 #[test]
 fn coverage_is_the_same_in_both_languages_and_right_on_average() {
-    use lensrunner::render::develop::coverage::covered;
+    use lensrunner::render::develop::coverage::{before_later, covered};
     let body = "
-    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(u32(row.z), u32(row.w)), 0.0, 0.0);";
+    twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(u32(row.z), u32(row.w)), before_later(row.x / 3.0, row.y), 0.0);";
     let mut random = StdRng::seed_from_u64(9);
     let rows: Vec<[f32; 4]> = (0..4000u32)
         .map(|i| {
@@ -146,6 +146,12 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
     for (row, got) in rows.iter().zip(&out) {
         let want = covered(row[0], row[1]);
         assert!(close(got[0], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[0]);
+        let want = before_later(row[0] / 3.0, row[1]);
+        assert!(close(got[2], want, 2e-4), "{row:?}: {} on the GPU, {want} in Rust", got[2]);
+    }
+    // Of two parts of an image, one laid over the other, each keeps its own.
+    for [part, later] in [[0.3, 0.5], [0.0, 0.4], [0.4, 0.6], [0.2, 0.0]] {
+        assert!((before_later(part, later) * (1.0 - later) - part).abs() < 1e-6, "{part} before {later}");
     }
     // One image alone covers what its triangles add up to; the signs are even.
     assert!([0.1f32, 0.7, 1.0, 1.3].iter().all(|&c| (covered(c, -c) - c.min(1.0)).abs() < 1e-6));

@@ -15,7 +15,9 @@ fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     if sum.a <= 0.0 {
         discard;
     }
-    let part = covered(sum.a, textureLoad(signed_source, vec2<i32>(position.xy), 0).r);
+    let coverages = textureLoad(signed_source, vec2<i32>(position.xy), 0).rg;
+    let part = covered(sum.a, coverages.x);
+    let weight = before_later(part, coverages.y);
     // Triangles that fold over are taken off again, which rounding may overdo.
-    return vec4<f32>(max(sum.rgb, vec3<f32>(0.0)) * (part / sum.a), part);
+    return vec4<f32>(max(sum.rgb, vec3<f32>(0.0)) * (weight / sum.a), weight);
 }

@@ -19,3 +19,9 @@ fn covered(sum: f32, signed: f32) -> f32 {
     let each = min(sum / count, 1.0);
     return 1.0 - pow(1.0 - each, count);
 }
+
+/// What a part of an image takes of a pixel, of which it covers `part`, if the nearer part of the same image will cover `later` of it. The two lie side by side, but that
+/// one is laid over this one, with what of the disk is between them, and takes `later` of all that is there: so this one takes as much more as leaves its own part in the end.
+fn before_later(part: f32, later: f32) -> f32 {
+    return min(part / max(1.0 - max(later, 0.0), 1e-3), 1.0);
+}

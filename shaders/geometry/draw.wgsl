@@ -12,7 +12,7 @@ struct SeenInput {
 @vertex
 fn opaque_vertex(in: SeenInput) -> Surface {
     let vertex = SeenVertex(in.apparent, in.normal, in.leaving, bitcast<vec4<f32>>(in.surface), in.fan);
-    return surface_of(vertex, clip_position(vertex.apparent.xyz), 1.0);
+    return surface_of(vertex, clip_position(vertex.apparent.xyz), vec2<f32>(1.0, 0.0));
 }
 
 @fragment
@@ -36,30 +36,32 @@ fn layers_fragment(in: Surface) -> Layers {
     if hidden(in) {
         discard;
     }
-    return Layers(vec4<f32>(f32(in.which.x), f32(in.which.y), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage, 0.0));
+    return Layers(vec4<f32>(f32(in.which.x), f32(in.which.y), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage.x, 0.0));
 }
 
 @vertex
 fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_surface(index, 1.0);
+    return thin_surface(index, vec2<f32>(1.0, 0.0));
 }
 
-fn thin_surface(index: u32, share: f32) -> Surface {
+fn thin_surface(index: u32, shares: vec2<f32>) -> Surface {
     let corner = thin[index];
-    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * share);
+    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * shares);
 }
 
-/// The part of those alone whose light crosses the disk's plane so often on its way.
+/// The part of those alone whose light crosses the disk's plane so often on its way; and that of the same images whose light crosses it once less.
 fn thin_across(index: u32, crossings: f32) -> Surface {
     let data = thin[index].data;
-    let share = select(0.0, data.w, crossings == data.z) + select(0.0, 1.0 - data.w, crossings == data.z - 1.0);
-    if share == 0.0 {
+    var shares = vec2<f32>(0.0);
+    if crossings == data.z { shares = vec2<f32>(data.w, 1.0 - data.w); }
+    if crossings == data.z - 1.0 { shares.x = 1.0 - data.w; }
+    if all(shares == vec2<f32>(0.0)) {
         // All three corners at one place, beyond the nearest depth.
         var nothing: Surface;
         nothing.position = vec4<f32>(0.0, 0.0, 2.0, 1.0);
         return nothing;
     }
-    return thin_surface(index, share);
+    return thin_surface(index, shares);
 }
 
 @vertex
@@ -85,8 +87,8 @@ fn thin_vertex_3(@builtin(vertex_index) index: u32) -> Surface {
 struct Thin {
     /// Colour times coverage, and coverage.
     @location(0) light: vec4<f32>,
-    /// Coverage with the sign of its image.
-    @location(1) signed_coverage: f32,
+    /// Coverage with the sign of its image; and what the nearer part of the same image covers.
+    @location(1) coverages: vec2<f32>,
 }
 
 /// All is added, and the sum is laid over the picture once. The order does not matter.
@@ -95,7 +97,8 @@ fn thin_fragment(in: Surface) -> Thin {
     if hidden(in) {
         discard;
     }
-    return Thin(vec4<f32>(shaded(in) * in.coverage, in.coverage), in.coverage * coverage_sign(in.which.x, in.which.y));
+    let covers = in.coverage.x;
+    return Thin(vec4<f32>(shaded(in) * covers, covers), vec2<f32>(covers * coverage_sign(in.which.x, in.which.y), in.coverage.y));
 }
 
 /// Geometry inside the horizon is not seen from outside.

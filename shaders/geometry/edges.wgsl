@@ -41,7 +41,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
     let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
     let alone = edge.z == ALONE;
-    let limb = is_rim(placement, alone, p, q) || (!alone && on_limb(placement, edge, leaving_a, leaving_b, a.xyz));
+    let limb = is_rim(placement, alone, p, q) || (!alone && MAY_FOLD && on_limb(placement, edge, leaving_a, leaving_b, a.xyz));
     let closer = select(1.0, limb_strictness(placement), limb);
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;

@@ -19,6 +19,9 @@ fn velocity_at(placement: Placement, position: vec3<f32>) -> vec3<f32> {
     return placement.spin.z * vec3<f32>(-position.y, position.x, 0.0);
 }
 
+/// Whether an edge inside the surface may be an outline of its image: no light but that within the plane grazes a plane, so a flat ring has no outline but its rims.
+const MAY_FOLD: bool = false;
+
 /// Whether the disk ends at an edge of the model, which is `alone` and runs from `a` to `b`: where one ring slides along another it goes on.
 fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     let radii = vec2<f32>(length(a.xy), length(b.xy));

@@ -19,7 +19,8 @@ struct Surface {
     @location(0) normal: vec4<f32>,
     @location(1) leaving: vec4<f32>,
     @location(2) uv: vec3<f32>,
-    @location(3) coverage: f32,
+    /// What it covers; y: what the nearer part of the same image covers, which is laid over it later.
+    @location(3) coverage: vec2<f32>,
     @location(4) fan: vec3<f32>,
     /// Object id and image order; z: texture layer + 1.
     @location(5) @interpolate(flat) which: vec3<u32>,
@@ -33,7 +34,7 @@ struct Surface {
     @location(10) @interpolate(flat) emissive: vec4<f32>,
 }
 
-fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: f32) -> Surface {
+fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
     let placement = placement_at(bitcast<u32>(vertex.surface.z));
     let material = bitcast<u32>(vertex.surface.w);
     let ids = placement.ids;

@@ -36,6 +36,9 @@ fn velocity_at(placement: Placement, position: vec3<f32>) -> vec3<f32> {
     return placement.velocity.xyz;
 }
 
+/// Whether an edge inside the surface may be an outline of its image.
+const MAY_FOLD: bool = true;
+
 /// Whether the surface ends at an edge of the model, which is `alone` and runs from `a` to `b`.
 fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     return alone;

@@ -278,8 +278,8 @@ pub struct Raster<'a> {
 
 /// The format of the picture before it is developed: linear light.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Of thin triangles' coverage with signs: halves, so that one image alone gives the same as its sum without.
-pub const SIGNED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
+/// Of thin triangles' coverage with signs, and that of the nearer parts of the same images: halves, so that one image alone gives the same as its sum without.
+pub const SIGNED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// The format of depth, reversed: 1 at the near distance, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 

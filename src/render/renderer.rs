@@ -343,9 +343,9 @@ impl Renderer {
         };
         let thin = if !layers.is_empty() && self.geometry.has_thin() {
             let sums = readback::texture(&self.gpu, &self.targets.thin_texture, 8)?;
-            let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 2)?;
+            let signed = readback::texture(&self.gpu, &self.targets.thin_signed_texture, 4)?;
             let number = |bytes: &[u8]| half::f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
-            sums.chunks_exact(8).zip(signed.chunks_exact(2)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
+            sums.chunks_exact(8).zip(signed.chunks_exact(4)).map(|(sum, signed)| covered(number(&sum[6..]), number(signed))).collect()
         } else {
             Vec::new()
         };

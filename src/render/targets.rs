@@ -37,9 +37,9 @@ pub struct Targets {
     pub thin_texture: wgpu::Texture,
     /// Sum of thin triangles.
     pub thin: wgpu::TextureView,
-    /// Sum of their coverage with signs, as a texture to copy from.
+    /// Sums of their coverage with signs and of what is laid over them later of the same images, as a texture to copy from.
     pub thin_signed_texture: wgpu::Texture,
-    /// Sum of their coverage with signs.
+    /// Sums of their coverage with signs and of what is laid over them later of the same images.
     pub thin_signed: wgpu::TextureView,
     /// The picture at a quarter of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,

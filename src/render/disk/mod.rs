@@ -160,9 +160,9 @@ impl DiskPasses {
             self.straight = Some(Box::new(polygons));
         }
         match &mut self.representation {
-            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input)),
+            _ if self.is_straight => self.straight.iter_mut().for_each(|polygons| polygons.prepare(gpu, input, width)),
             Representation::Arcs => self.arcs.prepare(gpu, &mut view, &self.frame),
-            Representation::Polygons(polygons) => polygons.prepare(gpu, input),
+            Representation::Polygons(polygons) => polygons.prepare(gpu, input, width),
             Representation::Sprites(sprites) => sprites.prepare(&view),
         }
         gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&view.frame));

@@ -3,10 +3,11 @@
 
 use std::f64::consts::TAU;
 
+use glam::DVec3;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::frame::FrameInput;
+use crate::render::frame::{Camera, FrameInput};
 use crate::render::geometry::Geometry;
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::method::Method;
@@ -27,6 +28,8 @@ pub struct PolygonPass {
     geometry: Geometry,
     models: Models,
     parts: Vec<Part>,
+    /// The radii between which there are triangles, in r_s.
+    extent: [f64; 2],
     seen_layout: wgpu::BindGroupLayout,
     draw: wgpu::RenderPipeline,
     radial: wgpu::Buffer,
@@ -41,6 +44,21 @@ struct Part {
     /// dφ/dT in c/r_s; None at rest.
     rate: Option<f64>,
     rims: [Option<f64>; 2],
+}
+
+/// How far from the axis of hole and camera the triangles are kept behind the hole, in pixels: what is nearer than a tenth of one is on it, as in
+/// shaders/geometry/patch.wgsl.
+const OFF_AXIS: f64 = 0.12;
+
+/// The height over the plane z = 0 at which the triangles are drawn, in r_s: none but for a camera that is nearly in that plane. From behind the hole light comes round it
+/// on all sides, and of a disk seen edge on that is all of the image; but where the axis lies in the triangles there is no place from which it could be opened. So
+/// they are kept beside the axis, on the side on which they are anyway: that of the camera.
+fn beside_the_axis(camera: &Camera, width: u32, extent: [f64; 2]) -> f64 {
+    let (l, z) = (camera.radius(), camera.position.z);
+    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let missing = extent.map(|r| OFF_AXIS * pixel * (l + r) - z.abs() * r / l);
+    let height = missing[0].max(missing[1]).max(0.0);
+    if z < 0.0 { -height } else { height }
 }
 
 impl PolygonPass {
@@ -70,6 +88,7 @@ impl PolygonPass {
             geometry: Geometry::new(device, frame_layout, worldlines),
             models,
             parts,
+            extent: disk.gas.extent(),
             seen_layout,
             draw,
             radial,
@@ -83,9 +102,11 @@ impl PolygonPass {
         self.geometry.set_method(&gpu.device, frame_layout, method, inside);
     }
 
-    /// Uploads what the frame needs.
-    pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput) {
-        let p = -input.camera.position;
+    /// Uploads what the frame needs, for a picture `width` pixels wide.
+    pub fn prepare(&mut self, gpu: &Gpu, input: &FrameInput, width: u32) {
+        let bends = input.settings.method.bends();
+        let height = if bends { beside_the_axis(&input.camera, width, self.extent) } else { 0.0 };
+        let p = height * DVec3::Z - input.camera.position;
         // T less T₀: about as long as light from the hole's surroundings takes.
         let elapsed = input.camera.radius();
         let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
@@ -100,6 +121,7 @@ impl PolygonPass {
                 let rate = part.rate.unwrap_or_default();
                 let placement = Placement {
                     offset,
+                    position: [0.0, 0.0, height as f32, 0.0],
                     velocity: [0.0, 0.0, 0.0, if part.rate.is_some() { 1.0 } else { 0.0 }],
                     momentum,
                     shape: unit,
