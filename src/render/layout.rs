@@ -125,8 +125,9 @@ impl Growing {
         if size <= self.buffer.size() {
             return false;
         }
-        // A quarter more than asked, so that a slow growth does not make a new buffer each frame.
-        self.buffer = buffer(device, self.label, size + size / 4, self.usage);
+        // A quarter more than asked, so that a slow growth does not make a new buffer each frame; but no more than may be bound.
+        let most = device.limits().max_storage_buffer_binding_size;
+        self.buffer = buffer(device, self.label, (size + size / 4).min(most.max(size)), self.usage);
         true
     }
 

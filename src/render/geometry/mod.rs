@@ -24,8 +24,10 @@ const REFINE_PASSES: u32 = 11;
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at edges;
-/// blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models.
-fn room(budget: u32, vertices: u32, triangles: u32) -> Capacity {
+/// blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than `most` bytes, which
+/// the device allows, as long as the models fit: seen vertices are what takes the most.
+fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
+    let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
 }
 
@@ -189,7 +191,7 @@ impl Geometry {
             sampler,
             groups: None,
             thin_across: [false; 4],
-            capacity: room(0, 0, 0),
+            capacity: room(0, 0, 0, 0),
         }
     }
 
@@ -251,8 +253,8 @@ impl Geometry {
             let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
             self.thin_across[range].fill(true);
         }
-        self.capacity = room(budget, vertices, triangles);
         let device = &gpu.device;
+        self.capacity = room(budget, vertices, triangles, device.limits().max_storage_buffer_binding_size);
         let mut replaced = self.placements.write(gpu, &placements);
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
             let count = list.len() as u32;
