@@ -5,6 +5,7 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
+use crate::scene::GameConfig;
 use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
@@ -27,12 +28,21 @@ pub struct Seat {
     pub bare: bool,
     /// The dev overlay is on.
     pub overlay: bool,
+    /// The flight assist as the player switched it in this chase; None: as it is configured.
+    pub assist: Option<bool>,
     /// The assist has taken the thrust to keep off the hole.
     pub avoiding: bool,
     /// The autopilot was asked for on the command line.
     pub always_autopilot: bool,
     /// How the camera follows.
     pub follower: Follower,
+}
+
+impl Seat {
+    /// Whether the assist is on: as the player switched it, else as `config` says.
+    pub fn assisted(&self, config: &GameConfig) -> bool {
+        self.assist.unwrap_or(config.assist.enabled)
+    }
 }
 
 /// The order of what the game does in a frame.
@@ -74,6 +84,7 @@ fn begin(world: &mut World, screen: Screen) {
     let mut player = world.resource_mut::<Seat>();
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
+    player.assist = None;
     player.avoiding = false;
     let manual = !player.autopilot;
     set_manual(world, manual);
@@ -124,7 +135,7 @@ fn read_keys(
         player.bare = !player.bare;
     }
     if hands.pushed("toggle_assist") {
-        session.config.assist.enabled = !session.config.assist.enabled;
+        player.assist = Some(!player.assisted(&session.config));
     }
     if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
@@ -208,7 +219,7 @@ fn fly_by_hand(
         stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);
         let config = &session.config;
         player.avoiding = false;
-        controls.0 = if config.assist.enabled {
+        controls.0 = if player.assisted(config) {
             let help = assisted(&motion.0, &stick, engine, Reference::Orbit, &AssistSettings::from(config));
             player.avoiding = help.avoiding;
             help.command
@@ -289,6 +300,27 @@ mod tests {
         push(&mut app, KeyCode::KeyR);
         assert!(time(&app) < 0.5 * late, "{} {late}", time(&app));
         assert_eq!(screen(&app), Screen::Playing);
+    }
+
+    /// The assist switched off is off for this chase, and the file's word when it changes.
+    #[test]
+    fn a_new_chase_has_the_configured_assist() {
+        let assisted = |app: &App| app.world().resource::<Seat>().assisted(&app.world().resource::<Session>().config);
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        assert!(assisted(&app));
+        push(&mut app, KeyCode::KeyZ);
+        assert!(!assisted(&app));
+        push(&mut app, KeyCode::KeyR);
+        assert!(assisted(&app), "as configured");
+        push(&mut app, KeyCode::KeyZ);
+        app.world_mut().resource_mut::<Session>().config.assist.enabled = false;
+        app.update();
+        push(&mut app, KeyCode::KeyZ);
+        assert!(assisted(&app), "switched on where off is configured");
+        app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
+        app.update();
+        assert!(app.world().resource::<Seat>().assist.is_none(), "a changed configuration goes before the key");
     }
 
     #[test]

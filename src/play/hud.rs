@@ -199,7 +199,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
         );
     }
 
-    let assist = if session.config.assist.enabled { "ASSIST" } else { "FREE FLIGHT" };
+    let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
     let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
     let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
