@@ -12,6 +12,7 @@ use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimS
 use crate::spacetime::matter::gamma;
 
 use super::camera::{Follower, View};
+use super::gaze::Gaze;
 use super::input::{Bindings, Hands, MouseTurn};
 use super::record;
 use super::screens::{Screen, Wish, answer};
@@ -36,6 +37,10 @@ pub struct Seat {
     pub always_autopilot: bool,
     /// How the camera follows.
     pub follower: Follower,
+    /// The key that turns the camera to the target is held.
+    pub looking: bool,
+    /// How far the camera has turned to the target.
+    pub gaze: Gaze,
 }
 
 impl Seat {
@@ -84,6 +89,7 @@ fn begin(world: &mut World, screen: Screen) {
     let mut player = world.resource_mut::<Seat>();
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
+    player.gaze = Gaze::default();
     player.assist = None;
     player.avoiding = false;
     let manual = !player.autopilot;
@@ -111,7 +117,9 @@ fn read_keys(
     if hands.pushed("screenshot") {
         commands.queue(record::screenshot);
     }
-    if typing.is_some_and(|typing| typing.wants_keyboard_input()) {
+    let typing = typing.is_some_and(|typing| typing.wants_keyboard_input());
+    player.looking = !typing && hands.holds("look_at_target");
+    if typing {
         return;
     }
     let enter = keys.just_pressed(KeyCode::Enter) || keys.just_pressed(KeyCode::NumpadEnter);
@@ -321,6 +329,22 @@ mod tests {
         app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
         app.update();
         assert!(app.world().resource::<Seat>().assist.is_none(), "a changed configuration goes before the key");
+    }
+
+    #[test]
+    fn one_looks_at_the_target_while_the_key_is_held() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        let looking = |app: &App| app.world().resource::<Seat>().looking;
+        assert!(!looking(&app));
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyV);
+        for _ in 0..3 {
+            app.update();
+            assert!(looking(&app));
+        }
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyV);
+        app.update();
+        assert!(!looking(&app));
     }
 
     #[test]

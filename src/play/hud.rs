@@ -201,7 +201,11 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
 
     let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
-    let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
+    let view = match player.view {
+        _ if player.gaze.aside() => "at the target",
+        View::Cockpit => "cockpit",
+        View::ThirdPerson => "third person",
+    };
     let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
     let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };

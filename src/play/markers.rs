@@ -61,8 +61,11 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
     let before = taken.len();
     let mut board = Board { painter, rect, taken, names: Vec::new() };
-    reticle(painter, rect.center());
-    board.takes(rect.center(), 18.0);
+    // It says where the ship points, which is not ahead while one looks aside.
+    if !panel.aside {
+        reticle(painter, rect.center());
+        board.takes(rect.center(), 18.0);
+    }
 
     let [first, second] = panel.images.map(|image| image.map(|image| (find(image.direction), image.age)));
     let truth = panel.truth.map(find);

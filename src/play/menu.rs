@@ -104,12 +104,12 @@ fn controls(ui: &mut Ui, session: &Session) {
         ("Up, down, full thrust", format!("{}  {}  {}", key(&keys.thrust_up), key(&keys.thrust_down), key(&keys.boost))),
         ("Turn", "mouse or arrow keys".to_owned()),
         ("Roll", format!("{}  {}", key(&keys.roll_left), key(&keys.roll_right))),
+        ("Assist, autopilot", format!("{}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot))),
+        ("Camera, look at the target", format!("{}  {} (hold)", key(&keys.toggle_camera), key(&keys.look_at_target))),
         (
-            "Assist, autopilot, camera",
-            format!("{}  {}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot), key(&keys.toggle_camera)),
+            "Slower, faster, pause, start again",
+            format!("{}  {}  {}  {}", key(&keys.slower), key(&keys.faster), key(&keys.pause), key(&keys.restart)),
         ),
-        ("Slower, faster", format!("{}  {}", key(&keys.slower), key(&keys.faster))),
-        ("Pause, start again", format!("{}  {}", key(&keys.pause), key(&keys.restart))),
         ("HUD, dev overlay, picture", format!("{}  {}  {}", key(&keys.toggle_hud), key(&keys.toggle_overlay), key(&keys.screenshot))),
     ];
     egui::Grid::new("controls").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {

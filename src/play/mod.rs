@@ -9,6 +9,7 @@ pub mod contestant;
 pub mod demonstration;
 pub mod director;
 pub mod game;
+pub mod gaze;
 pub mod hud;
 pub mod input;
 pub mod instruments;
