@@ -33,6 +33,8 @@ pub struct Seat {
     pub assist: Option<bool>,
     /// The assist has taken the thrust to keep off the hole.
     pub avoiding: bool,
+    /// Who has flown in this chase.
+    pub flown: Flown,
     /// The autopilot was asked for on the command line.
     pub always_autopilot: bool,
     /// How the camera follows.
@@ -41,6 +43,15 @@ pub struct Seat {
     pub looking: bool,
     /// How far the camera has turned to the target.
     pub gaze: Gaze,
+}
+
+/// Who has had a ship's controls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flown {
+    /// The player, by hand.
+    pub by_hand: bool,
+    /// The autopilot.
+    pub by_autopilot: bool,
 }
 
 impl Seat {
@@ -72,7 +83,7 @@ impl Plugin for GamePlugin {
             .configure_sets(Update, (GameSet::Keys, GameSet::Answer).chain())
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_wishes, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
-            .add_systems(FixedUpdate, fly_by_hand.in_set(SimSet::Input));
+            .add_systems(FixedUpdate, (fly_by_hand, note_pilot).in_set(SimSet::Input));
     }
 }
 
@@ -90,6 +101,7 @@ fn begin(world: &mut World, screen: Screen) {
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
     player.gaze = Gaze::default();
+    player.flown = Flown::default();
     player.assist = None;
     player.avoiding = false;
     let manual = !player.autopilot;
@@ -203,6 +215,13 @@ fn run_time(
     time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
     let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
     if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
+}
+
+/// Keeps who flies, for the result to say.
+fn note_pilot(mut player: ResMut<Seat>) {
+    let autopilot = player.autopilot;
+    player.flown.by_autopilot |= autopilot;
+    player.flown.by_hand |= !autopilot;
 }
 
 /// The ship that the player flies by hand.
@@ -375,6 +394,21 @@ mod tests {
         assert!(app.world().resource::<Seat>().autopilot);
         let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
         assert_eq!(manual.iter(app.world()).count(), 0);
+    }
+
+    #[test]
+    fn who_flew_is_kept_for_the_chase() {
+        let mut app = game();
+        let flown = |app: &App| app.world().resource::<Seat>().flown;
+        push(&mut app, KeyCode::Enter);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: false });
+        push(&mut app, KeyCode::KeyP);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: true });
+        push(&mut app, KeyCode::KeyR);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: false });
     }
 
     #[test]

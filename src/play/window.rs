@@ -112,7 +112,7 @@ fn spawn_camera(mut commands: Commands) {
 }
 
 /// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the title card is as high.
-const INTERFACE: [f32; 2] = [900.0, 620.0];
+pub(super) const INTERFACE: [f32; 2] = [900.0, 620.0];
 
 fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: EguiContexts) {
     let Some(window) = windows.iter().next() else { return };
