@@ -157,6 +157,11 @@ pub fn names() -> Vec<String> {
     names
 }
 
+/// Help for an argument that takes a scene: what it is, and the names there are.
+pub fn help(what: &str) -> String {
+    format!("{what}\n\nScenes: {}", names().join(", "))
+}
+
 fn scenes_folder() -> PathBuf {
     assets_folder().join("scenes")
 }
