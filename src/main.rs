@@ -122,7 +122,7 @@ struct TraceArgs {
 struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
     #[arg(long, value_name = "NAME|FILE|all")]
-    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times."))]
+    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
     scene: String,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]

@@ -30,7 +30,7 @@ pub use assembly::{Assembly, Body, Object};
 pub use camera::{Camera, Mount, picture_size};
 pub use config::GameConfig;
 pub use config_fields::METHODS;
-pub use error::{Complaint, ConfigError, SceneError};
+pub use error::{Complaint, Complaints, ConfigError, SceneError};
 pub use load::{Scene, assets_folder, help, load, names};
 pub use model::{Image, Material, Model, Vertex};
 pub use planet::{Planet, SkySwitches};
