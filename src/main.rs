@@ -52,6 +52,7 @@ enum Command {
 struct ShotArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
     scene: String,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
@@ -79,6 +80,7 @@ struct ShotArgs {
 struct TraceArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
     scene: String,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
@@ -120,6 +122,7 @@ struct TraceArgs {
 struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
     #[arg(long, value_name = "NAME|FILE|all")]
+    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
     scene: String,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
@@ -152,6 +155,7 @@ struct CompareArgs {
 #[derive(Args)]
 struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
     scene: String,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]

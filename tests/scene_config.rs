@@ -95,6 +95,16 @@ fn complaints_name_file_line_key_and_range() {
 }
 
 #[test]
+fn all_that_is_wrong_is_said_at_once() {
+    let text = "[video]\nvsync = 1\n[clock]\npace = 0\nstride = 2\n[rander]\n[render]\norders = 2\n";
+    let said = parse(Path::new("game.toml"), text).expect_err("must be refused").to_string();
+    let lines: Vec<&str> = said.lines().collect();
+    let wanted = ["game.toml:2: video.vsync", "game.toml:4: clock.pace", "game.toml:5: clock.stride", "game.toml:6: rander"];
+    assert_eq!(lines.len(), wanted.len(), "{said}");
+    assert!(lines.iter().zip(wanted).all(|(line, wanted)| line.starts_with(wanted)), "{said}");
+}
+
+#[test]
 fn a_refused_value_changes_nothing() {
     let mut config = GameConfig::default();
     let orders = setting("render.orders").unwrap();

@@ -23,6 +23,25 @@ fn every_scene_loads_and_assembles_without_a_warning() {
     }
 }
 
+/// Of every command that takes one, and of the game.
+#[test]
+fn the_long_help_names_every_scene() {
+    let commands: &[&[&str]] = if cfg!(feature = "game") {
+        &[&["trace"], &["simulate"], &["shot"], &["compare"], &["chart", "frame"], &["play"]]
+    } else {
+        &[&["trace"], &["simulate"]]
+    };
+    for command in commands {
+        let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
+        let said = run.args(*command).arg("--help").output().expect("the program starts").stdout;
+        let said = String::from_utf8(said).expect("UTF-8");
+        let words: Vec<&str> = said.split(|c: char| c.is_whitespace() || c == ',').collect();
+        for name in names() {
+            assert!(words.contains(&name.as_str()), "{command:?} --help does not name {name}");
+        }
+    }
+}
+
 #[test]
 fn scenes_have_the_triangles_they_promise() {
     let triangles = |name: &str| load(name).unwrap().assemble(&GameConfig::default()).triangles();

@@ -5,12 +5,14 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
+use crate::scene::GameConfig;
 use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
 use crate::spacetime::matter::gamma;
 
 use super::camera::{Follower, View};
+use super::gaze::Gaze;
 use super::input::{Bindings, Hands, MouseTurn};
 use super::record;
 use super::screens::{Screen, Wish, answer};
@@ -27,12 +29,36 @@ pub struct Seat {
     pub bare: bool,
     /// The dev overlay is on.
     pub overlay: bool,
+    /// The flight assist as the player switched it in this chase; None: as it is configured.
+    pub assist: Option<bool>,
     /// The assist has taken the thrust to keep off the hole.
     pub avoiding: bool,
+    /// Who has flown in this chase.
+    pub flown: Flown,
     /// The autopilot was asked for on the command line.
     pub always_autopilot: bool,
     /// How the camera follows.
     pub follower: Follower,
+    /// The key that turns the camera to the target is held.
+    pub looking: bool,
+    /// How far the camera has turned to the target.
+    pub gaze: Gaze,
+}
+
+/// Who has had a ship's controls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flown {
+    /// The player, by hand.
+    pub by_hand: bool,
+    /// The autopilot.
+    pub by_autopilot: bool,
+}
+
+impl Seat {
+    /// Whether the assist is on: as the player switched it, else as `config` says.
+    pub fn assisted(&self, config: &GameConfig) -> bool {
+        self.assist.unwrap_or(config.assist.enabled)
+    }
 }
 
 /// The order of what the game does in a frame.
@@ -57,7 +83,7 @@ impl Plugin for GamePlugin {
             .configure_sets(Update, (GameSet::Keys, GameSet::Answer).chain())
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_wishes, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
-            .add_systems(FixedUpdate, fly_by_hand.in_set(SimSet::Input));
+            .add_systems(FixedUpdate, (fly_by_hand, note_pilot).in_set(SimSet::Input));
     }
 }
 
@@ -74,6 +100,9 @@ fn begin(world: &mut World, screen: Screen) {
     let mut player = world.resource_mut::<Seat>();
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
+    player.gaze = Gaze::default();
+    player.flown = Flown::default();
+    player.assist = None;
     player.avoiding = false;
     let manual = !player.autopilot;
     set_manual(world, manual);
@@ -100,7 +129,9 @@ fn read_keys(
     if hands.pushed("screenshot") {
         commands.queue(record::screenshot);
     }
-    if typing.is_some_and(|typing| typing.wants_keyboard_input()) {
+    let typing = typing.is_some_and(|typing| typing.wants_keyboard_input());
+    player.looking = !typing && hands.holds("look_at_target");
+    if typing {
         return;
     }
     let enter = keys.just_pressed(KeyCode::Enter) || keys.just_pressed(KeyCode::NumpadEnter);
@@ -124,7 +155,7 @@ fn read_keys(
         player.bare = !player.bare;
     }
     if hands.pushed("toggle_assist") {
-        session.config.assist.enabled = !session.config.assist.enabled;
+        player.assist = Some(!player.assisted(&session.config));
     }
     if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
@@ -186,6 +217,13 @@ fn run_time(
     if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
 }
 
+/// Keeps who flies, for the result to say.
+fn note_pilot(mut player: ResMut<Seat>) {
+    let autopilot = player.autopilot;
+    player.flown.by_autopilot |= autopilot;
+    player.flown.by_hand |= !autopilot;
+}
+
 /// The ship that the player flies by hand.
 type ByHand = (With<Player>, With<Manual>);
 
@@ -208,7 +246,7 @@ fn fly_by_hand(
         stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);
         let config = &session.config;
         player.avoiding = false;
-        controls.0 = if config.assist.enabled {
+        controls.0 = if player.assisted(config) {
             let help = assisted(&motion.0, &stick, engine, Reference::Orbit, &AssistSettings::from(config));
             player.avoiding = help.avoiding;
             help.command
@@ -291,6 +329,43 @@ mod tests {
         assert_eq!(screen(&app), Screen::Playing);
     }
 
+    /// The assist switched off is off for this chase, and the file's word when it changes.
+    #[test]
+    fn a_new_chase_has_the_configured_assist() {
+        let assisted = |app: &App| app.world().resource::<Seat>().assisted(&app.world().resource::<Session>().config);
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        assert!(assisted(&app));
+        push(&mut app, KeyCode::KeyZ);
+        assert!(!assisted(&app));
+        push(&mut app, KeyCode::KeyR);
+        assert!(assisted(&app), "as configured");
+        push(&mut app, KeyCode::KeyZ);
+        app.world_mut().resource_mut::<Session>().config.assist.enabled = false;
+        app.update();
+        push(&mut app, KeyCode::KeyZ);
+        assert!(assisted(&app), "switched on where off is configured");
+        app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
+        app.update();
+        assert!(app.world().resource::<Seat>().assist.is_none(), "a changed configuration goes before the key");
+    }
+
+    #[test]
+    fn one_looks_at_the_target_while_the_key_is_held() {
+        let mut app = game();
+        push(&mut app, KeyCode::Enter);
+        let looking = |app: &App| app.world().resource::<Seat>().looking;
+        assert!(!looking(&app));
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyV);
+        for _ in 0..3 {
+            app.update();
+            assert!(looking(&app));
+        }
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyV);
+        app.update();
+        assert!(!looking(&app));
+    }
+
     #[test]
     fn a_decided_chase_shows_its_result() {
         let mut app = game();
@@ -319,6 +394,21 @@ mod tests {
         assert!(app.world().resource::<Seat>().autopilot);
         let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
         assert_eq!(manual.iter(app.world()).count(), 0);
+    }
+
+    #[test]
+    fn who_flew_is_kept_for_the_chase() {
+        let mut app = game();
+        let flown = |app: &App| app.world().resource::<Seat>().flown;
+        push(&mut app, KeyCode::Enter);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: false });
+        push(&mut app, KeyCode::KeyP);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: true });
+        push(&mut app, KeyCode::KeyR);
+        app.update();
+        assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: false });
     }
 
     #[test]

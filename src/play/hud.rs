@@ -19,6 +19,8 @@ use super::window::Panel;
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
+/// Space between two plates one above the other, in points.
+const BETWEEN: f32 = 6.0;
 /// What comes down from the upper edge ends above this, in points.
 const BELOW_DIALS: f32 = 122.0;
 
@@ -41,8 +43,7 @@ pub fn draw(
     lay_in(context, &painter);
     let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
-        let above = if shown { 80.0 } else { 24.0 };
-        text(&painter, pos2(rect.center().x, rect.bottom() - above), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
+        text(&painter, pos2(rect.center().x, rect.bottom() - MARGIN), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
     }
     let mut taken = Vec::new();
     if real.elapsed_secs_f64() < notice.until {
@@ -66,6 +67,9 @@ pub fn draw(
         plates.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
     }
     taken.extend(plates.iter().map(|plate| plate.frame));
+    if player.view == View::ThirdPerson {
+        taken.push(markers::own_ship(rect, panel.field_of_view));
+    }
     // Below the dials, and named off them.
     markers::paint(&painter, rect, &panel, taken);
     for plate in plates {
@@ -130,7 +134,7 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
     Plate::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
-/// The dials in the corners, and below the middle who flies and what is in the tanks.
+/// The dials in the corners, and above the speed who flies and what is in the tanks.
 fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: &Instruments) -> Vec<Plate> {
     let mut plates = Vec::new();
     let lay = |at, anchor, lines: &[(&str, f32, Color32)]| Plate::lay(painter, at, anchor, f32::INFINITY, lines);
@@ -199,15 +203,21 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
         );
     }
 
-    let assist = if session.config.assist.enabled { "ASSIST" } else { "FREE FLIGHT" };
+    let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
-    let view = if player.view == View::Cockpit { "cockpit" } else { "third person" };
-    let state = format!("{pilot}  ·  {view}  ·  pace {:.2} r_s/c a second", session.config.clock.pace);
+    let view = match player.view {
+        _ if player.gaze.aside() => "at the target",
+        View::Cockpit => "cockpit",
+        View::ThirdPerson => "third person",
+    };
+    let state = format!("{pilot}  ·  {view}");
+    let pace = format!("pace {:.2} r_s/c a second", session.config.clock.pace);
     let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };
-    let lines = [(&*state, 12.0, TEXT), (&*tanks, 12.0, colour)];
-    let middle = lay(pos2(rect.center().x, bottom - BAR_ROOM), Align2::CENTER_BOTTOM, &lines);
-    plates.push(middle.over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
+    let lines = [(&*state, 12.0, TEXT), (&*pace, 12.0, TEXT), (&*tanks, 12.0, colour)];
+    // Above the speed: below the middle it would lie on one's own ship.
+    let above = plates[2].frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM);
+    plates.push(lay(above, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
     plates
 }
 
@@ -218,7 +228,7 @@ fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
         (false, true) => "BELOW THE HORIZON",
         (false, false) => return,
     };
-    text(painter, pos2(rect.center().x, rect.bottom() - 110.0), Align2::CENTER_BOTTOM, words, 18.0, ALARM);
+    text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, words, 18.0, ALARM);
 }
 
 #[cfg(test)]
@@ -266,6 +276,7 @@ mod tests {
                 assert_eq!(plates.len(), 6);
                 for (k, plate) in plates.iter().enumerate() {
                     assert!(rect.contains_rect(plate.frame), "{}", plate.frame);
+                    assert!(!overlap(&plate.frame, &markers::own_ship(rect, 60_f64.to_radians())), "{}", plate.frame);
                     assert!(plate.frame.bottom() < BELOW_DIALS || plate.frame.top() > rect.center().y, "{}", plate.frame);
                     assert!(plates[..k].iter().all(|other| !overlap(&other.frame, &plate.frame)), "{}", plate.frame);
                 }

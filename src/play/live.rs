@@ -13,7 +13,7 @@ use crate::scene::ship::Ai;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
-use super::game::GameSet;
+use super::game::{GameSet, Seat};
 use super::input::Bindings;
 use super::session::Session;
 use super::window::Staged;
@@ -72,15 +72,12 @@ fn reload(
     *notice = Notice { text, until: real.elapsed_secs_f64() + 6.0 };
 }
 
-/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys change (the pace, the assist)
+/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys change (the pace)
 /// stays as it is in `playing` unless the file changed just that.
 fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
     let mut config = now.clone();
     if now.clock.pace == before.clock.pace {
         config.clock.pace = playing.clock.pace;
-    }
-    if now.assist.enabled == before.assist.enabled {
-        config.assist.enabled = playing.assist.enabled;
     }
     config
 }
@@ -112,6 +109,12 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
             engine.max_rate = config.ship.turn_rate / config.clock.pace;
         }
     }
+    // The key switches for the chase; a change of the configuration is newer.
+    if before.as_ref().is_some_and(|before| before.assist.enabled != config.assist.enabled)
+        && let Some(mut seat) = world.get_resource_mut::<Seat>()
+    {
+        seat.assist = None;
+    }
     if before.as_ref().is_some_and(|before| restage(before, config))
         && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()
     {
@@ -130,20 +133,18 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
 mod tests {
     use super::*;
 
-    /// The player's pace and assist outlive a change of anything else in the file, and end with a change of their own.
+    /// The player's pace outlives a change of anything else in the file, and ends with a change of its own.
     #[test]
     fn a_reload_keeps_what_the_keys_changed() {
         let before = GameConfig::default();
         let mut playing = before.clone();
         playing.clock.pace = 3.0;
-        playing.assist.enabled = false;
         let mut now = before.clone();
         now.disk.arcs = 900;
         let kept = taken_up(&playing, &before, &now);
-        assert_eq!((kept.disk.arcs, kept.clock.pace, kept.assist.enabled), (900, 3.0, false));
+        assert_eq!((kept.disk.arcs, kept.clock.pace), (900, 3.0));
 
         now.clock.pace = 0.5;
-        let slowed = taken_up(&kept, &before, &now);
-        assert_eq!((slowed.clock.pace, slowed.assist.enabled), (0.5, false));
+        assert_eq!(taken_up(&kept, &before, &now).clock.pace, 0.5);
     }
 }

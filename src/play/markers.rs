@@ -5,6 +5,7 @@ use glam::DVec3;
 
 use crate::render::frame::Camera;
 
+use super::camera::BEHIND;
 use super::layout::settle;
 use super::plate::{ALARM, FAINT, OWN, SEEN, TEXT, TRUE, rimmed, text};
 use super::window::Panel;
@@ -36,6 +37,15 @@ pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -
     Place::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
 }
 
+/// Where one's own ship is on the screen `rect` in third person, wings and all, in points: names and arrows keep off it.
+pub fn own_ship(rect: Rect, field_of_view: f64) -> Rect {
+    /// Half its width and height as seen from behind, in lengths of the ship, with room for its leaning as it turns.
+    const HALF: Size = vec2(0.5, 0.3);
+    // Pixels for a length of the ship: the screen's half width is tan(field_of_view / 2) at distance 1.
+    let scale = (0.5 * f64::from(rect.width()) / ((0.5 * field_of_view).tan() * BEHIND.z)) as f32;
+    Rect::from_center_size(rect.center() + vec2(0.0, scale * BEHIND.y as f32), 2.0 * scale * HALF)
+}
+
 /// What a marker is called; where its name would best be, which may be taken.
 struct Name {
     words: String,
@@ -61,8 +71,11 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
     let before = taken.len();
     let mut board = Board { painter, rect, taken, names: Vec::new() };
-    reticle(painter, rect.center());
-    board.takes(rect.center(), 18.0);
+    // It says where the ship points, which is not ahead while one looks aside.
+    if !panel.aside {
+        reticle(painter, rect.center());
+        board.takes(rect.center(), 18.0);
+    }
 
     let [first, second] = panel.images.map(|image| image.map(|image| (find(image.direction), image.age)));
     let truth = panel.truth.map(find);
@@ -235,6 +248,22 @@ mod tests {
         assert_eq!(boxes.len(), 5);
         boxes.push(corner);
         apart(&boxes);
+    }
+
+    /// The target is behind and below: its arrow would be where one's own ship is.
+    #[test]
+    fn arrows_keep_off_the_own_ship() {
+        for size in [[900.0, 620.0], [1280.0, 720.0]] {
+            let panel = Panel { images: image(DVec3::new(0.02, -1.0, 0.5)), field_of_view: 1.05, ..Panel::default() };
+            on_canvas(size, |painter, rect| {
+                let ship = own_ship(rect, panel.field_of_view);
+                assert!(rect.contains_rect(ship), "{ship}");
+                let free = paint(painter, rect, &panel, Vec::new());
+                assert!(free.iter().any(|place| overlap(place, &ship)), "{free:?}: else this proves nothing");
+                let boxes = paint(painter, rect, &panel, vec![ship]);
+                assert!(boxes.iter().all(|place| !overlap(place, &ship)), "{boxes:?} {ship}");
+            });
+        }
     }
 
     #[test]

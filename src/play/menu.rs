@@ -6,6 +6,7 @@ use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 
 use crate::sim::{Chase, Outcome};
 
+use super::game::{Flown, Seat};
 use super::instruments::Scale;
 use super::screens::{Screen, Wish};
 use super::session::Session;
@@ -22,35 +23,45 @@ pub fn draw(
     session: Res<Session>,
     chase: Option<Res<Chase>>,
     panel: Res<Panel>,
+    seat: Res<Seat>,
     mut wishes: MessageWriter<Wish>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let mut ask = |wish| _ = wishes.write(wish);
     match screen.get() {
         Screen::Playing => (),
-        Screen::Title => card(context, "title", Align2::LEFT_CENTER, |ui| title(ui, &session, &mut ask)),
+        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &session, &mut ask)),
         // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
-        Screen::Paused => card(context, "pause", Align2::LEFT_CENTER, |ui| {
+        Screen::Paused => card(context, "pause", WIDE, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
             buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
             ui.add_space(10.0);
             controls(ui, &session);
         }),
-        Screen::Result => card(context, "result", Align2::CENTER_CENTER, |ui| {
-            result(ui, &session, chase.as_deref(), &panel);
+        Screen::Result => card(context, "result", NARROW, |ui| {
+            result(ui, &session, chase.as_deref(), &panel, seat.flown);
             buttons(ui, &mut ask, &[("Once more", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
         }),
     }
     Ok(())
 }
 
-/// A dark card on the screen.
-fn card(context: &egui::Context, name: &'static str, place: Align2, content: impl FnOnce(&mut Ui)) {
-    egui::Area::new(egui::Id::new(name)).anchor(place, [if place == Align2::LEFT_CENTER { 48.0 } else { 0.0 }, 0.0]).show(context, |ui| {
-        egui::Frame::new().fill(Color32::from_rgba_premultiplied(5, 9, 16, 225)).corner_radius(12.0).inner_margin(26.0).show(ui, |ui| {
+/// From the screen's left edge to a card, in points.
+const ASIDE: f32 = 24.0;
+/// Between a card's edge and what it says, in points.
+const INSIDE: f32 = 24.0;
+/// Width of what the title and the pause say, in points.
+const WIDE: f32 = 470.0;
+/// Width of what the result says, in points: it leaves the middle free, where quarry and ship are, in the narrowest window too.
+const NARROW: f32 = 330.0;
+
+/// A dark card at the left of the screen, with room for `width` points.
+fn card(context: &egui::Context, name: &'static str, width: f32, content: impl FnOnce(&mut Ui)) {
+    egui::Area::new(egui::Id::new(name)).anchor(Align2::LEFT_CENTER, [ASIDE, 0.0]).show(context, |ui| {
+        egui::Frame::new().fill(Color32::from_rgba_premultiplied(5, 9, 16, 225)).corner_radius(12.0).inner_margin(INSIDE).show(ui, |ui| {
             ui.vertical_centered(|ui| {
-                ui.set_width(470.0);
+                ui.set_width(width);
                 content(ui);
             })
         });
@@ -104,12 +115,12 @@ fn controls(ui: &mut Ui, session: &Session) {
         ("Up, down, full thrust", format!("{}  {}  {}", key(&keys.thrust_up), key(&keys.thrust_down), key(&keys.boost))),
         ("Turn", "mouse or arrow keys".to_owned()),
         ("Roll", format!("{}  {}", key(&keys.roll_left), key(&keys.roll_right))),
+        ("Assist, autopilot", format!("{}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot))),
+        ("Camera, look at the target", format!("{}  {} (hold)", key(&keys.toggle_camera), key(&keys.look_at_target))),
         (
-            "Assist, autopilot, camera",
-            format!("{}  {}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot), key(&keys.toggle_camera)),
+            "Slower, faster, pause, start again",
+            format!("{}  {}  {}  {}", key(&keys.slower), key(&keys.faster), key(&keys.pause), key(&keys.restart)),
         ),
-        ("Slower, faster", format!("{}  {}", key(&keys.slower), key(&keys.faster))),
-        ("Pause, start again", format!("{}  {}", key(&keys.pause), key(&keys.restart))),
         ("HUD, dev overlay, picture", format!("{}  {}  {}", key(&keys.toggle_hud), key(&keys.toggle_overlay), key(&keys.screenshot))),
     ];
     egui::Grid::new("controls").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {
@@ -134,11 +145,14 @@ fn key(name: &str) -> &str {
     }
 }
 
-fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel) {
+fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
     let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };
     let (words, colour) = headline(outcome);
     ui.label(RichText::new(words).size(38.0).color(colour).strong());
     ui.label(RichText::new(outcome.to_string()).size(16.0).color(PALE));
+    if let Some(words) = pilot(flown) {
+        ui.label(RichText::new(words).size(14.0).color(WARM));
+    }
     ui.add_space(10.0);
     let scale = Scale::of(session.config.hole.mass_solar);
     let mut lines = vec![format!("Far clock  {}   (T = {time:.1} r_s/c)", scale.clock(time))];
@@ -155,6 +169,15 @@ fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel) 
     ui.add_space(14.0);
 }
 
+/// What the result says of the autopilot, if it flew.
+fn pilot(flown: Flown) -> Option<&'static str> {
+    match (flown.by_autopilot, flown.by_hand) {
+        (false, _) => None,
+        (true, true) => Some("the autopilot flew a part of the way"),
+        (true, false) => Some("the autopilot flew"),
+    }
+}
+
 /// What the result says, large, and its colour.
 fn headline(outcome: Outcome) -> (&'static str, Color32) {
     match outcome {
@@ -168,6 +191,22 @@ fn headline(outcome: Outcome) -> (&'static str, Color32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::play::window::INTERFACE;
+
+    #[test]
+    fn the_result_says_when_the_autopilot_flew() {
+        let said = |by_hand, by_autopilot| pilot(Flown { by_hand, by_autopilot });
+        assert_eq!(said(true, false), None);
+        assert!(said(false, true).is_some_and(|words| !words.contains("part")));
+        assert!(said(true, true).is_some_and(|words| words.contains("part")));
+    }
+
+    #[test]
+    fn the_result_leaves_the_middle_free() {
+        // The narrowest the interface is laid out for; ship and quarry are about the middle.
+        let right = ASIDE + NARROW + 2.0 * INSIDE;
+        assert!(right < 0.5 * INTERFACE[0] - 40.0, "{right}");
+    }
 
     #[test]
     fn keys_as_written_on_the_keyboard() {

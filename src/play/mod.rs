@@ -9,6 +9,7 @@ pub mod contestant;
 pub mod demonstration;
 pub mod director;
 pub mod game;
+pub mod gaze;
 pub mod hud;
 pub mod input;
 pub mod instruments;
@@ -41,6 +42,7 @@ pub struct PlayArgs {
     pub config: Option<PathBuf>,
     /// The scene: a TOML file, or the name of one in assets/scenes [default: chase].
     #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long_help = crate::scene::help("The scene: a TOML file, or the name of one in assets/scenes [default: chase]."))]
     pub scene: Option<String>,
     /// Seed for everything left to chance [default: 0].
     #[arg(long, value_name = "N")]

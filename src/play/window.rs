@@ -47,6 +47,8 @@ pub struct Panel {
     pub heading: Option<glam::DVec3>,
     /// The camera's horizontal field of view, in radians.
     pub field_of_view: f64,
+    /// The camera has turned from where the ship points.
+    pub aside: bool,
 }
 
 /// What the command line asked for beyond the session.
@@ -110,7 +112,7 @@ fn spawn_camera(mut commands: Commands) {
 }
 
 /// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the title card is as high.
-const INTERFACE: [f32; 2] = [900.0, 620.0];
+pub(super) const INTERFACE: [f32; 2] = [900.0, 620.0];
 
 fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: EguiContexts) {
     let Some(window) = windows.iter().next() else { return };
@@ -191,13 +193,18 @@ fn make_frame(
     let attitude = seat.follower.follow(state.attitude, seconds, rigid);
     let field_of_view = config.video.fov.to_radians();
     let title = *screen.get() == Screen::Title;
+    let target = session.target().and_then(|target| histories.get(target).copied());
+    let size_of_ship = length(&session, me);
+    let sought = target.filter(|_| seat.looking && !title);
+    let facing = sought.and_then(|target| seat.gaze.facing(&state, seat.view, size_of_ship, attitude, time, target));
+    let attitude = seat.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
     let cockpit = cockpit && !title;
     let camera = if title {
         // The title looks on from far, and slowly goes round.
         let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
         wide(state.position, turn, field_of_view)
     } else {
-        on_ship(&state, seat.view, attitude, length(&session, me), field_of_view)
+        on_ship(&state, seat.view, attitude, size_of_ship, field_of_view)
     };
 
     // Times of an earlier frame will do, and so will those of one yet earlier while a frame is being recorded.
@@ -209,7 +216,6 @@ fn make_frame(
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
     frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
 
-    let target = session.target().and_then(|target| histories.get(target));
     let there = target.map(|history| state_of(&history.at(time)));
     let thrust = engine.limit(&controls.0).thrust.length();
     let resting = static_momentum(state.position).unwrap_or_default();
@@ -222,5 +228,6 @@ fn make_frame(
         decided: chase.and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view,
+        aside: seat.gaze.aside(),
     };
 }

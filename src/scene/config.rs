@@ -2,13 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use toml::de::{DeTable, DeValue};
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
 
 pub use super::config_fields::{
     Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
 };
 use super::document::{complain, syntax};
-use super::error::{Complaint, ConfigError};
+use super::error::{Complaints, ConfigError};
 pub use super::setting::{Allowed, Setting, Value, is_key};
 use super::ship::Fault;
 
@@ -34,28 +35,33 @@ pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
     parse(path, &text).map_err(ConfigError::Invalid)
 }
 
-/// Reads the text of a `game.toml`; `file` is only named in the complaint.
-pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaint> {
-    let document = DeTable::parse(text).map_err(|error| syntax(file, text, &error))?;
+/// Reads the text of a `game.toml`; `file` is only named in the complaints.
+pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
+    let document = DeTable::parse(text).map_err(|error| Complaints(vec![syntax(file, text, &error)]))?;
     let mut config = GameConfig::default();
+    let known = section_names();
+    let mut faults = Vec::new();
     for (section, table) in document.get_ref() {
-        let known = section_names();
-        match table.get_ref() {
-            DeValue::Table(table) if known.contains(&section.get_ref().as_ref()) => {
-                apply_table(&mut config, section.get_ref(), table).map_err(|fault| complain(file, text, fault))?;
+        let name = section.get_ref().as_ref();
+        let wrong = match table.get_ref() {
+            DeValue::Table(table) if known.contains(&name) => {
+                faults.extend(apply_table(&mut config, name, table));
+                continue;
             }
-            _ if known.contains(&section.get_ref().as_ref()) => {
-                let message = format!("must be a section, written [{}]", section.get_ref());
-                return Err(complain(file, text, Fault { span: section.span(), message }));
-            }
-            _ => {
-                let message = format!("unknown section; known sections: {}", known.join(", "));
-                return Err(complain(file, text, Fault { span: section.span(), message }));
-            }
-        }
+            _ if known.contains(&name) => format!("must be a section, written [{name}]"),
+            _ => format!("unknown section; known sections: {}", known.join(", ")),
+        };
+        faults.push(Fault { span: section.span(), message: wrong });
     }
-    check_together(&config, document.get_ref()).map_err(|fault| complain(file, text, fault))?;
-    Ok(config)
+    // What is left out because it is wrong clashes with nothing.
+    if faults.is_empty() {
+        faults.extend(check_together(&config, document.get_ref()).err());
+    }
+    if faults.is_empty() {
+        return Ok(config);
+    }
+    faults.sort_by_key(|fault| fault.span.start);
+    Err(Complaints(faults.into_iter().map(|fault| complain(file, text, fault)).collect()))
 }
 
 /// What [`together`] says, at the line in `document` of one of the keys that clash.
@@ -90,9 +96,9 @@ fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
     Ok(())
 }
 
-/// Sets every entry of `table` in `config`, as keys of `section`.
-pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTable<'_>) -> Result<(), Fault> {
-    for (key, value) in table {
+/// Sets every entry of `table` in `config`, as keys of `section`. Returns what is wrong with those that are left out.
+pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTable<'_>) -> Vec<Fault> {
+    let mut apply = |key: &Spanned<DeString<'_>>, value: &Spanned<DeValue<'_>>| {
         let Some(setting) = setting(&format!("{section}.{}", key.get_ref())) else {
             let known: Vec<&str> = settings().iter().filter(|setting| setting.section == section).map(|setting| setting.key).collect();
             return Err(Fault { span: key.span(), message: format!("unknown key; known keys: {}", known.join(", ")) });
@@ -100,9 +106,9 @@ pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTabl
         read(value.get_ref())
             .ok_or_else(|| format!("{} has the wrong type, allowed {}", value.get_ref().type_str(), setting.allowed_text()))
             .and_then(|value| setting.set(config, value))
-            .map_err(|message| Fault { span: value.span(), message })?;
-    }
-    Ok(())
+            .map_err(|message| Fault { span: value.span(), message })
+    };
+    table.iter().filter_map(|(key, value)| apply(key, value).err()).collect()
 }
 
 /// A scalar of the file; whole numbers too long for `u32` become real numbers, so that they fail by range.

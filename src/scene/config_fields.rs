@@ -256,6 +256,7 @@ config! {
         toggle_assist: String = "KeyZ", Key, "", "flight assistance on or off";
         toggle_autopilot: String = "KeyP", Key, "", "autopilot on or off";
         toggle_camera: String = "KeyC", Key, "", "cockpit or third person";
+        look_at_target: String = "KeyV", Key, "", "look at the target while held";
         toggle_hud: String = "KeyH", Key, "", "HUD on or off";
         toggle_overlay: String = "F3", Key, "", "dev overlay on or off";
         screenshot: String = "F12", Key, "", "write a picture";

@@ -29,6 +29,19 @@ impl fmt::Display for Complaint {
     }
 }
 
+/// Everything that is wrong with one file, in the order of its lines.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Complaints(pub Vec<Complaint>);
+
+impl fmt::Display for Complaints {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, complaint) in self.0.iter().enumerate() {
+            write!(f, "{}{complaint}", if k == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}
+
 /// Why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
@@ -66,7 +79,7 @@ pub enum ConfigError {
         /// The operating system's reason.
         source: std::io::Error,
     },
-    /// An entry is wrong.
+    /// Entries are wrong.
     #[error("{0}")]
-    Invalid(Complaint),
+    Invalid(Complaints),
 }

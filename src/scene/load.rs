@@ -121,9 +121,8 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
         return Ok(DiskKeys(Vec::new()));
     };
     let mut checked = GameConfig::default();
-    config::apply_table(&mut checked, "disk", table)
-        .and_then(|()| config::check_together(&checked, document.get_ref()))
-        .map_err(|fault| complain(file, text, fault))?;
+    let first = config::apply_table(&mut checked, "disk", table).into_iter().next();
+    first.map_or_else(|| config::check_together(&checked, document.get_ref()), Err).map_err(|fault| complain(file, text, fault))?;
     let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
     Ok(DiskKeys(
         config::settings()
@@ -155,6 +154,11 @@ pub fn names() -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Help for an argument that takes a scene: what it is, and the names there are.
+pub fn help(what: &str) -> String {
+    format!("{what}\n\nScenes: {}", names().join(", "))
 }
 
 fn scenes_folder() -> PathBuf {
