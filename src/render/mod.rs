@@ -26,6 +26,7 @@ pub mod shaders;
 pub mod shot;
 pub mod sky;
 pub mod stage;
+mod stopwatch;
 pub mod swing;
 pub mod tables;
 pub mod targets;

@@ -14,6 +14,7 @@ use super::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storag
 use super::method::Method;
 use super::readback::{self, PictureError};
 use super::shaders;
+use super::stopwatch::Stopwatch;
 use super::tables::Tables;
 
 /// Threads of a workgroup.
@@ -99,29 +100,25 @@ impl Race {
         let group = bind(device, "race", layout, &[frame, slice.binding(), rows_in, out_to]);
         gpu.queue.submit([]);
         wait(gpu)?;
-        let queries = Queries::new(gpu);
+        let watch = Stopwatch::new(gpu);
         let mut encoder = device.create_command_encoder(&Default::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("race"),
-                timestamp_writes: queries.as_ref().map(|queries| wgpu::ComputePassTimestampWrites {
-                    query_set: &queries.set,
-                    beginning_of_pass_write_index: Some(0),
-                    end_of_pass_write_index: Some(1),
-                }),
+                timestamp_writes: watch.as_ref().map(Stopwatch::compute),
             });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.dispatch_workgroups((threads / GROUP) as u32, 1, 1);
         }
-        if let Some(queries) = &queries {
-            encoder.resolve_query_set(&queries.set, 0..2, &queries.resolved, 0);
+        if let Some(watch) = &watch {
+            watch.stop(&mut encoder);
         }
         let start = Instant::now();
         gpu.queue.submit([encoder.finish()]);
         wait(gpu)?;
-        let seconds = match queries {
-            Some(queries) => queries.seconds(gpu)?,
+        let seconds = match watch {
+            Some(watch) => watch.seconds(gpu)?,
             None => start.elapsed().as_secs_f64(),
         };
         Ok((out, seconds))
@@ -130,27 +127,4 @@ impl Race {
 
 fn wait(gpu: &Gpu) -> Result<(), PictureError> {
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map(|_| ()).map_err(|error| PictureError::Map(error.to_string()))
-}
-
-/// Two timestamps, where the device has them.
-struct Queries {
-    set: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-}
-
-impl Queries {
-    fn new(gpu: &Gpu) -> Option<Queries> {
-        if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-            return None;
-        }
-        let descriptor = wgpu::QuerySetDescriptor { label: Some("race"), ty: wgpu::QueryType::Timestamp, count: 2 };
-        let resolved = buffer(&gpu.device, "race times", 16, BufferUsages::QUERY_RESOLVE);
-        Some(Queries { set: gpu.device.create_query_set(&descriptor), resolved })
-    }
-
-    fn seconds(&self, gpu: &Gpu) -> Result<f64, PictureError> {
-        let bytes = readback::buffer(gpu, &self.resolved)?;
-        let ticks: &[u64] = bytemuck::cast_slice(&bytes[..16]);
-        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(gpu.queue.get_timestamp_period()) * 1e-9)
-    }
 }

@@ -10,6 +10,7 @@ use crate::render::Gpu;
 use crate::render::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
 use crate::render::readback::{self, PictureError};
 use crate::render::shaders;
+use crate::render::stopwatch::Stopwatch;
 use crate::render::targets::target;
 
 /// `Experiment` in WGSL.
@@ -68,7 +69,8 @@ pub enum Walk {
     Exact,
 }
 
-/// A picture and what it took, in seconds from handing work to the adapter until it was done.
+/// A picture and what it took, in seconds: of its passes on the GPU, where the device tells, else from handing work to it until that is done. A graphics card's passes take less than
+/// handing them over.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     /// Photons by line, row by row.
@@ -95,6 +97,7 @@ pub struct Race {
     splat: wgpu::RenderPipeline,
     /// Kept from draw to draw: a new one is filled with zeros before it is used, which took as long as a walk.
     points: wgpu::Buffer,
+    watch: Option<Stopwatch>,
     /// Which walks have run once: a driver compiles them then.
     warm: [[bool; 2]; 2],
 }
@@ -128,7 +131,7 @@ impl Race {
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(FORMAT, sum)], depth: None };
         let splat = raster(device, "aurora race splat", &module, stage, &[Some(&splat_layout)]);
         let points = buffer(device, "aurora race points", 0, BufferUsages::STORAGE);
-        Some(Race { gpu: gpu.clone(), points, walk_layout, splat_layout, walks, splat, warm: [[false; 2]; 2] })
+        Some(Race { gpu: gpu.clone(), watch: Stopwatch::new(gpu), points, walk_layout, splat_layout, walks, splat, warm: [[false; 2]; 2] })
     }
 
     /// The adapter's name and kind.
@@ -182,14 +185,16 @@ impl Race {
         let resources = [&uniform, points, &light].map(|buffer| buffer.as_entire_binding());
         let splat_group = bind(device, "aurora race splat", &self.splat_layout, &resources);
         let (texture, view) = target(device, "aurora race light", scene.size, FORMAT);
-        self.run(|_| ())?;
-        let walk = self.run(|encoder| {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+        let walk = self.run(|encoder, watch| {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("aurora race walk"),
+                timestamp_writes: watch.map(Stopwatch::compute),
+            });
             pass.set_pipeline(&self.walks[which.0][which.1]);
             pass.set_bind_group(0, &walk_group, &[]);
             pass.dispatch_workgroups(scene.electrons.len().div_ceil(64) as u32, 1, 1);
         })?;
-        let splat = self.run(|encoder| {
+        let splat = self.run(|encoder, watch| {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("aurora race splat"),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -198,6 +203,7 @@ impl Race {
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
                 })],
+                timestamp_writes: watch.map(Stopwatch::render),
                 ..Default::default()
             });
             pass.set_pipeline(&self.splat);
@@ -207,13 +213,24 @@ impl Race {
         Ok(Drawn { pixels: readback::floats(gpu, &texture)?, walk, splat })
     }
 
-    /// Seconds from handing over what `record` recorded until it is done.
-    fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<f64, PictureError> {
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        record(&mut encoder);
+    /// Seconds that the one pass takes which `record` records.
+    fn run(&self, record: impl FnOnce(&mut wgpu::CommandEncoder, Option<&Stopwatch>)) -> Result<f64, PictureError> {
+        let gpu = &self.gpu;
+        let wait = || gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()));
+        // What has been written to buffers is not in the time.
+        gpu.queue.submit([]);
+        wait()?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        record(&mut encoder, self.watch.as_ref());
+        if let Some(watch) = &self.watch {
+            watch.stop(&mut encoder);
+        }
         let start = Instant::now();
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-        Ok(start.elapsed().as_secs_f64())
+        gpu.queue.submit([encoder.finish()]);
+        wait()?;
+        match &self.watch {
+            Some(watch) => watch.seconds(gpu),
+            None => Ok(start.elapsed().as_secs_f64()),
+        }
     }
 }

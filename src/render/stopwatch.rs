@@ -1,0 +1,48 @@
+//! How long one pass took on the GPU, for contests: waited for, unlike the times of a frame ([`super::timing`]).
+
+use wgpu::BufferUsages;
+
+use super::Gpu;
+use super::layout::buffer;
+use super::readback::{self, PictureError};
+
+/// Two timestamps.
+#[derive(Debug)]
+pub struct Stopwatch {
+    set: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+}
+
+impl Stopwatch {
+    /// None where the device has no timestamps.
+    pub fn new(gpu: &Gpu) -> Option<Stopwatch> {
+        if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let descriptor = wgpu::QuerySetDescriptor { label: Some("stopwatch"), ty: wgpu::QueryType::Timestamp, count: 2 };
+        let resolved = buffer(&gpu.device, "stopwatch", 16, BufferUsages::QUERY_RESOLVE);
+        Some(Stopwatch { set: gpu.device.create_query_set(&descriptor), resolved })
+    }
+
+    /// Where a compute pass writes its times.
+    pub fn compute(&self) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites { query_set: &self.set, beginning_of_pass_write_index: Some(0), end_of_pass_write_index: Some(1) }
+    }
+
+    /// Where a render pass writes its times.
+    pub fn render(&self) -> wgpu::RenderPassTimestampWrites<'_> {
+        wgpu::RenderPassTimestampWrites { query_set: &self.set, beginning_of_pass_write_index: Some(0), end_of_pass_write_index: Some(1) }
+    }
+
+    /// After the pass.
+    pub fn stop(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.resolve_query_set(&self.set, 0..2, &self.resolved, 0);
+    }
+
+    /// Seconds that the pass took, once it has been submitted; waits for it.
+    pub fn seconds(&self, gpu: &Gpu) -> Result<f64, PictureError> {
+        let bytes = readback::buffer(gpu, &self.resolved)?;
+        let ticks: &[u64] = bytemuck::cast_slice(&bytes[..16]);
+        Ok(ticks[1].saturating_sub(ticks[0]) as f64 * f64::from(gpu.queue.get_timestamp_period()) * 1e-9)
+    }
+}
