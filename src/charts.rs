@@ -118,7 +118,7 @@ pub struct ChartBvhArgs {
 pub struct ChartFrameArgs {
     /// Scenes: TOML files, or names in assets/scenes.
     #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
-    #[arg(long_help = scene::help("Scenes: TOML files, or names in assets/scenes."))]
+    #[arg(long_help = scene::help("TOML files, or names in assets/scenes."))]
     scene: Vec<String>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]

@@ -43,7 +43,8 @@ pub fn draw(
     lay_in(context, &painter);
     let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
-        text(&painter, pos2(rect.center().x, rect.bottom() - MARGIN), Align2::CENTER_BOTTOM, words, 12.0, TEXT);
+        let at = pos2(rect.center().x, rect.bottom() - MARGIN);
+        Plate::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
     }
     let mut taken = Vec::new();
     if real.elapsed_secs_f64() < notice.until {

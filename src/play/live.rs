@@ -65,11 +65,13 @@ fn reload(
             format!("{} read again", file.display())
         }
         Err(error) => {
-            warn!("{error}; the last good values stay");
-            format!("{error}; the last good values stay")
+            warn!("{error}\nThe last good values stay.");
+            format!("{error}\nThe last good values stay.")
         }
     };
-    *notice = Notice { text, until: real.elapsed_secs_f64() + 6.0 };
+    // Time to read each line.
+    let seconds = 4.0 + 2.0 * text.lines().count() as f64;
+    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
 }
 
 /// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys change (the pace)

@@ -53,7 +53,7 @@ const ASIDE: f32 = 24.0;
 const INSIDE: f32 = 24.0;
 /// Width of what the title and the pause say, in points.
 const WIDE: f32 = 470.0;
-/// Width of what the result says, in points: it leaves the middle free, where quarry and ship are, in the narrowest window too.
+/// Width of what the result says, in points: it leaves the middle of the narrowest window free.
 const NARROW: f32 = 330.0;
 
 /// A dark card at the left of the screen, with room for `width` points.

@@ -10,9 +10,9 @@ pub const UNIT_TEMPERATURE: f64 = 5772.0;
 /// The least a channel has of the colour's luminance in [`table`], where logarithms are kept: less does not show beside the others.
 const LEAST_CHANNEL: f64 = 1e-4;
 
-/// Below this, in K, blue ends at the edge of sRGB and would be nothing from 1,900 K on, 7 % to 0 % of red. It falls on as between 2,500 and 3,000 K instead: ln(blue/red) is
-/// the first number less the second, in K, over T. That cannot be seen by itself (1.4 % of red at 1,900 K), but gas is lit by its mean temperature's light and that light's slope, and
-/// from none at all no hotter streak got its blue: they were yellow.
+/// The temperature, in K, below which blue falls on as between it and 3,000 K: ln(blue/red) is [`TAIL`]'s first number less the second, in K, over T. By itself
+/// sRGB has 7 % of red here and none at all from 1,900 K down. The difference cannot be seen (1.4 % of red at 1,900 K), but a streak's light is told from that of gas of mean temperature
+/// and its slope: from none at all no hotter streak got its blue, and they were yellow.
 const DIM_BLUE: f64 = 2500.0;
 /// See [`DIM_BLUE`].
 const TAIL: [f64; 2] = [2.255, 12_370.0];
