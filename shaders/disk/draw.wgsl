@@ -2,23 +2,56 @@
 
 @group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
 
+/// What a pixel needs to know from far. Rings are so narrow that the orbits, which shear the pattern, need not be followed in each pixel: its places go
+/// straight over a triangle (src/render/disk/view.rs sees to that).
+struct FarGas {
+    @builtin(position) position: vec4<f32>,
+    /// Where in the pattern the even generation is; its share; by how much it is older than the odd one, in r_s/c.
+    @location(0) even: vec4<f32>,
+    /// Of the odd one, place and share.
+    @location(1) odd: vec3<f32>,
+    /// As in `Gas`.
+    @location(2) light: vec4<f32>,
+    @location(3) slope: vec3<f32>,
+    /// Of a thin image, distance from its middle and half width, both in pixels.
+    @location(4) thin: vec2<f32>,
+}
+
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
+    return gas_of(disk_vertices[index]);
+}
+
+@vertex
+fn far_vertex(@builtin(vertex_index) index: u32) -> FarGas {
     let seen = disk_vertices[index];
+    let gas = gas_of(seen);
+    let even = vec4<f32>(place_in(gas.even, seen.gas.y), gas.even.w, gas.even.z - gas.odd.z);
+    return FarGas(gas.position, even, vec3<f32>(place_in(gas.odd, seen.gas.y), gas.odd.w), gas.light, gas.slope.xyz, gas.seen.xy);
+}
+
+fn gas_of(seen: DiskVertex) -> Gas {
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
     return gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
 }
 
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
-fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in));
+fn far_fragment(in: FarGas) -> @location(0) vec4<f32> {
+    return far_colour(in);
 }
 
 /// Orders 2 and 3, from far.
 @fragment
-fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, far_look(in)) * coverage(in.seen.x, in.seen.y);
+fn thin_fragment(in: FarGas) -> @location(0) vec4<f32> {
+    return far_colour(in) * coverage(in.thin.x, in.thin.y);
+}
+
+fn far_colour(in: FarGas) -> vec4<f32> {
+    let even_sides = Sides(dpdx(in.even.xy), dpdy(in.even.xy));
+    let odd_sides = Sides(dpdx(in.odd.xy), dpdy(in.odd.xy));
+    let at = streaks_at(in.even.xy, in.odd.xy, even_sides, odd_sides, vec2<f32>(in.even.z, in.odd.z), in.even.w < 0.0, 2.0 * STEP);
+    return gas_colour(in.light.rgb, in.slope, in.light.w, two_looks(at));
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
@@ -52,7 +85,7 @@ const FINE: f32 = 0.35;
 
 /// The streaks of both generations without a grain: once, and the finest octaves at `taps` places along a pixel. What differs there has one colour, by its
 /// mean and its variance.
-fn near_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
+fn near_along(at: Streaks, taps: u32) -> Cooling {
     let level = 0.5 * log2(max(at.square, 1e-12));
     let share = 1.0 / f32(max(taps, 1u));
     var sum = 0.0;
@@ -61,13 +94,13 @@ fn near_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
         let t = (f32(k) + 0.5) * share - 0.5;
         let even = close_pattern(8.0 * (at.even + t * at.even_side), level + 3.0);
         let odd = close_pattern(8.0 * (at.odd + t * at.odd_side), level + 3.0);
-        let power = FINE * (in.even.w * even + in.odd.w * odd);
+        let power = FINE * dot(at.shares, vec2<f32>(even, odd));
         sum += power;
         squares += power * power;
     }
     let mean = sum * share;
-    let power = in.even.w * close_pattern(at.even, level) + in.odd.w * close_pattern(at.odd, level);
-    return Cooling(power + mean, unseen_of(in, unseen_variance(level)) + 0.48045301 * max(squares * share - mean * mean, 0.0));
+    let power = dot(at.shares, vec2<f32>(close_pattern(at.even, level), close_pattern(at.odd, level)));
+    return Cooling(power + mean, unseen_of(at, unseen_variance(level)) + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
 /// From near: the slant in each pixel, streaks without a grain.
@@ -77,8 +110,8 @@ fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let long = sqrt(at.long);
     let share = smoothstep(LONG.x, LONG.y, long);
     // Places that do not count are not looked at.
-    let far = far_along(in, at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
-    let near = near_along(in, at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
+    let far = far_along(at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
+    let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
     return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);

@@ -53,37 +53,25 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
 /// A generation shows from this part of the other's share on: more than is left of one over a triangle in which it dies, 4 r_s of light path long.
 const LEAST_SHARE: f32 = 0.03;
 
+/// Where in the pattern a pixel is, in both generations, and how much of it it covers.
 struct Streaks {
     even: vec2<f32>,
     odd: vec2<f32>,
     /// The pixel's longest side there, in both generations.
     even_side: vec2<f32>,
     odd_side: vec2<f32>,
+    /// By how much of a factor of two each cools the gas for each unit of the pattern: the even one and the odd one.
+    shares: vec2<f32>,
     /// Square of its length, in texels of the pattern itself.
     long: f32,
     /// Square of the side of a texel, in such texels, that the pixel should be looked up with.
     square: f32,
 }
 
-/// What a pixel covers of the pattern.
-struct Shape {
-    /// Its longest side.
-    side: vec2<f32>,
-    /// Square of the length of that, in texels.
-    long: f32,
-    /// Square of the side of the texel that it should be looked up with, in texels.
-    square: f32,
-}
-
-/// For a pixel with the sides `a` and `b` in the pattern. The square of its texel's side is half the square of the pixel's width, as a texel shows more than
-/// itself; `share` of its length's at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as long as the
-/// pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
-fn shape_of(a: vec2<f32>, b: vec2<f32>, share: f32) -> Shape {
-    let along = dot(a, a);
-    let down = dot(b, b);
-    let area = (a.x * b.y - a.y * b.x) * PATTERN_SIZE;
-    let long = max(along, down) * (PATTERN_SIZE * PATTERN_SIZE);
-    return Shape(select(a, b, down > along), long, max(0.5 * (PATTERN_SIZE * PATTERN_SIZE) * (area * area) / max(long, 1e-30), long * share));
+/// Two sides of a pixel in the pattern.
+struct Sides {
+    a: vec2<f32>,
+    b: vec2<f32>,
 }
 
 /// Where in the pattern gas of a generation is, `height` up in it.
@@ -91,39 +79,54 @@ fn place_in(generation: vec4<f32>, height: f32) -> vec2<f32> {
     return generation.xy + vec2<f32>(-disk_rate(height) * generation.z, height);
 }
 
-/// Where in the pattern a pixel is, in both generations, and how much of it it covers. A texel is no shorter than
-/// its length over `most`.
+/// Of a pixel of `in`, where the orbits are followed in each pixel. A texel is no shorter than its length over `most`.
 fn streaks_of(in: Gas, most: f32) -> Streaks {
     // Neighbours outside the triangle may be anywhere; their places are part of the differences.
     let height = 0.25 * log2(max(in.slope.w, 1.0));
-    let share = 1.0 / (most * most);
     let even = place_in(in.even, height);
     let odd = place_in(in.odd, height);
     // Differences of each by itself: neighbouring pixels may choose differently.
-    return streaks_at(in, even, odd, shape_of(dpdx(even), dpdy(even), share), shape_of(dpdx(odd), dpdy(odd), share));
+    let even_sides = Sides(dpdx(even), dpdy(even));
+    let odd_sides = Sides(dpdx(odd), dpdy(odd));
+    return streaks_at(even, odd, even_sides, odd_sides, vec2<f32>(in.even.w, in.odd.w), in.even.z < in.odd.z, most);
 }
 
-/// The same for what is at `even` and `odd` in the pattern and covers that much of it.
-fn streaks_at(in: Gas, even_place: vec2<f32>, odd_place: vec2<f32>, even: Shape, odd: Shape) -> Streaks {
+/// Of what is at `even` and `odd` in the pattern and covers that much of it. The square of a pixel's texel is half the square of the pixel's width, as a texel
+/// shows more than itself; of its length over `most` at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as
+/// long as the pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
+fn streaks_at(even: vec2<f32>, odd: vec2<f32>, even_sides: Sides, odd_sides: Sides, shares: vec2<f32>, even_is_younger: bool, most: f32) -> Streaks {
+    let even_long = vec2<f32>(dot(even_sides.a, even_sides.a), dot(even_sides.b, even_sides.b));
+    let odd_long = vec2<f32>(dot(odd_sides.a, odd_sides.a), dot(odd_sides.b, odd_sides.b));
     var result: Streaks;
-    result.even = even_place;
-    result.odd = odd_place;
+    result.even = even;
+    result.odd = odd;
+    result.even_side = select(even_sides.a, even_sides.b, even_long.y > even_long.x);
+    result.odd_side = select(odd_sides.a, odd_sides.b, odd_long.y > odd_long.x);
+    result.shares = shares;
     // One size does for both: that of the younger, if it shows at all. Across a triangle where one dies and the next but one is born its place is nowhere.
-    let even_shows = in.even.w > LEAST_SHARE * in.odd.w;
-    let odd_shows = in.odd.w > LEAST_SHARE * in.even.w;
-    result.even_side = even.side;
-    result.odd_side = odd.side;
-    result.long = max(even.long, odd.long);
-    result.square = select(odd.square, even.square, even_shows & (!odd_shows | (in.even.z < in.odd.z)));
+    let shows = shares > LEAST_SHARE * shares.yx;
+    let by_even = shows.x & (!shows.y | even_is_younger);
+    let squares = PATTERN_SIZE * PATTERN_SIZE * vec2<f32>(max(even_long.x, even_long.y), max(odd_long.x, odd_long.y));
+    let long = select(squares.y, squares.x, by_even);
+    let area = PATTERN_SIZE * PATTERN_SIZE * select(cross_of(odd_sides), cross_of(even_sides), by_even);
+    result.long = max(squares.x, squares.y);
+    result.square = max(0.5 * area * area / max(long, 1e-30), long / (most * most));
     return result;
+}
+
+fn cross_of(sides: Sides) -> f32 {
+    return sides.a.x * sides.b.y - sides.a.y * sides.b.x;
 }
 
 /// The pattern from far, of a level, over 8.
 fn far_value(place: vec2<f32>, level: u32) -> f32 {
-    let texel = place * (f32(FAR_SIDE) * bitcast<f32>((127u - level) << 23u)) - 0.5;
+    let side = FAR_SIDE >> level;
+    let texel = place * f32(side) - 0.5;
     let whole = floor(texel);
     let t = texel - whole;
-    let v = textureLoad(far_pattern, vec2<i32>(whole) & vec2<i32>(i32(FAR_SIDE >> level) - 1), i32(level));
+    // The first level is on the left, the others one below the other beside it.
+    let corner = vec2<i32>(select(0, i32(FAR_SIDE), level > 0u), max(i32(FAR_SIDE) - i32(2u * side), 0));
+    let v = textureLoad(far_pattern, (vec2<i32>(whole) & vec2<i32>(i32(side) - 1)) + corner, 0);
     let row = mix(v.xz, v.yw, vec2<f32>(t.x));
     return mix(row.x, row.y, t.y) - 0.5;
 }
@@ -157,47 +160,42 @@ fn taps_of(at: Streaks, most: u32) -> u32 {
 }
 
 /// The power of two by which the streaks cool the gas, `t` of the pixel's longest side on.
-fn power_along(in: Gas, at: Streaks, t: f32, level: u32) -> f32 {
+fn power_along(at: Streaks, t: f32, level: u32) -> f32 {
     let even = far_value(at.even + t * at.even_side, level);
     let odd = far_value(at.odd + t * at.odd_side, level);
-    return 8.0 * (in.even.w * even + in.odd.w * odd);
+    return 8.0 * dot(at.shares, vec2<f32>(even, odd));
 }
 
-/// The variance of ln T for that of the pattern, in units of log₂ in `even` and `odd`.
-fn unseen_of(in: Gas, variance: f32) -> f32 {
-    return 0.48045301 * (in.even.w * in.even.w + in.odd.w * in.odd.w) * variance;
+/// The variance of ln T for that of the pattern, in units of log₂ in the shares.
+fn unseen_of(at: Streaks, variance: f32) -> f32 {
+    return 0.48045301 * dot(at.shares, at.shares) * variance;
 }
 
 /// The streaks of both generations from far, at `taps` places along a pixel (of none: nothing): what is seen there has one colour, by its mean and its variance, as what is not
 /// seen at all.
-fn far_along(in: Gas, at: Streaks, taps: u32) -> Cooling {
+fn far_along(at: Streaks, taps: u32) -> Cooling {
     let level = far_level(at);
     let share = 1.0 / f32(max(taps, 1u));
     var sum = 0.0;
     var squares = 0.0;
     for (var k = 0u; k < taps; k++) {
-        let power = power_along(in, at, (f32(k) + 0.5) * share - 0.5, level);
+        let power = power_along(at, (f32(k) + 0.5) * share - 0.5, level);
         sum += power;
         squares += power * power;
     }
     let mean = sum * share;
-    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
+    let unseen = unseen_of(at, unseen_variance(f32(level) - 1.0));
     return Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
 /// The same at two places, as many as pay from far: four take a sixth more of the time of the disk and leave five sixths of the error. A short pixel is
 /// looked up at its middle twice: a loop that some pixels leave earlier costs a software driver more.
-fn far_look(in: Gas) -> Cooling {
-    return two_looks(in, streaks_of(in, 2.0 * STEP));
-}
-
-/// For what covers that much of the pattern.
-fn two_looks(in: Gas, at: Streaks) -> Cooling {
+fn two_looks(at: Streaks) -> Cooling {
     let level = far_level(at);
     let t = select(0.0, 0.25, at.long > STEP * STEP * max(at.square, 0.25));
-    let a = power_along(in, at, -t, level);
-    let b = power_along(in, at, t, level);
-    let unseen = unseen_of(in, unseen_variance(f32(level) - 1.0));
+    let a = power_along(at, -t, level);
+    let b = power_along(at, t, level);
+    let unseen = unseen_of(at, unseen_variance(f32(level) - 1.0));
     return Cooling(0.5 * (a + b), unseen + 0.12011325 * (a - b) * (a - b));
 }
 

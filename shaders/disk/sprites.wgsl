@@ -108,7 +108,7 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     let outer = radial_gas(r + image.ring_width);
     let width = vec2<f32>((gas.b.x - outer.b.x) / (2.0 * HALF_TURN), outer.b.z - gas.b.z);
     let long = vec2<f32>(step / (2.0 * HALF_TURN) * max(1.0, 1.0 / max(length(ahead), 1e-3)), 0.0);
-    let cooling = two_looks(there, covered(there, gas.b.z, width, long));
+    let cooling = two_looks(covered(there, gas.b.z, width, long));
     let colour = gas_colour(there.light.rgb, there.slope.xyz, there.light.w, cooling);
     let beyond = round((image.end - r) / image.ring_width - 0.5);
     return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0), vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
@@ -125,8 +125,7 @@ fn covered(there: Gas, height: f32, width: vec2<f32>, long: vec2<f32>) -> Streak
     let even = place_in(there.even, height);
     let odd = place_in(there.odd, height);
     let ahead = vec2<f32>(width.x, 0.0);
-    let share = 1.0 / (4.0 * STEP * STEP);
-    let even_shape = shape_of(place_in(there.even, height + width.y) - even + ahead, long, share);
-    let odd_shape = shape_of(place_in(there.odd, height + width.y) - odd + ahead, long, share);
-    return streaks_at(there, even, odd, even_shape, odd_shape);
+    let even_sides = Sides(place_in(there.even, height + width.y) - even + ahead, long);
+    let odd_sides = Sides(place_in(there.odd, height + width.y) - odd + ahead, long);
+    return streaks_at(even, odd, even_sides, odd_sides, vec2<f32>(there.even.w, there.odd.w), there.even.z < there.odd.z, 2.0 * STEP);
 }

@@ -7,6 +7,7 @@ use std::time::Instant;
 use crate::scene::{self, GameConfig};
 
 use super::aurora::ration::shares;
+use super::disk::types::DiskCounters;
 use super::readback::PictureError;
 use super::renderer::Surroundings;
 use super::shot::{Moment, ShotError, surroundings};
@@ -47,12 +48,14 @@ pub struct FrameTimes {
     /// Processor time of all threads for a frame, where the system tells it: on a software driver it says more than the clock does when
     /// other programs run.
     pub processor: Option<f64>,
-    /// Median of each pass by the GPU's timestamps, where it has them.
-    pub passes: Vec<(&'static str, f64)>,
+    /// Median and least of each pass by the GPU's timestamps, where it has them.
+    pub passes: Vec<(&'static str, [f64; 2])>,
     /// Fragments that passes shaded, where the GPU counts them.
     pub fragments: Vec<(&'static str, u64)>,
     /// What the stages of the geometry counted in the last frame.
     pub counters: Counters,
+    /// And those of the disk, where it is one of arcs.
+    pub disk: Option<DiskCounters>,
     /// Strokes of the aurora in it, by level of the pyramid.
     pub strokes: Option<Vec<u32>>,
 }
@@ -66,14 +69,17 @@ impl fmt::Display for FrameTimes {
             write!(f, "; {time:.0} of processor time")?;
         }
         write!(f, ")")?;
-        for (label, time) in &self.passes {
-            write!(f, "\n  {label:<12} {time:8.2} ms")?;
+        for (label, [median, least]) in &self.passes {
+            write!(f, "\n  {label:<12} {median:8.2} ms (least {least:.2})")?;
             if let Some((_, count)) = self.fragments.iter().find(|(known, _)| known == label) {
                 write!(f, ", {count} fragments")?;
             }
         }
         write!(f, "\n  {}", self.counters)?;
-        let passes: Vec<(&str, f32)> = self.passes.iter().map(|&(label, time)| (label, time as f32)).collect();
+        if let Some(disk) = &self.disk {
+            write!(f, "\n  {disk}")?;
+        }
+        let passes: Vec<(&str, f32)> = self.passes.iter().map(|&(label, [median, _])| (label, median as f32)).collect();
         if let ([aurora, rest], Some(strokes)) = (shares(&passes), &self.strokes) {
             write!(f, "\n  the aurora takes {:.2} of the passes' time", aurora / (aurora + rest))?;
             let levels: Vec<String> = strokes.iter().map(u32::to_string).collect();
@@ -156,9 +162,10 @@ pub fn frame_times(
         whole: [quantile(&mut whole, 0.0), quantile(&mut whole, 0.5), quantile(&mut whole, 1.0)],
         prepare: quantile(&mut prepared, 0.5),
         processor,
-        passes: passes.into_iter().map(|(label, mut times)| (label, quantile(&mut times, 0.5))).collect(),
+        passes: passes.into_iter().map(|(label, mut times)| (label, [0.5, 0.0].map(|q| quantile(&mut times, q)))).collect(),
         fragments: renderer.timing().latest_fragments().to_vec(),
         counters: renderer.counters()?,
+        disk: renderer.disk_counters()?,
         strokes: renderer.aurora_strokes()?,
     })
 }

@@ -62,8 +62,8 @@ impl ArcPass {
         };
         let shader = module(device, "disk draw", Pass::DiskDraw);
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
-        let draw = |label, fragment| {
-            let stage = Raster { vertex: "vertex", fragment, targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
+        let draw = |label, vertex, fragment| {
+            let stage = Raster { vertex, fragment, targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
             raster(device, label, &shader, stage, &[Some(frame_layout), Some(&draw_layout), Some(gas_layout)])
         };
         let storage = BufferUsages::STORAGE;
@@ -75,9 +75,9 @@ impl ArcPass {
             strips: stage("disk strips", Pass::DiskStrips),
             before_mesh: argument("before_mesh"),
             before_draw: argument("before_draw"),
-            far: draw("disk far", "far_fragment"),
-            thin: draw("disk thin", "thin_fragment"),
-            near: draw("disk near", "near_fragment"),
+            far: draw("disk far", "far_vertex", "far_fragment"),
+            thin: draw("disk thin", "far_vertex", "thin_fragment"),
+            near: draw("disk near", "vertex", "near_fragment"),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
             rings: Growing::new(device, "disk rings", storage),

@@ -12,7 +12,8 @@ const GREATEST: f32 = 4.0;
 /// The pattern with all its halvings, twice.
 #[derive(Debug)]
 pub struct Textures {
-    /// With the finest octaves, in 8 bits, (value + 4)/8: each texel with its next to the right, below and across, so that one fetch does for a bilinear sample.
+    /// With the finest octaves, in 8 bits, (value + 4)/8, all levels side by side: each texel with its next to the right, below and across, so that one fetch
+    /// does for a bilinear sample.
     pub far: wgpu::TextureView,
     /// Without them, in 16-bit floats, for close looks.
     pub near: wgpu::TextureView,
@@ -24,18 +25,8 @@ impl Textures {
     /// Uploads them.
     pub fn new(gpu: &Gpu) -> Textures {
         let levels = halvings((WIDTH as u32, HEIGHT as u32, LATTICE.clone()));
-        let bytes = |level: &Level| -> Vec<u8> {
-            let &(width, height, ref values) = level;
-            let at = |x: u32, y: u32| {
-                let value = values[((y % height) * width + x % width) as usize];
-                ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8
-            };
-            (0..width * height)
-                .map(|k| (k % width, k / width))
-                .flat_map(|(x, y)| [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
-                .collect()
-        };
-        let halves = |level: &Level| level.2.iter().flat_map(|&value| half::f16::from_f32(value).to_le_bytes()).collect();
+        let in_halves = |level: &Level| level.2.iter().flat_map(|&value| half::f16::from_f32(value).to_le_bytes()).collect();
+        let halves: Vec<Vec<u8>> = levels.iter().map(in_halves).collect();
         let near_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
             label: Some("gas from near"),
             address_mode_u: wgpu::AddressMode::Repeat,
@@ -46,8 +37,8 @@ impl Textures {
             ..Default::default()
         });
         Textures {
-            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, &FAR, &bytes),
-            near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, &levels, &halves),
+            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, [FAR_WIDTH, FAR[0].1], &[side_by_side(&FAR)]),
+            near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, [levels[0].0, levels[0].1], &halves),
             near_sampler,
         }
     }
@@ -114,10 +105,33 @@ fn halved((width, height, values): &Level) -> Level {
     (width / 2, height / 2, mean.collect())
 }
 
-fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level], encode: &dyn Fn(&Level) -> Vec<u8>) -> wgpu::TextureView {
+/// Width of the picture that holds all levels of [`FAR`], in texels: those of the first two, and 16 more, an odd number of lines of 64 bytes. Rows an even
+/// number of them apart get in one another's way in a processor's cache, where streaks are looked up one above the other.
+const FAR_WIDTH: u32 = 1552;
+
+/// All levels in one picture, the first on the left, the others one below the other beside it: a level of a texture that is chosen anew in each pixel costs a
+/// software driver more than the sum that finds its corner. Each texel has its next to the right, below and across.
+fn side_by_side(levels: &[Level]) -> Vec<u8> {
+    let mut texels = vec![[0; 4]; (FAR_WIDTH * levels[0].1) as usize];
+    let (mut left, mut top) = (0, 0);
+    for &(width, height, ref values) in levels {
+        let at = |x: u32, y: u32| {
+            let value = values[(y % height * width + x % width) as usize];
+            ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8
+        };
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            texels[((top + y) * FAR_WIDTH + left + x) as usize] = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
+        }
+        (left, top) = (levels[0].0, if left == 0 { 0 } else { top + height });
+    }
+    texels.concat()
+}
+
+/// A texture of this width and height with the bytes of each of its levels.
+fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, [width, height]: [u32; 2], levels: &[Vec<u8>]) -> wgpu::TextureView {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: levels[0].0, height: levels[0].1, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: levels.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -125,9 +139,8 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level]
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (mip, level) in levels.iter().enumerate() {
-        let (width, height, _) = level;
-        let bytes = encode(level);
+    for (mip, bytes) in levels.iter().enumerate() {
+        let (width, height) = ((width >> mip).max(1), (height >> mip).max(1));
         gpu.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,
@@ -135,9 +148,9 @@ fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, levels: &[Level]
                 origin: wgpu::Origin3d::ZERO,
                 aspect: wgpu::TextureAspect::All,
             },
-            &bytes,
+            bytes,
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None },
-            wgpu::Extent3d { width: *width, height: *height, depth_or_array_layers: 1 },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
     }
     texture.create_view(&Default::default())
