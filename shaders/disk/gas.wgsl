@@ -188,13 +188,11 @@ fn far_along(at: Streaks, taps: u32) -> Cooling {
     return Cooling(mean, unseen + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
-/// The same at two places, as many as pay from far: four take a sixth more of the time of the disk and leave five sixths of the error. A short pixel is
-/// looked up at its middle twice: a loop that some pixels leave earlier costs a software driver more.
+/// The same at two places, as many as pay from far: four take a sixth more of the time of the disk and leave five sixths of the error.
 fn two_looks(at: Streaks) -> Cooling {
     let level = far_level(at);
-    let t = select(0.0, 0.25, at.long > STEP * STEP * max(at.square, 0.25));
-    let a = power_along(at, -t, level);
-    let b = power_along(at, t, level);
+    let a = power_along(at, -0.25, level);
+    let b = power_along(at, 0.25, level);
     let unseen = unseen_of(at, unseen_variance(f32(level) - 1.0));
     return Cooling(0.5 * (a + b), unseen + 0.12011325 * (a - b) * (a - b));
 }

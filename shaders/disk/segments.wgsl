@@ -1,7 +1,8 @@
-// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (paper 2, section 3) says how
-// often it is halved; both arcs that share the circle take the same points, so no gap opens.
+// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (paper 2, section 3) says into how
+// many segments it is cut; both arcs that share the circle take the same points, so no gap opens. A halving divides δ by four, and n segments by n²: the paper
+// halves until δ is small enough, here it is the least n, for which triangles are fewer by a quarter.
 
-/// Most segments of an arc. Every halving divides δ by four.
+/// Most segments of an arc.
 const MOST_SEGMENTS: u32 = 128u;
 
 @compute @workgroup_size(64)
@@ -29,12 +30,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     // Thin images are grown to lines: their chords are held closer, as their sag shows against their own width.
     let budget = disk.gas.z * select(0.5, 1.0, circles[row].rows.x == 1u);
-    var count = 1u;
-    var left = error;
-    while left > budget && count < MOST_SEGMENTS {
-        count *= 2u;
-        left *= 0.25;
-    }
+    var count = u32(clamp(ceil(sqrt(error / budget)), 1.0, f32(MOST_SEGMENTS)));
     var extra = 0u;
     if count > 2u {
         extra = atomicAdd(&disk_counters.vertices, count - 1u);
