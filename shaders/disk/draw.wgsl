@@ -2,32 +2,20 @@
 
 @group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
 
-/// What a pixel needs to know from far. Rings are so narrow that the orbits, which shear the pattern, need not be followed in each pixel: its places go
-/// straight over a triangle (src/render/disk/view.rs sees to that).
-struct FarGas {
-    @builtin(position) position: vec4<f32>,
-    /// Where in the pattern the even generation is; its share; by how much it is older than the odd one, in r_s/c.
-    @location(0) even: vec4<f32>,
-    /// Of the odd one, place and share.
-    @location(1) odd: vec3<f32>,
-    /// As in `Gas`.
-    @location(2) light: vec4<f32>,
-    @location(3) slope: vec3<f32>,
-    /// Of a thin image, distance from its middle and half width, both in pixels.
-    @location(4) thin: vec2<f32>,
-}
-
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Gas {
     return gas_of(disk_vertices[index]);
 }
 
+/// From far rings are so narrow on the screen that the height in the pattern goes straight over a triangle (src/render/disk/view.rs sees to that), and the
+/// places of both generations have it.
 @vertex
-fn far_vertex(@builtin(vertex_index) index: u32) -> FarGas {
+fn far_vertex(@builtin(vertex_index) index: u32) -> Gas {
     let seen = disk_vertices[index];
-    let gas = gas_of(seen);
-    let even = vec4<f32>(place_in(gas.even, seen.gas.y), gas.even.w, gas.even.z - gas.odd.z);
-    return FarGas(gas.position, even, vec3<f32>(place_in(gas.odd, seen.gas.y), gas.odd.w), gas.light, gas.slope.xyz, gas.seen.xy);
+    var gas = gas_of(seen);
+    gas.even.y += seen.gas.y;
+    gas.odd.y += seen.gas.y;
+    return gas;
 }
 
 fn gas_of(seen: DiskVertex) -> Gas {
@@ -37,21 +25,22 @@ fn gas_of(seen: DiskVertex) -> Gas {
 
 /// From far: the slant is in the vertices. Order 1 is wide.
 @fragment
-fn far_fragment(in: FarGas) -> @location(0) vec4<f32> {
+fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
     return far_colour(in);
 }
 
 /// Orders 2 and 3, from far.
 @fragment
-fn thin_fragment(in: FarGas) -> @location(0) vec4<f32> {
-    return far_colour(in) * coverage(in.thin.x, in.thin.y);
+fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
+    return far_colour(in) * coverage(in.seen.x, in.seen.y);
 }
 
-fn far_colour(in: FarGas) -> vec4<f32> {
-    let even_sides = Sides(dpdx(in.even.xy), dpdy(in.even.xy));
-    let odd_sides = Sides(dpdx(in.odd.xy), dpdy(in.odd.xy));
-    let at = streaks_at(in.even.xy, in.odd.xy, even_sides, odd_sides, vec2<f32>(in.even.z, in.odd.z), in.even.w < 0.0, 2.0 * STEP);
-    return gas_colour(in.light.rgb, in.slope, in.light.w, two_looks(at));
+/// What the orbits have turned the gas by does not go straight: each pixel follows them.
+fn far_colour(in: Gas) -> vec4<f32> {
+    let rate = disk_rate_at(max(in.slope.w, 1.0));
+    let even = vec2<f32>(in.even.x - rate * in.even.z, in.even.y);
+    let odd = vec2<f32>(in.odd.x - rate * in.odd.z, in.odd.y);
+    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, two_looks(streaks_at(in, even, odd, 2.0 * STEP)));
 }
 
 /// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.

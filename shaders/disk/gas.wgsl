@@ -79,22 +79,23 @@ fn place_in(generation: vec4<f32>, height: f32) -> vec2<f32> {
     return generation.xy + vec2<f32>(-disk_rate(height) * generation.z, height);
 }
 
-/// Of a pixel of `in`, where the orbits are followed in each pixel. A texel is no shorter than its length over `most`.
+/// Of a pixel that follows height and orbits in the pattern by its radius.
 fn streaks_of(in: Gas, most: f32) -> Streaks {
-    // Neighbours outside the triangle may be anywhere; their places are part of the differences.
     let height = 0.25 * log2(max(in.slope.w, 1.0));
-    let even = place_in(in.even, height);
-    let odd = place_in(in.odd, height);
-    // Differences of each by itself: neighbouring pixels may choose differently.
-    let even_sides = Sides(dpdx(even), dpdy(even));
-    let odd_sides = Sides(dpdx(odd), dpdy(odd));
-    return streaks_at(even, odd, even_sides, odd_sides, vec2<f32>(in.even.w, in.odd.w), in.even.z < in.odd.z, most);
+    return streaks_at(in, place_in(in.even, height), place_in(in.odd, height), most);
+}
+
+/// Of a pixel of gas that is at `even` and `odd`. A texel is no shorter than its length over `most`.
+fn streaks_at(in: Gas, even: vec2<f32>, odd: vec2<f32>, most: f32) -> Streaks {
+    // Neighbours outside the triangle may be anywhere; their places are part of the differences. Differences of each by itself: neighbouring pixels may
+    // choose differently.
+    return streaks_over(in, even, odd, Sides(dpdx(even), dpdy(even)), Sides(dpdx(odd), dpdy(odd)), most);
 }
 
 /// Of what is at `even` and `odd` in the pattern and covers that much of it. The square of a pixel's texel is half the square of the pixel's width, as a texel
 /// shows more than itself; of its length over `most` at least. Shear and a slant draw pixels out in the pattern up to a hundred times as long as wide: a texel as
 /// long as the pixel is a blur, and one as wide a coincidence, which made dashes of streaks seen edge on. So it is looked up at several places along it.
-fn streaks_at(even: vec2<f32>, odd: vec2<f32>, even_sides: Sides, odd_sides: Sides, shares: vec2<f32>, even_is_younger: bool, most: f32) -> Streaks {
+fn streaks_over(in: Gas, even: vec2<f32>, odd: vec2<f32>, even_sides: Sides, odd_sides: Sides, most: f32) -> Streaks {
     let even_long = vec2<f32>(dot(even_sides.a, even_sides.a), dot(even_sides.b, even_sides.b));
     let odd_long = vec2<f32>(dot(odd_sides.a, odd_sides.a), dot(odd_sides.b, odd_sides.b));
     var result: Streaks;
@@ -102,10 +103,10 @@ fn streaks_at(even: vec2<f32>, odd: vec2<f32>, even_sides: Sides, odd_sides: Sid
     result.odd = odd;
     result.even_side = select(even_sides.a, even_sides.b, even_long.y > even_long.x);
     result.odd_side = select(odd_sides.a, odd_sides.b, odd_long.y > odd_long.x);
-    result.shares = shares;
+    result.shares = vec2<f32>(in.even.w, in.odd.w);
     // One size does for both: that of the younger, if it shows at all. Across a triangle where one dies and the next but one is born its place is nowhere.
-    let shows = shares > LEAST_SHARE * shares.yx;
-    let by_even = shows.x & (!shows.y | even_is_younger);
+    let shows = result.shares > LEAST_SHARE * result.shares.yx;
+    let by_even = shows.x & (!shows.y | (in.even.z < in.odd.z));
     let squares = PATTERN_SIZE * PATTERN_SIZE * vec2<f32>(max(even_long.x, even_long.y), max(odd_long.x, odd_long.y));
     let long = select(squares.y, squares.x, by_even);
     let area = PATTERN_SIZE * PATTERN_SIZE * select(cross_of(odd_sides), cross_of(even_sides), by_even);

@@ -127,5 +127,5 @@ fn covered(there: Gas, height: f32, width: vec2<f32>, long: vec2<f32>) -> Streak
     let ahead = vec2<f32>(width.x, 0.0);
     let even_sides = Sides(place_in(there.even, height + width.y) - even + ahead, long);
     let odd_sides = Sides(place_in(there.odd, height + width.y) - odd + ahead, long);
-    return streaks_at(even, odd, even_sides, odd_sides, vec2<f32>(there.even.w, there.odd.w), there.even.z < there.odd.z, 2.0 * STEP);
+    return streaks_over(there, even, odd, even_sides, odd_sides, 2.0 * STEP);
 }

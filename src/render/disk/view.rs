@@ -20,10 +20,10 @@ const LEAST_HEIGHT: f64 = 1e-5;
 struct Straight {
     /// The place in the gas across the orbit, in pixels.
     across: f64,
+    /// Whether that is the logarithm of the radius, the height in the pattern, and not the radius itself, from which each pixel then finds the height.
+    height: bool,
     /// And along it, where streaks are ten times as long.
     along: f64,
-    /// The same for what the orbits have done to streaks; infinite where each pixel follows the orbits itself.
-    sheared: f64,
     /// The logarithm of light goes straight too, and the optical depth: the light that comes of both, over that of the brightest ring.
     light: f64,
     /// And what is stopped of light from behind.
@@ -32,9 +32,9 @@ struct Straight {
 
 /// From far: what is left of the light's error by [`straighten`] is less than half. With three times as much a picture takes a tenth less time and is off by a
 /// fifth more.
-const FROM_FAR: Straight = Straight { across: 0.05, along: 4.0, sheared: 1.0, light: 0.02, stopped: 0.03 };
+const FROM_FAR: Straight = Straight { across: 0.15, height: true, along: 4.0, light: 0.02, stopped: 0.03 };
 /// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
-const FROM_NEAR: Straight = Straight { across: 0.4, along: 8.0, sheared: f64::INFINITY, light: 0.015, stopped: 0.01 };
+const FROM_NEAR: Straight = Straight { across: 0.4, height: false, along: 8.0, light: 0.015, stopped: 0.01 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/types.wgsl has it.
 const MEAN: [f64; 2] = [0.75, 2.0];
@@ -43,8 +43,6 @@ const THIN_SAMPLES: usize = 8;
 /// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
 /// the first two misses the lag by 0.02 rad.
 const FALL_STEP: f64 = 0.05;
-/// Age at which streaks are sheared the most and still show, in r_s/c: three quarters of the second renewal, when a sixth of their light is left.
-const OLD: f64 = SHEARED + 1.75 * RENEWAL;
 /// Circles nearer to one another than this, in r_s, are one.
 const LEAST_RING: f64 = 1e-3;
 /// Azimuths at which that is tried, on one side, for both sides are alike; as in shaders/disk/place.wgsl.
@@ -330,8 +328,6 @@ struct SeenCircle {
     lag: f64,
     /// The radius that its pattern comes from.
     pattern: f64,
-    /// What its orbit has turned the older streaks by when they fade, in rad.
-    turned: f64,
     /// Of gas that lets nothing through.
     light: f64,
     depth: f64,
@@ -355,7 +351,6 @@ impl SeenCircle {
             radius: r,
             lag: radial.lag(r),
             pattern: radial.pattern_radius(r),
-            turned: OLD * (2.0 * radial.pattern_radius(r).powi(3)).sqrt().recip(),
             light: (-GREEN / radial.temperature(r)).exp().max(1e-300),
             depth: radial.depth(r),
             places,
@@ -382,16 +377,13 @@ impl SeenCircle {
             // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
             let shown = own[k] * wide.min(1.0);
             let along = self.radius / here.length() / pixel;
-            // From far the pattern's height goes straight, the logarithm of the radius.
-            let in_pixels = within.sheared.is_infinite();
-            let pattern = |circle: &SeenCircle| if in_pixels { circle.pattern } else { self.pattern * circle.pattern.ln() };
+            let pattern = |circle: &SeenCircle| if within.height { self.pattern * circle.pattern.ln() } else { circle.pattern };
             let light = straight(a.light.ln(), b.light.ln()).exp();
             let depth = straight(a.depth, b.depth);
             let stopped = |depth: f64, slant: f64| 1.0 - (-slant * depth).exp();
             t > 0.0
                 && t < 1.0
                 && off(pattern(self), pattern(a), pattern(b)) * across < within.across
-                && (in_pixels || off(self.turned, a.turned, b.turned) * along * wide.min(1.0) < within.sheared)
                 && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along
                 && slants.into_iter().all(|slant| {
                     (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < within.light
