@@ -7,20 +7,18 @@
 //! narrower by that. Beside a sum of Gaussians the picture errs by what pairs and tabulated widths and places leave: the tests
 //! hold it below 2 % (root mean square), and a single splat within 5.6 % of its peak.
 
-use bytemuck::{Pod, Zeroable, cast};
+use bytemuck::cast;
+use std::ops::Range;
 use wide::f32x4;
 
 #[cfg(target_arch = "x86_64")]
 use super::collisions::ORDERS;
+use super::layers::{LAYERS, Layer, MARGIN, Pair, TILE, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
 use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
-/// Layers: in the coarsest, with pixels of 2⁵, the widest splat has a standard deviation of 1.25 pixels.
-const LAYERS: usize = 6;
-/// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
-const MARGIN: usize = 16;
 /// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
 const ADDED: f32 = 5.0 / 12.0;
 /// One over the least variance of the splats of a layer, pixels of it squared: narrower by what enlarging adds, they are still wider than half a pixel.
@@ -32,23 +30,11 @@ const NEAR: f32 = 2.1;
 const ASLANT: f32 = 0.4;
 const ALIKE: f32 = 0.6;
 
-/// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
-/// before would wait for both to be stored.
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-#[repr(C, align(32))]
-struct Pair([f32; 2 * 4]);
-
-/// The pixels of pairs, row by row.
-fn pixels_of(pairs: &mut [Pair]) -> &mut [f32x4] {
-    bytemuck::cast_slice_mut(pairs)
-}
-
 /// The layers of a picture, each with a margin.
 #[derive(Debug)]
 pub struct Pyramid {
     size: [usize; 2],
-    /// A layer is empty before light falls on it.
-    layers: [Vec<Pair>; LAYERS],
+    layers: [Layer; LAYERS],
 }
 
 /// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
@@ -108,11 +94,7 @@ fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
 
 /// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
 struct Target<'a> {
-    layers: &'a mut [Vec<Pair>; LAYERS],
-    /// Of the picture.
-    size: [usize; 2],
-    /// Pairs from one row of each layer to the next.
-    strides: [usize; LAYERS],
+    layers: &'a mut [Layer; LAYERS],
     shares: &'a [f32],
 }
 
@@ -120,13 +102,13 @@ impl Target<'_> {
     /// Adds the `k`-th of eight splats. `AVX` may be said only where the processor has AVX2.
     #[inline(always)]
     fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
-        let number = splats.layer[k] as usize;
-        let layer = &mut self.layers[number];
-        if layer.is_empty() {
-            *layer = black(self.size, number);
+        let layer = &mut self.layers[splats.layer[k] as usize];
+        let tile = splats.tile[k] as usize;
+        if !layer.ready[tile] {
+            layer.make_ready(tile);
         }
-        let pixels = &mut layer[..];
-        let start = [splats.pair[k] as usize, self.strides[number]];
+        let start = [splats.pair[k] as usize, layer.stride];
+        let pixels = &mut layer.pairs[..];
         let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
         // A known width lets the compiler write the loop out.
         macro_rules! add {
@@ -152,18 +134,6 @@ impl Target<'_> {
     }
 }
 
-/// Pixels from one row to the next of a layer of a picture of `width` pixels; even.
-#[inline(always)]
-fn stride(width: usize, layer: usize) -> usize {
-    2 * ((width >> (layer + 1)) + MARGIN + 1)
-}
-
-/// A black layer of a picture of this size.
-#[cold]
-fn black([width, height]: [usize; 2], layer: usize) -> Vec<Pair> {
-    vec![Pair::default(); stride(width, layer) / 2 * (height.div_ceil(1 << layer) + 2 * MARGIN)]
-}
-
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
@@ -173,7 +143,17 @@ fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, s
 impl Pyramid {
     /// For pictures of a size; black.
     pub fn new(size: [usize; 2]) -> Self {
-        Pyramid { size, layers: Default::default() }
+        Pyramid { size, layers: std::array::from_fn(|number| Layer::new(size, number)) }
+    }
+
+    /// Width and height of the picture, pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// Black again, with the memory that it has.
+    pub fn wipe(&mut self) {
+        self.layers.iter_mut().for_each(Layer::wipe);
     }
 
     /// Adds points with blobs of standard deviation `radius` km.
@@ -195,11 +175,7 @@ impl Pyramid {
     /// `AVX` may be said only where the processor has AVX2 and counts bits.
     #[inline(always)]
     fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        let mut strides = [0; LAYERS];
-        for (layer, pairs) in strides.iter_mut().enumerate() {
-            *pairs = stride(self.size[0], layer) / 2;
-        }
-        let mut target = Target { layers: &mut self.layers, size: self.size, strides, shares: &shares.0 };
+        let mut target = Target { layers: &mut self.layers, shares: &shares.0 };
         let mut lone = Lone::default();
         let mut first = 0;
         // One loop for pairs and for lone points, as what is called in one place alone is compiled into it.
@@ -223,75 +199,18 @@ impl Pyramid {
         }
     }
 
-    /// Adds another of the same size.
-    pub fn merge(&mut self, other: Pyramid) {
-        for (layer, mut more) in self.layers.iter_mut().zip(other.layers) {
-            if layer.is_empty() {
-                *layer = more;
-            } else {
-                pixels_of(layer).iter_mut().zip(pixels_of(&mut more)).for_each(|(pixel, more)| *pixel += *more);
-            }
-        }
+    /// The picture.
+    pub fn picture(&self) -> Picture {
+        let mut picture = Picture::new(self.size);
+        Pyramid::sum(&[self], 0..self.size[1], &mut picture.pixels);
+        picture
     }
 
-    /// The picture: each layer enlarged and added to the next finer one.
-    pub fn picture(mut self) -> Picture {
-        let mut columns = [Vec::new(), Vec::new()];
-        for k in (0..LAYERS).rev() {
-            // The finest layer is there even if nothing was added.
-            let (finer, coarser) = self.layers.split_at_mut(k);
-            if coarser[0].is_empty() {
-                if k == 0 {
-                    coarser[0] = black(self.size, 0);
-                }
-                continue;
-            }
-            let Some(fine) = finer.last_mut() else { continue };
-            if fine.is_empty() {
-                *fine = black(self.size, k - 1);
-            }
-            enlarge(pixels_of(&mut coarser[0]), pixels_of(fine), self.size, k, &mut columns);
-        }
-        let size = self.size;
-        let mut pixels = Vec::with_capacity(size[0] * size[1]);
-        for row in pixels_of(&mut self.layers[0]).chunks_exact(stride(size[0], 0)).skip(MARGIN).take(size[1]) {
-            pixels.extend_from_slice(bytemuck::cast_slice(&row[MARGIN..MARGIN + size[0]]));
-        }
-        Picture { size, pixels }
-    }
-}
-
-/// Two fine pixels of the coarse one that they lie in and its neighbours: five, ten and one sixteenth, from the side that the fine one leans to.
-#[inline(always)]
-fn halves(before: f32x4, own: f32x4, after: f32x4) -> [f32x4; 2] {
-    let even = own * f32x4::splat(0.625) + (before + after) * f32x4::splat(0.1875);
-    let odd = (before - after) * f32x4::splat(0.125);
-    [even + odd, even - odd]
-}
-
-/// Adds layer `k` of a picture of this size to the next finer one. Of the margins two pixels are enough: no finer layer asks for more. `columns` is
-/// room for two rows.
-fn enlarge(coarse: &[f32x4], fine: &mut [f32x4], size: [usize; 2], k: usize, [upper, lower]: &mut [Vec<f32x4>; 2]) {
-    let [width, height] = size.map(|side| side.div_ceil(1 << k));
-    let [coarse_stride, fine_stride] = [stride(size[0], k), stride(size[0], k - 1)];
-    let first = MARGIN - 2;
-    for y in first + 1..MARGIN + height + 1 {
-        let row = |y: usize| &coarse[y * coarse_stride + first..][..width + 4];
-        upper.clear();
-        lower.clear();
-        for ((before, own), after) in row(y - 1).iter().zip(row(y)).zip(row(y + 1)) {
-            let [up, down] = halves(*before, *own, *after);
-            upper.push(up);
-            lower.push(down);
-        }
-        let fine_y = 2 * y - MARGIN;
-        for (y, column) in [(fine_y, &*upper), (fine_y + 1, &*lower)] {
-            let (pairs, _) = fine[y * fine_stride + first..][..2 * width + 4].as_chunks_mut::<2>();
-            for (pair, [before, own, after]) in pairs.iter_mut().zip(column.array_windows::<3>()) {
-                let [left, right] = halves(*before, *own, *after);
-                pair[0] += left;
-                pair[1] += right;
-            }
+    /// Some rows of the picture that pyramids of one size make together: each layer enlarged and added to the next finer one. `out` has the rows' pixels.
+    pub fn sum(pyramids: &[&Pyramid], rows: Range<usize>, out: &mut [[f32; 4]]) {
+        let layers: Vec<&[Layer; LAYERS]> = pyramids.iter().map(|pyramid| &pyramid.layers).collect();
+        if let Some(first) = pyramids.first() {
+            sum(&layers, first.size, rows, out);
         }
     }
 }
@@ -432,8 +351,9 @@ struct Splats {
     layer: [i32; LANES],
     /// Pixels that it covers on each side of the one in its middle.
     half: [i32; LANES],
-    /// Its first pair in the layer.
+    /// Its first pair in the layer, and the tile in which that is.
     pair: [i32; LANES],
+    tile: [i32; LANES],
     /// Where its shares start in the table.
     columns: [i32; LANES],
     lines: [i32; LANES],
@@ -483,7 +403,10 @@ impl Splats {
             let (left, top) = (integer(column - half), integer(row - half));
             splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
             splats.lines[k] = integer(lines - half);
-            splats.pair[k] = top.wrapping_mul((size[0] as i32 >> (layer + 1)) + MARGIN as i32 + 1).wrapping_add(left >> 1);
+            // As `stride` says.
+            let tiles = ((size[0] as i32 >> (layer + 1)) + (MARGIN as i32 + (1 << (TILE - 1)))) >> (TILE - 1);
+            splats.pair[k] = top.wrapping_mul(tiles << (TILE - 1)).wrapping_add(left >> 1);
+            splats.tile[k] = (top >> TILE).wrapping_mul(tiles).wrapping_add(left >> TILE);
             splats.layer[k] = layer;
             splats.half[k] = integer(half);
             splats.weight[k] = blobs.weight[k] * (shrink * shrink);

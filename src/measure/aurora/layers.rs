@@ -1,0 +1,172 @@
+//! Pictures of half, a quarter, … the size: their memory, and how they become one picture.
+//!
+//! Memory is kept from picture to picture and cleared tile by tile, where light first falls: most of a large layer is never touched. At the end the
+//! layers are not enlarged one after the other, but row by row all at once: a row of the picture asks for three rows of the next coarser layer, and these
+//! for three of the one after. So all that is between is in a processor's first cache, several pyramids are summed on the way, and bands of the picture can be made
+//! by different threads.
+
+use bytemuck::{Pod, Zeroable};
+use std::ops::Range;
+use wide::f32x4;
+
+/// Layers: in the coarsest, with pixels of 2⁵, the widest splat has a standard deviation of 1.25 pixels.
+pub(super) const LAYERS: usize = 6;
+/// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
+pub(super) const MARGIN: usize = 16;
+/// Pixels along a side of a tile, as a power of two. No splat is wider than one, so that it lies in the tile where it begins and three more.
+pub(super) const TILE: u32 = 4;
+/// The first pixel of the margin that the next finer layer asks for.
+const FIRST: usize = MARGIN - 2;
+
+/// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
+/// before would wait for both to be stored.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C, align(32))]
+pub(super) struct Pair([f32; 2 * 4]);
+
+/// Pairs from one row to the next of a layer of a picture of `width` pixels: whole tiles.
+#[inline(always)]
+pub(super) fn stride(width: usize, layer: usize) -> usize {
+    ((width >> (layer + 1)) + MARGIN + 1).next_multiple_of(1 << (TILE - 1))
+}
+
+/// A layer of a pyramid.
+#[derive(Clone, Debug)]
+pub(super) struct Layer {
+    /// Rows of tiles, and pairs from one row of pixels to the next.
+    rows: usize,
+    pub(super) stride: usize,
+    /// Nothing before light falls on the layer for the first time. Where no tile has been cleared, what is here has no meaning.
+    pub(super) pairs: Vec<Pair>,
+    /// Of each tile, row by row, whether splats that begin there have all the room that they need…
+    pub(super) ready: Vec<bool>,
+    /// … and whether it has been cleared.
+    clear: Vec<bool>,
+}
+
+impl Layer {
+    /// Layer `number` of a picture of this size.
+    pub(super) fn new([width, height]: [usize; 2], number: usize) -> Layer {
+        let stride = stride(width, number);
+        let rows = (height.div_ceil(1 << number) + 2 * MARGIN).div_ceil(1 << TILE);
+        let tiles = vec![false; rows * (stride >> (TILE - 1))];
+        Layer { rows, stride, pairs: Vec::new(), ready: tiles.clone(), clear: tiles }
+    }
+
+    /// All is black, at no cost.
+    pub(super) fn wipe(&mut self) {
+        self.ready.fill(false);
+        self.clear.fill(false);
+    }
+
+    /// Whether no light fell on it.
+    fn is_black(&self) -> bool {
+        !self.clear.contains(&true)
+    }
+
+    /// Tiles in a row.
+    fn across(&self) -> usize {
+        self.stride >> (TILE - 1)
+    }
+
+    /// Clears what splats need that begin in a tile.
+    #[cold]
+    pub(super) fn make_ready(&mut self, tile: usize) {
+        if self.pairs.is_empty() {
+            self.pairs = vec![Pair::default(); self.stride * (self.rows << TILE)];
+        }
+        self.ready[tile] = true;
+        let (row, column) = (tile / self.across(), tile % self.across());
+        for row in row..(row + 2).min(self.rows) {
+            for column in column..(column + 2).min(self.across()) {
+                let tile = row * self.across() + column;
+                if !std::mem::replace(&mut self.clear[tile], true) {
+                    let first = (row << TILE) * self.stride + (column << (TILE - 1));
+                    for line in 0..1 << TILE {
+                        self.pairs[first + line * self.stride..][..1 << (TILE - 1)].fill(Pair::default());
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds the light of row `y` to `row`, of which the first pixel is [`FIRST`].
+    fn add_row(&self, y: usize, row: &mut [f32x4]) {
+        let start = (y >> TILE) * self.across();
+        let pixels: &[f32x4] = bytemuck::cast_slice(&self.pairs);
+        let end = FIRST + row.len();
+        for (column, _) in self.clear[start..start + self.across()].iter().enumerate().filter(|(_, clear)| **clear) {
+            let [low, high] = [column, column + 1].map(|column| (column << TILE).clamp(FIRST, end));
+            let light = &pixels[y * 2 * self.stride + low..][..high - low];
+            for (pixel, more) in row[low - FIRST..high - FIRST].iter_mut().zip(light) {
+                *pixel += *more;
+            }
+        }
+    }
+}
+
+/// Two fine pixels of the coarse one that they lie in and its neighbours: five, ten and one sixteenth, from the side that the fine one leans to.
+#[inline(always)]
+fn halves(before: f32x4, own: f32x4, after: f32x4) -> [f32x4; 2] {
+    let even = own * f32x4::splat(0.625) + (before + after) * f32x4::splat(0.1875);
+    let odd = (before - after) * f32x4::splat(0.125);
+    [even + odd, even - odd]
+}
+
+/// Rows of a layer that have been made: with all coarser layers, enlarged.
+struct Made {
+    /// Pixels of a row that the next finer layer asks for.
+    width: usize,
+    /// The last four; the `y`-th is the `y % 4`-th.
+    rows: [Vec<f32x4>; 4],
+    /// The row that is made next; none before the first.
+    next: Option<usize>,
+    /// Room for a row.
+    column: Vec<f32x4>,
+}
+
+/// Makes row `y` of the first of `made`, whose number is `number`; the others are the coarser layers. Rows must be asked for in order.
+fn make(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize) {
+    let Some((own, coarser)) = made.split_first_mut() else { return };
+    let row = &mut own.rows[y % 4];
+    row.fill(f32x4::ZERO);
+    let middle = (y + MARGIN) / 2;
+    if !coarser.is_empty() {
+        for y in coarser[0].next.unwrap_or(middle - 1)..middle + 2 {
+            make(coarser, pyramids, number + 1, y);
+        }
+    }
+    if let Some(coarse) = coarser.first() {
+        let [before, on, after] = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
+        let leaning = f32x4::splat(if y % 2 == 0 { 0.125 } else { -0.125 });
+        for (((pixel, before), on), after) in own.column.iter_mut().zip(before).zip(on).zip(after) {
+            *pixel = *on * f32x4::splat(0.625) + (*before + *after) * f32x4::splat(0.1875) + (*before - *after) * leaning;
+        }
+        let (pairs, _) = row.as_chunks_mut::<2>();
+        for (pair, [before, on, after]) in pairs.iter_mut().zip(own.column[..coarse.width].array_windows::<3>()) {
+            *pair = halves(*before, *on, *after);
+        }
+    }
+    for layers in pyramids {
+        layers[number].add_row(y, row);
+    }
+    own.next = Some(y + 1);
+}
+
+/// The light of several pyramids of a picture of this size, in some of its rows; `out` has their pixels.
+pub(super) fn sum(pyramids: &[&[Layer; LAYERS]], size: [usize; 2], rows: Range<usize>, out: &mut [[f32; 4]]) {
+    let layers = (0..LAYERS).rev().find(|&k| pyramids.iter().any(|layers| !layers[k].is_black())).map_or(1, |k| k + 1);
+    let mut made: Vec<Made> = (0..layers)
+        .map(|k| {
+            let width = size[0].div_ceil(1 << k) + 4;
+            // Two fine pixels of each coarse one may be one too many.
+            let row = || vec![f32x4::ZERO; width + 1];
+            Made { width, rows: std::array::from_fn(|_| row()), next: None, column: row() }
+        })
+        .collect();
+    for (y, out) in rows.zip(out.chunks_exact_mut(size[0].max(1))) {
+        let y = y + MARGIN;
+        make(&mut made, pyramids, 0, y);
+        out.copy_from_slice(bytemuck::cast_slice(&made[0].rows[y % 4][MARGIN - FIRST..][..size[0]]));
+    }
+}
