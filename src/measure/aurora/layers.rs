@@ -18,26 +18,31 @@ pub(super) const TILE: u32 = 4;
 /// The first pixel of the margin that the next finer layer asks for.
 const FIRST: usize = MARGIN - 2;
 
-/// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
+/// Two pixels of four lines each: what a processor with AVX2 adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
 /// before would wait for both to be stored.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Pair([f32; 2 * 4]);
 
-/// Pairs from one row to the next of a layer of a picture of `width` pixels: whole tiles.
+/// Four pixels: the same for a processor with AVX-512.
+#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub(super) struct Quad([f32; 4 * 4]);
+
+/// Tiles in a row of a layer of a picture of `width` pixels.
 #[inline(always)]
-pub(super) fn stride(width: usize, layer: usize) -> usize {
-    ((width >> (layer + 1)) + MARGIN + 1).next_multiple_of(1 << (TILE - 1))
+pub(super) fn across(width: i32, layer: i32) -> i32 {
+    ((width >> layer) + (2 * MARGIN as i32 + (1 << TILE))) >> TILE
 }
 
 /// A layer of a pyramid.
 #[derive(Clone, Debug)]
 pub(super) struct Layer {
-    /// Rows of tiles, and pairs from one row of pixels to the next.
+    /// Rows of tiles, and tiles in a row.
     rows: usize,
-    pub(super) stride: usize,
+    across: usize,
     /// Nothing before light falls on the layer for the first time. Where no tile has been cleared, what is here has no meaning.
-    pub(super) pairs: Vec<Pair>,
+    pub(super) quads: Vec<Quad>,
     /// Of each tile, row by row, whether splats that begin there have all the room that they need…
     pub(super) ready: Vec<bool>,
     /// … and whether it has been cleared.
@@ -47,10 +52,10 @@ pub(super) struct Layer {
 impl Layer {
     /// Layer `number` of a picture of this size.
     pub(super) fn new([width, height]: [usize; 2], number: usize) -> Layer {
-        let stride = stride(width, number);
+        let across = across(width as i32, number as i32) as usize;
         let rows = (height.div_ceil(1 << number) + 2 * MARGIN).div_ceil(1 << TILE);
-        let tiles = vec![false; rows * (stride >> (TILE - 1))];
-        Layer { rows, stride, pairs: Vec::new(), ready: tiles.clone(), clear: tiles }
+        let tiles = vec![false; rows * across];
+        Layer { rows, across, quads: Vec::new(), ready: tiles.clone(), clear: tiles }
     }
 
     /// All is black, at no cost.
@@ -64,26 +69,28 @@ impl Layer {
         !self.clear.contains(&true)
     }
 
-    /// Tiles in a row.
-    fn across(&self) -> usize {
-        self.stride >> (TILE - 1)
+    /// Quads from one row to the next.
+    #[inline(always)]
+    pub(super) fn stride(&self) -> usize {
+        self.across << (TILE - 2)
     }
 
     /// Clears what splats need that begin in a tile.
     #[cold]
     pub(super) fn make_ready(&mut self, tile: usize) {
-        if self.pairs.is_empty() {
-            self.pairs = vec![Pair::default(); self.stride * (self.rows << TILE)];
+        let stride = self.stride();
+        if self.quads.is_empty() {
+            self.quads = vec![Quad::default(); stride * (self.rows << TILE)];
         }
         self.ready[tile] = true;
-        let (row, column) = (tile / self.across(), tile % self.across());
+        let (row, column) = (tile / self.across, tile % self.across);
         for row in row..(row + 2).min(self.rows) {
-            for column in column..(column + 2).min(self.across()) {
-                let tile = row * self.across() + column;
+            for column in column..(column + 2).min(self.across) {
+                let tile = row * self.across + column;
                 if !std::mem::replace(&mut self.clear[tile], true) {
-                    let first = (row << TILE) * self.stride + (column << (TILE - 1));
+                    let first = (row << TILE) * stride + (column << (TILE - 2));
                     for line in 0..1 << TILE {
-                        self.pairs[first + line * self.stride..][..1 << (TILE - 1)].fill(Pair::default());
+                        self.quads[first + line * stride..][..1 << (TILE - 2)].fill(Quad::default());
                     }
                 }
             }
@@ -92,12 +99,12 @@ impl Layer {
 
     /// Adds the light of row `y` to `row`, of which the first pixel is [`FIRST`].
     fn add_row(&self, y: usize, row: &mut [f32x4]) {
-        let start = (y >> TILE) * self.across();
-        let pixels: &[f32x4] = bytemuck::cast_slice(&self.pairs);
+        let start = (y >> TILE) * self.across;
+        let pixels: &[f32x4] = bytemuck::cast_slice(&self.quads);
         let end = FIRST + row.len();
-        for (column, _) in self.clear[start..start + self.across()].iter().enumerate().filter(|(_, clear)| **clear) {
+        for (column, _) in self.clear[start..start + self.across].iter().enumerate().filter(|(_, clear)| **clear) {
             let [low, high] = [column, column + 1].map(|column| (column << TILE).clamp(FIRST, end));
-            let light = &pixels[y * 2 * self.stride + low..][..high - low];
+            let light = &pixels[y * 4 * self.stride() + low..][..high - low];
             for (pixel, more) in row[low - FIRST..high - FIRST].iter_mut().zip(light) {
                 *pixel += *more;
             }

@@ -13,7 +13,7 @@ use wide::f32x4;
 
 #[cfg(target_arch = "x86_64")]
 use super::collisions::ORDERS;
-use super::layers::{LAYERS, Layer, MARGIN, Pair, TILE, sum};
+use super::layers::{LAYERS, Layer, MARGIN, Pair, Quad, TILE, across, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
 use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
@@ -86,6 +86,36 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
     }
 }
 
+/// The same, four pixels at once, `QUADS` quads in each row.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+#[inline]
+fn add_widest<const QUADS: usize>(pixels: &mut [Quad], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
+    use std::arch::x86_64::*;
+    let light = _mm512_broadcast_f32x4(cast(light));
+    // Each of four numbers four times.
+    let order = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+    let mut row = [_mm512_setzero_ps(); QUADS];
+    for (k, quad) in row.iter_mut().enumerate() {
+        let four = cast([columns[4 * k], columns[4 * k + 1], columns[4 * k + 2], columns[4 * k + 3]]);
+        *quad = _mm512_mul_ps(light, _mm512_permutexvar_ps(order, _mm512_castps128_ps512(four)));
+    }
+    // Asked once and not for every row.
+    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(QUADS);
+    assert!(start.saturating_add(rows) <= pixels.len());
+    for (k, share) in lines.iter().enumerate() {
+        let share = _mm512_set1_ps(*share);
+        for (n, light) in row.iter().enumerate() {
+            #[allow(unsafe_code)]
+            // SAFETY: the last quad of the last row is within, as was asserted, and quads are aligned as the processor asks for.
+            unsafe {
+                let pixel = pixels.as_mut_ptr().add(start + k * stride + n).cast::<f32>();
+                _mm512_store_ps(pixel, _mm512_add_ps(_mm512_load_ps(pixel), _mm512_mul_ps(*light, share)));
+            }
+        }
+    }
+}
+
 /// The light of each line of `collisions` at a level.
 #[inline(always)]
 fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
@@ -99,23 +129,33 @@ struct Target<'a> {
 }
 
 impl Target<'_> {
-    /// Adds the `k`-th of eight splats. `AVX` may be said only where the processor has AVX2.
+    /// Adds the `k`-th of eight splats. `BITS` as for [`Pyramid::add_all`].
     #[inline(always)]
-    fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
+    fn add<const BITS: usize>(&mut self, splats: &Splats, k: usize, light: f32x4) {
         let layer = &mut self.layers[splats.layer[k] as usize];
         let tile = splats.tile[k] as usize;
         if !layer.ready[tile] {
             layer.make_ready(tile);
         }
-        let start = [splats.pair[k] as usize, layer.stride];
-        let pixels = &mut layer.pairs[..];
+        let (start, stride) = (splats.quad[k] as usize, layer.stride());
+        let pixels = &mut layer.quads[..];
         let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
         // A known width lets the compiler write the loop out.
         macro_rules! add {
             ($half:literal) => {{
-                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half + 1]);
+                let lines = &lines[..2 * $half + 1];
+                // From the first pixel of a quad or of a pair on, three or one before the splat's at most.
+                const QUADS: usize = (2 * $half + 1_usize + 3).div_ceil(4);
                 #[cfg(target_arch = "x86_64")]
-                if AVX {
+                if BITS == 512 {
+                    #[allow(unsafe_code)]
+                    // SAFETY: the caller says that the processor has AVX-512.
+                    return unsafe { add_widest::<QUADS>(pixels, [start, stride], &columns[..4 * QUADS], lines, light) };
+                }
+                let pixels: &mut [Pair] = bytemuck::cast_slice_mut(pixels);
+                let (start, columns) = ([2 * start + splats.odd[k] as usize, 2 * stride], &columns[..2 * $half + 2]);
+                #[cfg(target_arch = "x86_64")]
+                if BITS == 256 {
                     #[allow(unsafe_code)]
                     // SAFETY: the caller says that the processor has AVX2.
                     return unsafe { add_wide::<{ $half + 1 }>(pixels, start, columns, lines, light) };
@@ -137,7 +177,13 @@ impl Target<'_> {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-    pyramid.add_all::<true>(points, falls, radius, shares);
+    pyramid.add_all::<256>(points, falls, radius, shares);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,popcnt,avx512f")]
+fn add_avx512(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+    pyramid.add_all::<512>(points, falls, radius, shares);
 }
 
 impl Pyramid {
@@ -160,6 +206,11 @@ impl Pyramid {
     pub fn add(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
+            if std::arch::is_x86_feature_detected!("avx512f") {
+                #[allow(unsafe_code)]
+                // SAFETY: the instructions were detected.
+                return unsafe { add_avx512(self, points, falls, radius, shares) };
+            }
             #[allow(unsafe_code)]
             // SAFETY: the instructions were detected.
             return unsafe { add_avx(self, points, falls, radius, shares) };
@@ -169,12 +220,12 @@ impl Pyramid {
 
     /// The same without instructions that only some processors have: the same bits.
     pub fn add_plainly(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        self.add_all::<false>(points, falls, radius, shares);
+        self.add_all::<128>(points, falls, radius, shares);
     }
 
-    /// `AVX` may be said only where the processor has AVX2 and counts bits.
+    /// `BITS` that are added at once: 256 may be said only where the processor has AVX2 and counts bits, 512 only where it has AVX-512 too.
     #[inline(always)]
-    fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+    fn add_all<const BITS: usize>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         let mut target = Target { layers: &mut self.layers, shares: &shares.0 };
         let mut lone = Lone::default();
         let mut first = 0;
@@ -184,17 +235,17 @@ impl Pyramid {
                 lone.take()
             } else if first < points.len() {
                 first += 2 * LANES;
-                Blobs::of::<AVX>(&points.pairs(first - 2 * LANES), radius, &mut lone)
+                Blobs::of::<BITS>(&points.pairs(first - 2 * LANES), radius, &mut lone)
             } else {
                 break;
             };
-            let splats = Splats::of(&blobs, self.size);
+            let splats = Splats::of::<BITS>(&blobs, self.size);
             let mut left = splats.inside;
             while left != 0 {
                 let k = left.trailing_zeros() as usize % LANES;
                 left &= left - 1;
                 let other = light(falls, blobs.other_level[k], splats.other[k]);
-                target.add::<AVX>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
+                target.add::<BITS>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
             }
         }
     }
@@ -234,10 +285,10 @@ struct Blobs {
 impl Blobs {
     /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
     /// is put to the `lone` ones.
-    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX` as for
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `BITS` as for
     // `Pyramid::add_all`.
     #[inline(always)]
-    fn of<const AVX: bool>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
+    fn of<const BITS: usize>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
         let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
         let (mut variances, mut weights) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
@@ -267,7 +318,7 @@ impl Blobs {
             weights[k] = if near { 0.0 } else { second_weight };
         }
         #[cfg(target_arch = "x86_64")]
-        if AVX {
+        if BITS >= 256 {
             #[allow(unsafe_code)]
             // SAFETY: the caller says that the processor has AVX2 and counts bits.
             unsafe {
@@ -351,8 +402,9 @@ struct Splats {
     layer: [i32; LANES],
     /// Pixels that it covers on each side of the one in its middle.
     half: [i32; LANES],
-    /// Its first pair in the layer, and the tile in which that is.
-    pair: [i32; LANES],
+    /// The quad in the layer in which it begins, 1 if in its second pair, and the tile in which that is.
+    quad: [i32; LANES],
+    odd: [i32; LANES],
     tile: [i32; LANES],
     /// Where its shares start in the table.
     columns: [i32; LANES],
@@ -381,7 +433,7 @@ impl Splats {
     /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions, which
     /// took longer than to add it.
     #[inline(always)]
-    fn of(blobs: &Blobs, size: [usize; 2]) -> Splats {
+    fn of<const BITS: usize>(blobs: &Blobs, size: [usize; 2]) -> Splats {
         let mut splats = Splats::default();
         for k in 0..LANES {
             // Layer l has the variances from 4ˡ to 4ˡ⁺¹ times the least: half the number's exponent says which.
@@ -399,14 +451,14 @@ impl Splats {
             let light = blobs.weight[k] + blobs.other[k];
             // Greater than nothing and less than infinite.
             splats.seen[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
-            // Pairs begin at even pixels: from an odd one on, with the share of the pixel before the first.
+            // Pairs begin at even pixels, quads at each fourth: from another on, with the shares of pixels before the first.
             let (left, top) = (integer(column - half), integer(row - half));
-            splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
+            splats.columns[k] = integer(columns - half).wrapping_sub(left & if BITS == 512 { 3 } else { 1 });
             splats.lines[k] = integer(lines - half);
-            // As `stride` says.
-            let tiles = ((size[0] as i32 >> (layer + 1)) + (MARGIN as i32 + (1 << (TILE - 1)))) >> (TILE - 1);
-            splats.pair[k] = top.wrapping_mul(tiles << (TILE - 1)).wrapping_add(left >> 1);
-            splats.tile[k] = (top >> TILE).wrapping_mul(tiles).wrapping_add(left >> TILE);
+            let across = across(size[0] as i32, layer);
+            splats.quad[k] = top.wrapping_mul(across << (TILE - 2)).wrapping_add(left >> 2);
+            splats.odd[k] = left >> 1 & 1;
+            splats.tile[k] = (top >> TILE).wrapping_mul(across).wrapping_add(left >> TILE);
             splats.layer[k] = layer;
             splats.half[k] = integer(half);
             splats.weight[k] = blobs.weight[k] * (shrink * shrink);
