@@ -112,12 +112,43 @@ impl Layer {
     }
 }
 
-/// Two fine pixels of the coarse one that they lie in and its neighbours: five, ten and one sixteenth, from the side that the fine one leans to.
+/// A row of a finer layer from three of a coarser one: two fine pixels of each coarse one and its neighbours, along both sides. They have five, ten and one sixteenth, from
+/// the side that the fine one leans to. `column` is room for a row.
 #[inline(always)]
-fn halves(before: f32x4, own: f32x4, after: f32x4) -> [f32x4; 2] {
-    let even = own * f32x4::splat(0.625) + (before + after) * f32x4::splat(0.1875);
-    let odd = (before - after) * f32x4::splat(0.125);
-    [even + odd, even - odd]
+fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+    let width = on.len();
+    let leaning = if upper { 0.125 } else { -0.125 };
+    {
+        // Number by number, of which the compiler takes as many together as the processor can.
+        let [before, on, after]: [&[f32]; 3] = [before, on, after].map(bytemuck::cast_slice);
+        let column: &mut [f32] = bytemuck::cast_slice_mut(&mut column[..width]);
+        for (((pixel, before), on), after) in column.iter_mut().zip(before).zip(on).zip(after) {
+            *pixel = on * 0.625 + (before + after) * 0.1875 + (before - after) * leaning;
+        }
+    }
+    let (pairs, _) = row.as_chunks_mut::<2>();
+    for (pair, [before, on, after]) in pairs.iter_mut().zip(column[..width].array_windows::<3>()) {
+        let even = *on * f32x4::splat(0.625) + (*before + *after) * f32x4::splat(0.1875);
+        let odd = (*before - *after) * f32x4::splat(0.125);
+        *pair = [even + odd, even - odd];
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn enlarge_avx(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+    enlarge(rows, upper, column, row);
+}
+
+/// [`enlarge`] with the widest instructions there are: the same bits.
+fn enlarged(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        #[allow(unsafe_code)]
+        // SAFETY: the instructions were detected.
+        return unsafe { enlarge_avx(rows, upper, column, row) };
+    }
+    enlarge(rows, upper, column, row);
 }
 
 /// Rows of a layer that have been made: with all coarser layers, enlarged.
@@ -136,23 +167,18 @@ struct Made {
 fn make(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize) {
     let Some((own, coarser)) = made.split_first_mut() else { return };
     let row = &mut own.rows[y % 4];
-    row.fill(f32x4::ZERO);
     let middle = (y + MARGIN) / 2;
     if !coarser.is_empty() {
         for y in coarser[0].next.unwrap_or(middle - 1)..middle + 2 {
             make(coarser, pyramids, number + 1, y);
         }
     }
-    if let Some(coarse) = coarser.first() {
-        let [before, on, after] = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
-        let leaning = f32x4::splat(if y % 2 == 0 { 0.125 } else { -0.125 });
-        for (((pixel, before), on), after) in own.column.iter_mut().zip(before).zip(on).zip(after) {
-            *pixel = *on * f32x4::splat(0.625) + (*before + *after) * f32x4::splat(0.1875) + (*before - *after) * leaning;
+    match coarser.first() {
+        Some(coarse) => {
+            let rows = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
+            enlarged(rows, y.is_multiple_of(2), &mut own.column, row);
         }
-        let (pairs, _) = row.as_chunks_mut::<2>();
-        for (pair, [before, on, after]) in pairs.iter_mut().zip(own.column[..coarse.width].array_windows::<3>()) {
-            *pair = halves(*before, *on, *after);
-        }
+        None => row.fill(f32x4::ZERO),
     }
     for layers in pyramids {
         layers[number].add_row(y, row);

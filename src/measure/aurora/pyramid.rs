@@ -204,9 +204,14 @@ impl Pyramid {
 
     /// Adds points with blobs of standard deviation `radius` km.
     pub fn add(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+        self.add_with(512, points, falls, radius, shares);
+    }
+
+    /// The same with instructions that take `width` bits at once, or less if the processor has none: the same picture, bit for bit.
+    pub fn add_with(&mut self, width: usize, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
-            if std::arch::is_x86_feature_detected!("avx512f") {
+        if width >= 256 && std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
+            if width >= 512 && std::arch::is_x86_feature_detected!("avx512f") {
                 #[allow(unsafe_code)]
                 // SAFETY: the instructions were detected.
                 return unsafe { add_avx512(self, points, falls, radius, shares) };
@@ -215,11 +220,6 @@ impl Pyramid {
             // SAFETY: the instructions were detected.
             return unsafe { add_avx(self, points, falls, radius, shares) };
         }
-        self.add_plainly(points, falls, radius, shares);
-    }
-
-    /// The same without instructions that only some processors have: the same bits.
-    pub fn add_plainly(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         self.add_all::<128>(points, falls, radius, shares);
     }
 
