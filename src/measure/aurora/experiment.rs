@@ -168,6 +168,7 @@ pub const TOLERANCE: f32 = 0.25;
 const TASK: usize = 64;
 
 /// A picture in the making.
+#[allow(clippy::large_enum_variant, reason = "there is one for each thread")]
 enum Canvas {
     Direct(Picture),
     Layers(Pyramid),
