@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use lensrunner::lensing;
-use lensrunner::measure::aurora::experiment::{Request, VARIANTS, View, run};
+use lensrunner::measure::aurora::experiment::{Job, Request, Tables, VARIANTS, View, draw, run};
 use lensrunner::measure::aurora::eye::Eye;
 use lensrunner::measure::aurora::lattice::Lattice;
 use lensrunner::measure::aurora::points::{Point, Points};
@@ -339,15 +339,54 @@ fn wider_instructions_change_no_bit() {
             walker.walk(method, &streaks, &mut wide);
             walker.walk_plainly(method, &streaks, &mut plain);
             assert!(wide.len() > 1000 && wide.iter().eq(plain.iter()), "{name}, {way}: {} and {} points", wide.len(), plain.len());
-            let picture = |add: fn(&mut Pyramid, &Points, &Falls, f32, &Shares)| {
+            let picture = |width: usize| {
                 let mut pyramid = Pyramid::new(eye.size);
                 // From half a pixel to eight.
                 for radius in [0.5, 1.5, 6.0] {
-                    add(&mut pyramid, &plain, &FALLS_TABLE, radius, &Shares::default());
+                    pyramid.add_with(width, &plain, &FALLS_TABLE, radius, &Shares::default());
                 }
                 pyramid.picture()
             };
-            assert!(picture(Pyramid::add) == picture(Pyramid::add_plainly), "{name}, {way}: the pictures differ");
+            let want = picture(128);
+            assert!(picture(256) == want && picture(512) == want, "{name}, {way}: the pictures differ");
+        }
+    }
+}
+
+#[test]
+fn nothing_is_left_in_a_pyramid_that_is_used_again() {
+    // Wide splats, which touch other tiles and layers than narrow ones.
+    let found = |view: View, number: u32| {
+        let eye = view.eye([192, 108], &TABLE);
+        all_points(Method::Exact, &eye, &Sheet::numbered(number).streaks(100)).concat().into_iter().collect::<Points>()
+    };
+    let mut pyramid = Pyramid::new([192, 108]);
+    pyramid.add(&found(View::Below, 2), &FALLS_TABLE, 9.0, &Shares::default());
+    for (radius, number) in [(1.0, 4), (20.0, 6), (3.0, 7)] {
+        let points = found(View::Orbit, number);
+        pyramid.wipe();
+        pyramid.add(&points, &FALLS_TABLE, radius, &Shares::default());
+        let mut fresh = Pyramid::new([192, 108]);
+        fresh.add(&points, &FALLS_TABLE, radius, &Shares::default());
+        assert!(pyramid.picture() == fresh.picture(), "splats of {radius} km");
+    }
+    pyramid.wipe();
+    assert!(pyramid.picture() == Picture::new([192, 108]));
+}
+
+#[test]
+fn threads_draw_the_picture_of_one() {
+    let tables = Tables::default();
+    for (view, name) in View::ALL {
+        // An odd height and bands that begin within a tile.
+        let eye = view.eye([190, 107], &TABLE);
+        let streaks = Sheet::numbered(3).streaks(300);
+        let job = Job { eye: &eye, falls: &FALLS_TABLE, streaks: &streaks, seed: 3, splat: Splat { radius: 3.0, table: true } };
+        let picture = |name: &str| draw(*VARIANTS.iter().find(|variant| variant.name == name).unwrap(), &job, &tables).picture;
+        for method in ["exact", "particles"] {
+            let off = worst(&picture(&format!("{method}-pyramid-threads")), &picture(&format!("{method}-pyramid")));
+            // Light is added in another order: thousands of roundings of 6e-8 of what was there.
+            assert!(off < 2e-4, "{name}, {method}: off by {off}");
         }
     }
 }

@@ -2,6 +2,8 @@
 //! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
 
 use std::hint::black_box;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 use glam::DVec3;
@@ -99,13 +101,31 @@ pub const VARIANTS: [Variant; 12] = [
     variant("particles-tabled", Method::Tabled, false, Splats::Table),
 ];
 
-/// What is tabulated once for all pictures.
-#[derive(Clone, Debug, Default)]
+/// What is tabulated once for all pictures, and memory for the next.
+#[derive(Debug, Default)]
 pub struct Tables {
     /// The paper's.
     pub gaussian: Gaussian,
     /// The pyramid's.
     pub shares: Shares,
+    /// Those of earlier pictures: new memory would be given by the system page by page, within a picture's time.
+    spare: Mutex<Vec<Pyramid>>,
+}
+
+impl Tables {
+    fn spare(&self) -> MutexGuard<'_, Vec<Pyramid>> {
+        // A list of pyramids is whole whatever happened to the thread that had it.
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A black pyramid for pictures of a size.
+    fn pyramid(&self, size: [usize; 2]) -> Pyramid {
+        let mut spare = self.spare();
+        let Some(k) = spare.iter().position(|pyramid| pyramid.size() == size) else { return Pyramid::new(size) };
+        let mut pyramid = spare.swap_remove(k);
+        pyramid.wipe();
+        pyramid
+    }
 }
 
 /// A way to draw that lives above this floor: the passes on a GPU.
@@ -148,15 +168,16 @@ pub const TOLERANCE: f32 = 0.25;
 const TASK: usize = 64;
 
 /// A picture in the making.
+#[allow(clippy::large_enum_variant, reason = "there is one for each thread")]
 enum Canvas {
     Direct(Picture),
     Layers(Pyramid),
 }
 
 impl Canvas {
-    fn new(splats: Splats, size: [usize; 2]) -> Canvas {
+    fn new(splats: Splats, size: [usize; 2], tables: &Tables) -> Canvas {
         match splats {
-            Splats::Pyramid => Canvas::Layers(Pyramid::new(size)),
+            Splats::Pyramid => Canvas::Layers(tables.pyramid(size)),
             Splats::Table | Splats::Exponential => Canvas::Direct(Picture::new(size)),
         }
     }
@@ -169,22 +190,41 @@ impl Canvas {
             Canvas::Layers(pyramid) => pyramid.add(points, job.falls, job.splat.radius, &tables.shares),
         }
     }
+}
 
-    fn merge(mut self, other: Canvas) -> Canvas {
-        match (&mut self, other) {
-            (Canvas::Direct(picture), Canvas::Direct(more)) => picture.merge(&more),
-            (Canvas::Layers(pyramid), Canvas::Layers(more)) => pyramid.merge(more),
-            _ => unreachable!("one variant has one kind of canvas"),
-        }
-        self
-    }
-
-    fn picture(self) -> Picture {
-        match self {
-            Canvas::Direct(picture) => picture,
-            Canvas::Layers(pyramid) => pyramid.picture(),
+/// The sum of the threads' canvases; those of layers are summed and enlarged by as many threads, each a band of the picture.
+fn picture(canvases: Vec<Canvas>, size: [usize; 2], tables: &Tables) -> Picture {
+    let threads = canvases.len().max(1);
+    let (mut whole, mut pyramids) = (None::<Picture>, Vec::new());
+    for canvas in canvases {
+        match (canvas, &mut whole) {
+            (Canvas::Layers(pyramid), _) => pyramids.push(pyramid),
+            (Canvas::Direct(picture), Some(whole)) => whole.merge(&picture),
+            (Canvas::Direct(picture), whole) => *whole = Some(picture),
         }
     }
+    let mut picture = whole.unwrap_or_else(|| Picture::new(size));
+    if !pyramids.is_empty() {
+        let layers: Vec<&Pyramid> = pyramids.iter().collect();
+        let height = size[1].div_ceil(threads).max(1);
+        let bands = picture.pixels.chunks_mut((size[0] * height).max(1)).enumerate();
+        on_threads(bands, |(band, out)| Pyramid::sum(&layers, band * height..((band + 1) * height).min(size[1]), out));
+        tables.spare().extend(pyramids);
+    }
+    picture
+}
+
+/// Does `work` for each of `parts` on a thread of its own. This thread takes the first itself: the others alone have to be woken.
+fn on_threads<T: Send>(mut parts: impl Iterator<Item = T>, work: impl Fn(T) + Sync) {
+    rayon::in_place_scope(|scope| {
+        let own = parts.next();
+        for part in parts {
+            scope.spawn(|_| work(part));
+        }
+        if let Some(part) = own {
+            work(part);
+        }
+    });
 }
 
 /// Draws `job` in the given way: some electrons are walked, their points drawn, then the next. With threads, the time from start to end is
@@ -195,13 +235,17 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let lattice = (variant.method == Method::Exact && job.eye.bent.is_some()).then(|| Lattice::around(job.eye, job.streaks, TOLERANCE));
     let walker = Walker::new(job.eye, job.falls, lattice.as_ref(), job.seed);
     let before = start.elapsed().as_secs_f64();
-    // A part of the electrons: its canvas, and seconds of walk and of splats.
-    let part = |streaks: &[Streak]| {
+    let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
+    // Each thread's canvas, and seconds of walk and of splats.
+    let mut parts: Vec<Option<(Canvas, [f64; 2])>> = std::iter::repeat_with(|| None).take(threads).collect();
+    // Threads take electrons until there are none left, as none is woken at once and none is as fast as the other.
+    let next = AtomicUsize::new(0);
+    on_threads(parts.iter_mut(), |part| {
         let start = Instant::now();
-        let mut canvas = Canvas::new(variant.splats, job.eye.size);
+        let mut canvas = Canvas::new(variant.splats, job.eye.size, tables);
         let mut times = [0.0, start.elapsed().as_secs_f64()];
         let mut points = Points::default();
-        for some in streaks.chunks(TASK) {
+        while let Some(some) = job.streaks.chunks(TASK).nth(next.fetch_add(1, Ordering::Relaxed)) {
             let start = Instant::now();
             points.clear();
             walker.walk(variant.method, some, &mut points);
@@ -210,26 +254,12 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
             times[0] += walked;
             times[1] += start.elapsed().as_secs_f64() - walked;
         }
-        (canvas, times)
-    };
-    let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
-    let share = job.streaks.len().div_ceil(threads).max(1);
-    // This thread takes the first part itself: the others alone have to be woken.
-    let mut parts: Vec<Option<(Canvas, [f64; 2])>> = std::iter::repeat_with(|| None).take(threads).collect();
-    rayon::in_place_scope(|scope| {
-        let mut shares = parts.iter_mut().zip(job.streaks.chunks(share));
-        let own = shares.next();
-        for (drawn, streaks) in shares {
-            scope.spawn(|_| *drawn = Some(part(streaks)));
-        }
-        if let Some((drawn, streaks)) = own {
-            *drawn = Some(part(streaks));
-        }
+        *part = Some((canvas, times));
     });
     let drawn = start.elapsed().as_secs_f64();
     let times = parts.iter().flatten().fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
-    let canvas = parts.into_iter().flatten().map(|(canvas, _)| canvas).reduce(Canvas::merge);
-    let picture = canvas.map_or_else(|| Picture::new(job.eye.size), Canvas::picture);
+    let canvases = parts.into_iter().flatten().map(|(canvas, _)| canvas).collect();
+    let picture = picture(canvases, job.eye.size, tables);
     let total = start.elapsed().as_secs_f64();
     let walk = before + (drawn - before) * times[0] / (times[0] + times[1]).max(1e-12);
     Timed { picture: black_box(picture), walk: walk * 1e3, splat: (total - walk) * 1e3 }

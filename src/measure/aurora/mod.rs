@@ -11,6 +11,7 @@ pub mod collisions;
 pub mod experiment;
 pub mod eye;
 pub mod lattice;
+mod layers;
 pub mod points;
 pub mod pyramid;
 pub mod shares;

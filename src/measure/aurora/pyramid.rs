@@ -7,20 +7,18 @@
 //! narrower by that. Beside a sum of Gaussians the picture errs by what pairs and tabulated widths and places leave: the tests
 //! hold it below 2 % (root mean square), and a single splat within 5.6 % of its peak.
 
-use bytemuck::{Pod, Zeroable, cast};
+use bytemuck::cast;
+use std::ops::Range;
 use wide::f32x4;
 
 #[cfg(target_arch = "x86_64")]
 use super::collisions::ORDERS;
+use super::layers::{LAYERS, Layer, MARGIN, Pair, Quad, TILE, across, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
 use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
-/// Layers: in the coarsest, with pixels of 2⁵, the widest splat has a standard deviation of 1.25 pixels.
-const LAYERS: usize = 6;
-/// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
-const MARGIN: usize = 16;
 /// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
 const ADDED: f32 = 5.0 / 12.0;
 /// One over the least variance of the splats of a layer, pixels of it squared: narrower by what enlarging adds, they are still wider than half a pixel.
@@ -32,23 +30,11 @@ const NEAR: f32 = 2.1;
 const ASLANT: f32 = 0.4;
 const ALIKE: f32 = 0.6;
 
-/// Two pixels of four lines each: what a processor adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
-/// before would wait for both to be stored.
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-#[repr(C, align(32))]
-struct Pair([f32; 2 * 4]);
-
-/// The pixels of pairs, row by row.
-fn pixels_of(pairs: &mut [Pair]) -> &mut [f32x4] {
-    bytemuck::cast_slice_mut(pairs)
-}
-
 /// The layers of a picture, each with a margin.
 #[derive(Debug)]
 pub struct Pyramid {
     size: [usize; 2],
-    /// A layer is empty before light falls on it.
-    layers: [Vec<Pair>; LAYERS],
+    layers: [Layer; LAYERS],
 }
 
 /// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
@@ -100,6 +86,36 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
     }
 }
 
+/// The same, four pixels at once, `QUADS` quads in each row.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+#[inline]
+fn add_widest<const QUADS: usize>(pixels: &mut [Quad], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
+    use std::arch::x86_64::*;
+    let light = _mm512_broadcast_f32x4(cast(light));
+    // Each of four numbers four times.
+    let order = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
+    let mut row = [_mm512_setzero_ps(); QUADS];
+    for (k, quad) in row.iter_mut().enumerate() {
+        let four = cast([columns[4 * k], columns[4 * k + 1], columns[4 * k + 2], columns[4 * k + 3]]);
+        *quad = _mm512_mul_ps(light, _mm512_permutexvar_ps(order, _mm512_castps128_ps512(four)));
+    }
+    // Asked once and not for every row.
+    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(QUADS);
+    assert!(start.saturating_add(rows) <= pixels.len());
+    for (k, share) in lines.iter().enumerate() {
+        let share = _mm512_set1_ps(*share);
+        for (n, light) in row.iter().enumerate() {
+            #[allow(unsafe_code)]
+            // SAFETY: the last quad of the last row is within, as was asserted, and quads are aligned as the processor asks for.
+            unsafe {
+                let pixel = pixels.as_mut_ptr().add(start + k * stride + n).cast::<f32>();
+                _mm512_store_ps(pixel, _mm512_add_ps(_mm512_load_ps(pixel), _mm512_mul_ps(*light, share)));
+            }
+        }
+    }
+}
+
 /// The light of each line of `collisions` at a level.
 #[inline(always)]
 fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
@@ -108,32 +124,38 @@ fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
 
 /// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
 struct Target<'a> {
-    layers: &'a mut [Vec<Pair>; LAYERS],
-    /// Of the picture.
-    size: [usize; 2],
-    /// Pairs from one row of each layer to the next.
-    strides: [usize; LAYERS],
+    layers: &'a mut [Layer; LAYERS],
     shares: &'a [f32],
 }
 
 impl Target<'_> {
-    /// Adds the `k`-th of eight splats. `AVX` may be said only where the processor has AVX2.
+    /// Adds the `k`-th of eight splats. `BITS` as for [`Pyramid::add_all`].
     #[inline(always)]
-    fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
-        let number = splats.layer[k] as usize;
-        let layer = &mut self.layers[number];
-        if layer.is_empty() {
-            *layer = black(self.size, number);
+    fn add<const BITS: usize>(&mut self, splats: &Splats, k: usize, light: f32x4) {
+        let layer = &mut self.layers[splats.layer[k] as usize];
+        let tile = splats.tile[k] as usize;
+        if !layer.ready[tile] {
+            layer.make_ready(tile);
         }
-        let pixels = &mut layer[..];
-        let start = [splats.pair[k] as usize, self.strides[number]];
+        let (start, stride) = (splats.quad[k] as usize, layer.stride());
+        let pixels = &mut layer.quads[..];
         let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
         // A known width lets the compiler write the loop out.
         macro_rules! add {
             ($half:literal) => {{
-                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half + 1]);
+                let lines = &lines[..2 * $half + 1];
+                // From the first pixel of a quad or of a pair on, three or one before the splat's at most.
+                const QUADS: usize = (2 * $half + 1_usize + 3).div_ceil(4);
                 #[cfg(target_arch = "x86_64")]
-                if AVX {
+                if BITS == 512 {
+                    #[allow(unsafe_code)]
+                    // SAFETY: the caller says that the processor has AVX-512.
+                    return unsafe { add_widest::<QUADS>(pixels, [start, stride], &columns[..4 * QUADS], lines, light) };
+                }
+                let pixels: &mut [Pair] = bytemuck::cast_slice_mut(pixels);
+                let (start, columns) = ([2 * start + splats.odd[k] as usize, 2 * stride], &columns[..2 * $half + 2]);
+                #[cfg(target_arch = "x86_64")]
+                if BITS == 256 {
                     #[allow(unsafe_code)]
                     // SAFETY: the caller says that the processor has AVX2.
                     return unsafe { add_wide::<{ $half + 1 }>(pixels, start, columns, lines, light) };
@@ -152,54 +174,59 @@ impl Target<'_> {
     }
 }
 
-/// Pixels from one row to the next of a layer of a picture of `width` pixels; even.
-#[inline(always)]
-fn stride(width: usize, layer: usize) -> usize {
-    2 * ((width >> (layer + 1)) + MARGIN + 1)
-}
-
-/// A black layer of a picture of this size.
-#[cold]
-fn black([width, height]: [usize; 2], layer: usize) -> Vec<Pair> {
-    vec![Pair::default(); stride(width, layer) / 2 * (height.div_ceil(1 << layer) + 2 * MARGIN)]
-}
-
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-    pyramid.add_all::<true>(points, falls, radius, shares);
+    pyramid.add_all::<256>(points, falls, radius, shares);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,popcnt,avx512f")]
+fn add_avx512(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+    pyramid.add_all::<512>(points, falls, radius, shares);
 }
 
 impl Pyramid {
     /// For pictures of a size; black.
     pub fn new(size: [usize; 2]) -> Self {
-        Pyramid { size, layers: Default::default() }
+        Pyramid { size, layers: std::array::from_fn(|number| Layer::new(size, number)) }
+    }
+
+    /// Width and height of the picture, pixels.
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// Black again, with the memory that it has.
+    pub fn wipe(&mut self) {
+        self.layers.iter_mut().for_each(Layer::wipe);
     }
 
     /// Adds points with blobs of standard deviation `radius` km.
     pub fn add(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+        self.add_with(512, points, falls, radius, shares);
+    }
+
+    /// The same with instructions that take `width` bits at once, or less if the processor has none: the same picture, bit for bit.
+    pub fn add_with(&mut self, width: usize, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
+        if width >= 256 && std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
+            if width >= 512 && std::arch::is_x86_feature_detected!("avx512f") {
+                #[allow(unsafe_code)]
+                // SAFETY: the instructions were detected.
+                return unsafe { add_avx512(self, points, falls, radius, shares) };
+            }
             #[allow(unsafe_code)]
             // SAFETY: the instructions were detected.
             return unsafe { add_avx(self, points, falls, radius, shares) };
         }
-        self.add_plainly(points, falls, radius, shares);
+        self.add_all::<128>(points, falls, radius, shares);
     }
 
-    /// The same without instructions that only some processors have: the same bits.
-    pub fn add_plainly(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        self.add_all::<false>(points, falls, radius, shares);
-    }
-
-    /// `AVX` may be said only where the processor has AVX2 and counts bits.
+    /// `BITS` that are added at once: 256 may be said only where the processor has AVX2 and counts bits, 512 only where it has AVX-512 too.
     #[inline(always)]
-    fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        let mut strides = [0; LAYERS];
-        for (layer, pairs) in strides.iter_mut().enumerate() {
-            *pairs = stride(self.size[0], layer) / 2;
-        }
-        let mut target = Target { layers: &mut self.layers, size: self.size, strides, shares: &shares.0 };
+    fn add_all<const BITS: usize>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+        let mut target = Target { layers: &mut self.layers, shares: &shares.0 };
         let mut lone = Lone::default();
         let mut first = 0;
         // One loop for pairs and for lone points, as what is called in one place alone is compiled into it.
@@ -208,90 +235,33 @@ impl Pyramid {
                 lone.take()
             } else if first < points.len() {
                 first += 2 * LANES;
-                Blobs::of::<AVX>(&points.pairs(first - 2 * LANES), radius, &mut lone)
+                Blobs::of::<BITS>(&points.pairs(first - 2 * LANES), radius, &mut lone)
             } else {
                 break;
             };
-            let splats = Splats::of(&blobs, self.size);
+            let splats = Splats::of::<BITS>(&blobs, self.size);
             let mut left = splats.inside;
             while left != 0 {
                 let k = left.trailing_zeros() as usize % LANES;
                 left &= left - 1;
                 let other = light(falls, blobs.other_level[k], splats.other[k]);
-                target.add::<AVX>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
+                target.add::<BITS>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
             }
         }
     }
 
-    /// Adds another of the same size.
-    pub fn merge(&mut self, other: Pyramid) {
-        for (layer, mut more) in self.layers.iter_mut().zip(other.layers) {
-            if layer.is_empty() {
-                *layer = more;
-            } else {
-                pixels_of(layer).iter_mut().zip(pixels_of(&mut more)).for_each(|(pixel, more)| *pixel += *more);
-            }
-        }
+    /// The picture.
+    pub fn picture(&self) -> Picture {
+        let mut picture = Picture::new(self.size);
+        Pyramid::sum(&[self], 0..self.size[1], &mut picture.pixels);
+        picture
     }
 
-    /// The picture: each layer enlarged and added to the next finer one.
-    pub fn picture(mut self) -> Picture {
-        let mut columns = [Vec::new(), Vec::new()];
-        for k in (0..LAYERS).rev() {
-            // The finest layer is there even if nothing was added.
-            let (finer, coarser) = self.layers.split_at_mut(k);
-            if coarser[0].is_empty() {
-                if k == 0 {
-                    coarser[0] = black(self.size, 0);
-                }
-                continue;
-            }
-            let Some(fine) = finer.last_mut() else { continue };
-            if fine.is_empty() {
-                *fine = black(self.size, k - 1);
-            }
-            enlarge(pixels_of(&mut coarser[0]), pixels_of(fine), self.size, k, &mut columns);
-        }
-        let size = self.size;
-        let mut pixels = Vec::with_capacity(size[0] * size[1]);
-        for row in pixels_of(&mut self.layers[0]).chunks_exact(stride(size[0], 0)).skip(MARGIN).take(size[1]) {
-            pixels.extend_from_slice(bytemuck::cast_slice(&row[MARGIN..MARGIN + size[0]]));
-        }
-        Picture { size, pixels }
-    }
-}
-
-/// Two fine pixels of the coarse one that they lie in and its neighbours: five, ten and one sixteenth, from the side that the fine one leans to.
-#[inline(always)]
-fn halves(before: f32x4, own: f32x4, after: f32x4) -> [f32x4; 2] {
-    let even = own * f32x4::splat(0.625) + (before + after) * f32x4::splat(0.1875);
-    let odd = (before - after) * f32x4::splat(0.125);
-    [even + odd, even - odd]
-}
-
-/// Adds layer `k` of a picture of this size to the next finer one. Of the margins two pixels are enough: no finer layer asks for more. `columns` is
-/// room for two rows.
-fn enlarge(coarse: &[f32x4], fine: &mut [f32x4], size: [usize; 2], k: usize, [upper, lower]: &mut [Vec<f32x4>; 2]) {
-    let [width, height] = size.map(|side| side.div_ceil(1 << k));
-    let [coarse_stride, fine_stride] = [stride(size[0], k), stride(size[0], k - 1)];
-    let first = MARGIN - 2;
-    for y in first + 1..MARGIN + height + 1 {
-        let row = |y: usize| &coarse[y * coarse_stride + first..][..width + 4];
-        upper.clear();
-        lower.clear();
-        for ((before, own), after) in row(y - 1).iter().zip(row(y)).zip(row(y + 1)) {
-            let [up, down] = halves(*before, *own, *after);
-            upper.push(up);
-            lower.push(down);
-        }
-        let fine_y = 2 * y - MARGIN;
-        for (y, column) in [(fine_y, &*upper), (fine_y + 1, &*lower)] {
-            let (pairs, _) = fine[y * fine_stride + first..][..2 * width + 4].as_chunks_mut::<2>();
-            for (pair, [before, own, after]) in pairs.iter_mut().zip(column.array_windows::<3>()) {
-                let [left, right] = halves(*before, *own, *after);
-                pair[0] += left;
-                pair[1] += right;
-            }
+    /// Some rows of the picture that pyramids of one size make together: each layer enlarged and added to the next finer one. `out` has the rows' pixels.
+    pub fn sum(pyramids: &[&Pyramid], rows: Range<usize>, out: &mut [[f32; 4]]) {
+        let layers: Vec<&[Layer; LAYERS]> = pyramids.iter().map(|pyramid| &pyramid.layers).collect();
+        if let Some(first) = pyramids.first() {
+            sum(&layers, first.size, rows, out);
         }
     }
 }
@@ -315,10 +285,10 @@ struct Blobs {
 impl Blobs {
     /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
     /// is put to the `lone` ones.
-    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX` as for
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `BITS` as for
     // `Pyramid::add_all`.
     #[inline(always)]
-    fn of<const AVX: bool>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
+    fn of<const BITS: usize>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
         let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
         let (mut variances, mut weights) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
@@ -348,7 +318,7 @@ impl Blobs {
             weights[k] = if near { 0.0 } else { second_weight };
         }
         #[cfg(target_arch = "x86_64")]
-        if AVX {
+        if BITS >= 256 {
             #[allow(unsafe_code)]
             // SAFETY: the caller says that the processor has AVX2 and counts bits.
             unsafe {
@@ -432,8 +402,10 @@ struct Splats {
     layer: [i32; LANES],
     /// Pixels that it covers on each side of the one in its middle.
     half: [i32; LANES],
-    /// Its first pair in the layer.
-    pair: [i32; LANES],
+    /// The quad in the layer in which it begins, 1 if in its second pair, and the tile in which that is.
+    quad: [i32; LANES],
+    odd: [i32; LANES],
+    tile: [i32; LANES],
     /// Where its shares start in the table.
     columns: [i32; LANES],
     lines: [i32; LANES],
@@ -461,7 +433,7 @@ impl Splats {
     /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions, which
     /// took longer than to add it.
     #[inline(always)]
-    fn of(blobs: &Blobs, size: [usize; 2]) -> Splats {
+    fn of<const BITS: usize>(blobs: &Blobs, size: [usize; 2]) -> Splats {
         let mut splats = Splats::default();
         for k in 0..LANES {
             // Layer l has the variances from 4ˡ to 4ˡ⁺¹ times the least: half the number's exponent says which.
@@ -479,11 +451,14 @@ impl Splats {
             let light = blobs.weight[k] + blobs.other[k];
             // Greater than nothing and less than infinite.
             splats.seen[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
-            // Pairs begin at even pixels: from an odd one on, with the share of the pixel before the first.
+            // Pairs begin at even pixels, quads at each fourth: from another on, with the shares of pixels before the first.
             let (left, top) = (integer(column - half), integer(row - half));
-            splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
+            splats.columns[k] = integer(columns - half).wrapping_sub(left & if BITS == 512 { 3 } else { 1 });
             splats.lines[k] = integer(lines - half);
-            splats.pair[k] = top.wrapping_mul((size[0] as i32 >> (layer + 1)) + MARGIN as i32 + 1).wrapping_add(left >> 1);
+            let across = across(size[0] as i32, layer);
+            splats.quad[k] = top.wrapping_mul(across << (TILE - 2)).wrapping_add(left >> 2);
+            splats.odd[k] = left >> 1 & 1;
+            splats.tile[k] = (top >> TILE).wrapping_mul(across).wrapping_add(left >> TILE);
             splats.layer[k] = layer;
             splats.half[k] = integer(half);
             splats.weight[k] = blobs.weight[k] * (shrink * shrink);

@@ -14,8 +14,8 @@ pub(super) const WIDTHS_PER_PIXEL: f32 = 40.0;
 pub(super) const PLACES: usize = 32;
 
 /// Shares of a side in the table: that of the pixel in the middle of the splat is the one numbered `MIDDLE`, those beyond the splat's reach are
-/// nothing. So pairs may begin before the splat does, and both sides take as many pixels as the longer one. A power of two, so that no row lies
-/// across two of a cache's lines.
+/// nothing, as are those at the ends of the rows before and after. So pairs and quads may begin before the splat does, and both sides take as many
+/// pixels as the longer one. A power of two, so that no row lies across two of a cache's lines.
 pub(super) const SIDE: usize = 16;
 pub(super) const MIDDLE: usize = WIDTH / 2 + 1;
 
@@ -40,6 +40,8 @@ impl Default for Shares {
                 shares.extend(side.map(|share| share / sum));
             }
         }
+        // What a quad reads behind the last row.
+        shares.extend([0.0; SIDE]);
         Shares(shares)
     }
 }
