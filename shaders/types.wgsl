@@ -32,6 +32,10 @@ struct Frame {
     /// Capacities: x vertices, y indices, z work items, w thin vertices. Of each but the last a fifth is kept for what is drawn coarsely when
     /// the rest is full.
     capacity: vec4<u32>,
+    /// x, y: least and greatest light of middle grey on the own ship; z: exposure of the frame before, w: 1 once that is known.
+    fill: vec4<f32>,
+    /// What the meter leaves out, the own ship's circle: x, y: its middle, in widths of the picture from its middle, y down; z: its radius, 0 for none.
+    unmetered: vec4<f32>,
 }
 
 const FLAG_DOPPLER: u32 = 1u;
@@ -87,6 +91,8 @@ const PLACEMENT_HELD: u32 = 2u;
 const PLACEMENT_THIN: u32 = 4u;
 /// The image of something held inside the horizon by light of E < 0.
 const PLACEMENT_MINUS: u32 = 8u;
+/// The player's own ship, lit for the picture (`render.fill_least`).
+const PLACEMENT_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
 const PLACEMENT_NARROW: u32 = 16u;
 

@@ -268,7 +268,8 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
         return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
     }
     use lensrunner::render::shot::{Request, shot_to_file};
-    let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers };
+    let is_light = args.output.extension().is_some_and(|extension| extension == "exr");
+    let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers, fill: !is_light };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),

@@ -206,7 +206,7 @@ fn the_ring_is_where_the_judge_sees_it() {
 fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
     use lensrunner::render::shot::{Request, shot};
     let mean = |size: [u32; 2]| {
-        let request = Request { scene: "disk", size, at: 0.0, layers: false };
+        let request = Request { scene: "disk", size, at: 0.0, layers: false, fill: false };
         let mut config = GameConfig::default();
         // The limits of the exposure are not to hide it.
         (config.render.exposure_min, config.render.exposure_max) = (-30.0, 30.0);

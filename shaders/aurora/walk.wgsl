@@ -104,6 +104,14 @@ fn light_above(k: u32, count: u32, phase: f32) -> f32 {
     return smoothstep(0.0, f32(count), f32(k) + select(phase, 0.0, (k == 0u) | (k >= count)));
 }
 
+/// Where a streak begins. Its first part is evenly bright and long: if all began at the greatest height, curtains would end there in an edge. Tops that lie the
+/// more densely the higher, as 2t over [0, 1), make the mean of strokes as bright as 1/t fall off linearly, and no light is lost.
+fn top_of(streak: Streak, fall: f32, count: u32) -> f32 {
+    let t = sqrt(fract(streak.wait + streak.phase + 0.5));
+    let lower = height_of(fall, streak.kind, light_above(1u, count, streak.phase));
+    return mix(lower, height_of(fall, streak.kind, 0.0), t);
+}
+
 /// Where a streak is seen at a height: apparent place, homogeneous; w is 0 where it is not.
 fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     let chord = chord_at(kind, height, count);
@@ -171,7 +179,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.projection.z)) {
         return;
     }
-    var upper = height_of(fall, streak.kind, 0.0);
+    var upper = top_of(streak, fall, count);
     var made = photons_of(fall, streak.kind, 0.0);
     // Parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one stroke.
     var k = 0u;

@@ -4,6 +4,17 @@
 
 var<workgroup> sums: array<vec2<f32>, 64>;
 
+/// How much a texel counts: not the player's own ship, which is lit for the exposure and not the exposure for it. The circle's edge is soft, so that nothing
+/// jumps as it moves.
+fn metered_part(texel: vec2<f32>, size: vec2<f32>) -> f32 {
+    let radius = frame.unmetered.z;
+    if radius <= 0.0 {
+        return 1.0;
+    }
+    let place = (texel + 0.5 - 0.5 * size) / size.x;
+    return smoothstep(radius, 1.25 * radius, distance(place, frame.unmetered.xy));
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(local_invocation_index) lane: u32) {
     let size = textureDimensions(source);
@@ -12,7 +23,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         let light = luminance(textureLoad(source, vec2<u32>(k % size.x, k / size.x), 0).rgb);
         // Weighted by itself: what shines is metered, not the black between.
         if light > 0.0 && light < 1e5 {
-            sum += vec2<f32>(light * light, light);
+            sum += vec2<f32>(light * light, light) * metered_part(vec2<f32>(vec2<u32>(k % size.x, k / size.x)), vec2<f32>(size));
         }
     }
     sums[lane] = sum;

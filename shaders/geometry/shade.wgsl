@@ -39,10 +39,25 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
     let material = bitcast<u32>(vertex.surface.w);
     let ids = placement.ids;
     let kind = materials[material].surface;
+    let filled = fill(placement);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
-        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red, placement.light_green,
-        placement.light_blue, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
+        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red * filled, placement.light_green * filled,
+        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
 }
+
+/// By how much the light on the player's own ship is more or less than what falls on it: so that middle grey, as it was exposed in the frame before, is neither
+/// too dark nor too light. Elsewhere 1. The exposure moves smoothly, and so does this.
+fn fill(placement: Placement) -> f32 {
+    if (placement.triangles.w & PLACEMENT_OWN) == 0u || frame.fill.w == 0.0 {
+        return 1.0;
+    }
+    let light = luminance(vec3<f32>(placement.light_red.w, placement.light_green.w, placement.light_blue.w));
+    let grey = max(MIDDLE_GREY * light * frame.fill.z * frame.light.x, 1e-9);
+    return clamp(grey, frame.fill.x, frame.fill.y) / grey;
+}
+
+/// What middle grey reflects.
+const MIDDLE_GREY: f32 = 0.18;
 
 /// `texture_point` at a pixel.
 fn texture_place(in: Surface) -> vec2<f32> {

@@ -109,6 +109,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
     let stage = Stage::new(&mut renderer, &session.scene, &session.config);
     let (texture, view) = target(&gpu.device, "flight", flight.size, wgpu::TextureFormat::Rgba8UnormSrgb);
     let mut settings = settings(&session.config);
+    settings.own_ship = Some(session.player());
     let mut director = Director::default();
     let length = |ship: usize| if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size };
     let hunter = session.player();

@@ -10,7 +10,7 @@ use crate::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRendere
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::scene::ship::Ai;
-use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Fuel, History, SimulationPlugins};
+use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Fuel, History, Outcome, SimulationPlugins};
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
@@ -157,6 +157,12 @@ fn length(session: &Session, ship: usize) -> f64 {
     if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size }
 }
 
+/// Whether the ship is seen from far, by a camera that slowly goes round: on the title, and once it has crossed the horizon. From there on nothing that it sees
+/// changes, for the chase stands still; who stays outside looks on.
+fn seen_from_afar(screen: Screen, outcome: Option<Outcome>) -> bool {
+    screen == Screen::Title || (screen == Screen::Result && outcome == Some(Outcome::HunterLost))
+}
+
 /// How fast the title's camera goes round, in rad a second.
 const TITLE_TURN: f64 = 0.02;
 
@@ -192,15 +198,15 @@ fn make_frame(
     let rigid = cockpit || config.video.reduced_motion;
     let attitude = seat.follower.follow(state.attitude, seconds, rigid);
     let field_of_view = config.video.fov.to_radians();
-    let title = *screen.get() == Screen::Title;
+    let afar = seen_from_afar(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
     let target = session.target().and_then(|target| histories.get(target).copied());
     let size_of_ship = length(&session, me);
-    let sought = target.filter(|_| seat.looking && !title);
+    let sought = target.filter(|_| seat.looking && !afar);
     let facing = sought.and_then(|target| seat.gaze.facing(&state, seat.view, size_of_ship, attitude, time, target));
     let attitude = seat.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
-    let cockpit = cockpit && !title;
-    let camera = if title {
-        // The title looks on from far, and slowly goes round.
+    let cockpit = cockpit && !afar;
+    let camera = if afar {
+        // It looks on from far, and slowly goes round.
         let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
         wide(state.position, turn, field_of_view)
     } else {
@@ -214,6 +220,7 @@ fn make_frame(
     let mut settings = settings(config);
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
+    settings.own_ship = (!afar).then_some(me);
     frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
 
     let there = target.map(|history| state_of(&history.at(time)));
@@ -230,4 +237,17 @@ fn make_frame(
         field_of_view,
         aside: seat.gaze.aside(),
     };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ship_that_has_fallen_in_is_seen_from_afar() {
+        assert!(seen_from_afar(Screen::Title, None));
+        assert!(seen_from_afar(Screen::Result, Some(Outcome::HunterLost)));
+        assert!(!seen_from_afar(Screen::Result, Some(Outcome::Caught)));
+        assert!(!seen_from_afar(Screen::Playing, Some(Outcome::HunterLost)));
+    }
 }

@@ -122,6 +122,13 @@ pub struct Settings {
     pub adaptation: f32,
     /// The exposure stays as it is.
     pub hold_exposure: bool,
+    /// The player's own ship, by its number among the scene's: lit for the picture and not metered. None for what is measured.
+    pub own_ship: Option<usize>,
+    /// Least and greatest light that middle grey on the own ship is brought to, of 1 for white.
+    pub fill: [f32; 2],
+    /// The circle of the picture that the meter leaves out: its middle from the picture's, right and down, and its radius (0: none), in widths of the picture.
+    /// The stage says it.
+    pub unmetered: [f32; 3],
     /// Outlines of bodies are smoothed.
     pub smooth: bool,
     /// Nearest drawn distance, in r_s.
@@ -155,6 +162,9 @@ impl Default for Settings {
             exposure_bias: 1.0,
             adaptation: 1.0,
             hold_exposure: false,
+            own_ship: None,
+            fill: [0.0, f32::MAX],
+            unmetered: [0.0; 3],
             smooth: true,
             near: 1e-3,
         }
@@ -234,6 +244,9 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         sky_y: [0.0, 1.0, 0.0, settings.star_sigma],
         sky_z: [0.0, 0.0, 1.0, settings.faintest_star],
         capacity: [capacity.vertices, capacity.indices, capacity.work, capacity.thin],
+        // The exposure of the frame before is copied in on the device.
+        fill: [settings.fill[0], settings.fill[1], 1.0, 0.0],
+        unmetered: [settings.unmetered[0], settings.unmetered[1], settings.unmetered[2], 0.0],
     }
 }
 

@@ -139,6 +139,8 @@ pub const THIN: u32 = 4;
 const MINUS: u32 = 8;
 /// An image of a higher order of a few pixels' width, drawn out along the ring; as in shaders/types.wgsl.
 const NARROW: u32 = 16;
+/// The player's own ship; as in shaders/types.wgsl.
+pub const OWN: u32 = 32;
 /// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
 const NARROW_BELOW: f64 = 10.0;
 

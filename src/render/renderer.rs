@@ -1,5 +1,6 @@
 //! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it alike.
 
+use std::mem::offset_of;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -247,6 +248,9 @@ impl Renderer {
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
         self.timing.begin();
+        // The own ship is lit by what the frame before was exposed for.
+        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
+        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
         let geometry = &self.geometry;
         let timing = &mut self.timing;
         let group = &self.frame_group;

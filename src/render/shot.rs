@@ -49,6 +49,8 @@ pub struct Request<'a> {
     pub at: f64,
     /// Whether layers are wanted.
     pub layers: bool,
+    /// Whether the ship marked as the player's is lit as the game does it; not so where light itself is asked for.
+    pub fill: bool,
 }
 
 /// Everything around: table, stars, Milky Way, from the project's files. What cannot be read is said in the log and replaced.
@@ -87,7 +89,9 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
     let camera = stage.camera(moment.time(), &moment.ships());
-    let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
+    let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
+    let settings = Settings { own_ship, ..settings(config) };
+    let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
     Ok(renderer.picture(&frame, request.layers)?)
 }
 

@@ -19,7 +19,7 @@ use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
 use super::method::Method;
 use super::models::ModelRange;
-use super::placements::{Motion, Object, View, place};
+use super::placements::{Motion, OWN, Object, Placed, View, place};
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
@@ -143,6 +143,7 @@ impl Stage {
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
         let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
         let mut placed = Vec::new();
+        let mut unmetered = [0.0; 3];
         // Light of the higher orders goes once round the hole.
         let back = |planet: &Planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
         let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back(planet), DQuat::IDENTITY));
@@ -158,6 +159,10 @@ impl Stage {
                     None => continue,
                 },
             };
+            let number_of_ship = match object.body {
+                Body::Ship(index) => Some(index),
+                _ => None,
+            };
             let light = match object.body {
                 Body::Planet => lighting::on_planet(position, self.disk.is_some()),
                 _ => lighting::at(position, self.has_ships, self.ambient),
@@ -172,7 +177,12 @@ impl Stage {
                 id: number as u32 + 1,
                 light,
             };
+            let images = placed.len();
             placed.extend(place(&view, time, &object, settings.orders));
+            if matches!(number_of_ship, Some(ship) if settings.own_ship == Some(ship)) {
+                placed[images..].iter_mut().for_each(|image| image.placement.triangles[3] |= OWN);
+                unmetered = placed[images..].first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
+            }
         }
         let mut aurora = None;
         if let Some(planet) = &self.planet {
@@ -180,12 +190,26 @@ impl Stage {
             aurora = show.as_mut().and_then(|show| show.frame(&view, time, back(planet), settings.orders));
         }
         let mut settings = *settings;
+        settings.unmetered = unmetered;
         settings.stars &= self.sky.0;
         settings.milky_way &= self.sky.1;
         settings.star_brightness *= self.sky.2;
         settings.sky_brightness *= self.sky.2;
         FrameInput { camera, time, placed, aurora, settings }
     }
+}
+
+/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it: middle and radius in widths of the picture. That is exact enough for what is
+/// a few lengths away, and what is far away is small.
+fn circle(camera: &Camera, image: &Placed, reach: f64) -> [f32; 3] {
+    let [x, y, z, _] = image.placement.offset.map(f64::from);
+    let offset = DVec3::new(x, y, z);
+    let apparent = (camera.camera_from_rain() * offset.extend(-offset.length())).truncate();
+    if image.placement.ids[0] != 1 || apparent.z >= -1e-3 {
+        return [0.0; 3];
+    }
+    let scale = 0.5 / ((0.5 * camera.field_of_view).tan() * -apparent.z);
+    [apparent.x * scale, -apparent.y * scale, reach * scale].map(|share| share as f32)
 }
 
 /// Standard deviation of a star's spot over its radius. 0.7 pixels at the default radius is the narrowest Gaussian whose light, sampled at
@@ -215,6 +239,7 @@ pub fn settings(config: &GameConfig) -> Settings {
         exposure_key: render.exposure_key as f32,
         star_sigma: (config.sky.star_size * SPOT_SIGMA) as f32,
         faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
+        fill: [render.fill_least, render.fill_most].map(|light| light as f32),
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         ..Settings::default()
     }

@@ -21,6 +21,8 @@ pub struct Frame {
     pub sky_y: [f32; 4],
     pub sky_z: [f32; 4],
     pub capacity: [u32; 4],
+    pub fill: [f32; 4],
+    pub unmetered: [f32; 4],
 }
 
 /// Bits of `Frame::switches[0]`, the `FLAG_*` of WGSL.

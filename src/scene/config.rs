@@ -83,6 +83,7 @@ fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
         if a < b { Ok(()) } else { Err(([low.to_owned(), high.to_owned()], format!("{low} = {a} must be less than {high} = {b}"))) }
     };
     below("render.exposure_min", config.render.exposure_min, "render.exposure_max", config.render.exposure_max)?;
+    below("render.fill_least", config.render.fill_least, "render.fill_most", config.render.fill_most)?;
     below("disk.inner", config.disk.inner, "disk.outer", config.disk.outer)?;
     let mut bound: Vec<(String, String)> = Vec::new();
     for setting in settings().iter().filter(|setting| setting.section == "controls") {

@@ -161,6 +161,8 @@ config! {
         antialiasing: bool = true, Switch, "", "outlines of ships and other bodies are smoothed";
         bloom: f64 = 0.3, number(0.0, 1.0), "", "share of light spread by the lens";
         ambient: f64 = 0.04, number(0.0, 2.0), "", "light from everywhere on ships and props";
+        fill_least: f64 = 0.08, number(0.0, 10.0), "", "the player's own ship is lit so that its middle grey is at least so light; 1 is white";
+        fill_most: f64 = 0.25, number(0.0, 10.0), "", "and shaded so that it is at most so light; 10 leaves the ship as it is";
     }
     /// Stars and Milky Way.
     sky: Sky {
