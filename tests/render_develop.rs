@@ -4,8 +4,10 @@ use lensrunner::reference::picture::develop::{Development, develop};
 use lensrunner::render::frame::Settings;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::Renderer;
+use lensrunner::render::stage;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
+use lensrunner::sim::Moment;
 
 use crate::render_shaders::GPU;
 use crate::render_support::surroundings;
@@ -88,4 +90,63 @@ fn outlines_of_bodies_are_smooth() {
     // 0.84 is reached: the pass knows the steps of an outline, and not where it goes between them; the chequers beside it are filtered differently at the
     // two sizes.
     assert!(smooth < 0.9 * plain, "off by {smooth} with smoothing, {plain} without");
+}
+
+/// At exposures 4,000 times apart the player's own ship is developed as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
+/// less; nothing else changes a bit, nor does a ship that nobody flies. The meter leaves out all of it.
+#[test]
+fn the_own_ship_is_lit_for_the_exposure() {
+    let size = [160, 90];
+    let mut config = GameConfig::default();
+    // Its strokes are added in any order, which rounding tells.
+    config.aurora.enabled = false;
+    let scene = scene::load("chase").unwrap();
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let moment = Moment::new(&scene, &config, 0.0, 0);
+    let mut draw = |own_ship, exposure: f32| {
+        let settings =
+            Settings { own_ship, exposure_range: [exposure; 2], bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
+        let camera = stage.camera(0.0, &moment.ships());
+        let frame = stage.frame(camera, size, 0.0, &moment.histories(), None, &settings);
+        let circle = frame.settings.unmetered;
+        (renderer.picture(&frame, true).unwrap(), circle)
+    };
+    let (plain, none) = draw(None, 1.0);
+    assert_eq!(none, [0.0; 3]);
+    // The hunter is the first object; the disk has no layers, and lies over none of the ship here.
+    let ship: Vec<usize> = (0..plain.layers.len()).filter(|&k| plain.layers[k][0] == 1.0 && plain.surface[k][2] == 1.0).collect();
+    assert!(ship.len() > 50, "{} pixels", ship.len());
+    // The median pixel is hull, not engine.
+    let hull = |picture: &Picture| {
+        let mut light: Vec<f32> = ship.iter().map(|&k| picture.linear[k][1]).collect();
+        light.sort_by(f32::total_cmp);
+        light[light.len() / 2]
+    };
+    let natural = hull(&plain);
+    let [dark, bright] = [1.0 / 64.0, 64.0].map(|exposure| {
+        let (lit, circle) = draw(Some(0), exposure);
+        for &k in &ship {
+            let (column, row) = (k as u32 % size[0], k as u32 / size[0]);
+            let place = [f64::from(column) + 0.5 - 80.0, f64::from(row) + 0.5 - 45.0].map(|side| side / 160.0);
+            let off = (place[0] - f64::from(circle[0])).hypot(place[1] - f64::from(circle[1]));
+            assert!(off < f64::from(circle[2]), "the own ship's pixel {column}, {row} is metered");
+        }
+        assert!(circle[2] < 0.25, "{circle:?} is more than the ship");
+        for (k, (lit, plain)) in lit.linear.iter().zip(&plain.linear).enumerate() {
+            assert!(lit == plain || lit_ship(&ship, k, size), "pixel {k} is not the ship's and changes");
+        }
+        hull(&lit) * exposure
+    });
+    assert!(hull(&draw(Some(0), 64.0).0) < natural && hull(&draw(Some(0), 1.0 / 64.0).0) > natural);
+    let allowed = (config.render.fill_most / config.render.fill_least) as f32;
+    // Halves have 11 bits.
+    assert!(bright / dark < 3.0 * allowed, "{dark} and {bright}, {allowed} times are allowed");
+}
+
+/// Whether a pixel is the ship's or beside it: thin parts of it lie over pixels whose middle they miss.
+fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
+    let place = |k: usize| (k as i64 % i64::from(size[0]), k as i64 / i64::from(size[0]));
+    let (x, y) = place(pixel);
+    ship.iter().any(|&k| (place(k).0 - x).abs() <= 1 && (place(k).1 - y).abs() <= 1)
 }
