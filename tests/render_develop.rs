@@ -93,7 +93,7 @@ fn outlines_of_bodies_are_smooth() {
 }
 
 /// At exposures 4,000 times apart the player's own ship is developed as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
-/// less; nothing else changes a bit, nor does a ship that nobody flies. The meter leaves out all of it.
+/// less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
     let size = [160, 90];
@@ -142,6 +142,31 @@ fn the_own_ship_is_lit_for_the_exposure() {
     let allowed = (config.render.fill_most / config.render.fill_least) as f32;
     // Halves have 11 bits.
     assert!(bright / dark < 3.0 * allowed, "{dark} and {bright}, {allowed} times are allowed");
+}
+
+/// A ship that is lit as white as one likes moves the exposure of nothing else: the developed picture beside it stays as it is.
+#[test]
+fn the_own_ship_is_not_metered() {
+    let size = [160, 90];
+    let mut config = GameConfig::default();
+    config.aurora.enabled = false;
+    let scene = scene::load("chase").unwrap();
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let moment = Moment::new(&scene, &config, 0.0, 0);
+    let mut draw = |fill| {
+        let settings = Settings { own_ship: Some(0), fill, bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
+        let frame = stage.frame(stage.camera(0.0, &moment.ships()), size, 0.0, &moment.histories(), None, &settings);
+        // The ship is lit by the exposure of the frame before.
+        renderer.picture(&frame, true).unwrap();
+        renderer.picture(&frame, true).unwrap()
+    };
+    let [dim, white] = [[1e-4, 2e-4], [10.0, 11.0]].map(&mut draw);
+    let ship: Vec<usize> = (0..dim.layers.len()).filter(|&k| dim.layers[k][0] == 1.0).collect();
+    let differs = |k: usize| dim.developed[4 * k..4 * k + 3] != white.developed[4 * k..4 * k + 3];
+    assert!(ship.iter().filter(|&&k| differs(k)).count() > 50, "the ship is as light as it was");
+    let beside: Vec<usize> = (0..dim.layers.len()).filter(|&k| !lit_ship(&ship, k, size) && differs(k)).collect();
+    assert!(beside.is_empty(), "{} pixels beside the ship change", beside.len());
 }
 
 /// Whether a pixel is the ship's or beside it: thin parts of it lie over pixels whose middle they miss.
