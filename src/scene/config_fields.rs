@@ -181,7 +181,7 @@ config! {
         arcs: u32 = 4200u32, integer(16, 50_000), "arcs", "arcs in the disk";
         sprites: u32 = 100_000u32, integer(100, 2_000_000), "sprites", "point sprites in the disk";
         polygons: u32 = 960u32, integer(24, 200_000), "triangles", "triangles in the polygon disk";
-        error_budget: f64 = 0.0003, number(1e-5, 0.1), "rad", "an arc is halved while its midpoint is off by more";
+        error_budget: f64 = 0.0003, number(1e-5, 0.1), "rad", "an arc is cut into more segments while its midpoint is off by more";
         width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius, seen from within the disk";
