@@ -7,12 +7,9 @@ var<workgroup> sums: array<vec2<f32>, 64>;
 /// How much a texel counts: not the player's own ship, which is lit for the exposure and not the exposure for it. The circle's edge is soft, so that nothing
 /// jumps as it moves.
 fn metered_part(texel: vec2<f32>, size: vec2<f32>) -> f32 {
-    let radius = frame.unmetered.z;
-    if radius <= 0.0 {
-        return 1.0;
-    }
+    let radius = max(frame.unmetered.z, 1e-6);
     let place = (texel + 0.5 - 0.5 * size) / size.x;
-    return smoothstep(radius, 1.25 * radius, distance(place, frame.unmetered.xy));
+    return select(smoothstep(radius, 1.25 * radius, distance(place, frame.unmetered.xy)), 1.0, frame.unmetered.z <= 0.0);
 }
 
 @compute @workgroup_size(64)
