@@ -62,7 +62,7 @@ struct Streaks {
     odd_side: vec2<f32>,
     /// By how much of a factor of two each cools the gas for each unit of the pattern: the even one and the odd one.
     shares: vec2<f32>,
-    /// Square of its length, in texels of the pattern itself.
+    /// Square of the length of the longest of these sides, in texels of the pattern itself.
     long: f32,
     /// Square of the side of a texel, in such texels, that the pixel should be looked up with.
     square: f32,
