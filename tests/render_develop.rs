@@ -92,10 +92,8 @@ fn outlines_of_bodies_are_smooth() {
     assert!(smooth < 0.9 * plain, "off by {smooth} with smoothing, {plain} without");
 }
 
-/// At exposures 4,000 times apart the player's own ship is developed as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
-/// less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds all of it.
-#[test]
-fn the_own_ship_is_lit_for_the_exposure() {
+/// The chase at its start, ready to be drawn 160 × 90 pixels large.
+fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     let size = [160, 90];
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
@@ -104,6 +102,14 @@ fn the_own_ship_is_lit_for_the_exposure() {
     let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let moment = Moment::new(&scene, &config, 0.0, 0);
+    (size, config, renderer, stage, moment)
+}
+
+/// At exposures 4,000 times apart the player's own ship is developed as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
+/// less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds all of it.
+#[test]
+fn the_own_ship_is_lit_for_the_exposure() {
+    let (size, config, mut renderer, stage, moment) = a_chase();
     let mut draw = |own_ship, exposure: f32| {
         let settings =
             Settings { own_ship, exposure_range: [exposure; 2], bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
@@ -147,13 +153,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
 /// A ship that is lit as white as one likes moves the exposure of nothing else: the developed picture beside it stays as it is.
 #[test]
 fn the_own_ship_is_not_metered() {
-    let size = [160, 90];
-    let mut config = GameConfig::default();
-    config.aurora.enabled = false;
-    let scene = scene::load("chase").unwrap();
-    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let stage = Stage::new(&mut renderer, &scene, &config);
-    let moment = Moment::new(&scene, &config, 0.0, 0);
+    let (size, config, mut renderer, stage, moment) = a_chase();
     let mut draw = |fill| {
         let settings = Settings { own_ship: Some(0), fill, bloom: 0.0, smooth: false, orders: 1, ..stage::settings(&config) };
         let frame = stage.frame(stage.camera(0.0, &moment.ships()), size, 0.0, &moment.histories(), None, &settings);
