@@ -56,7 +56,9 @@ impl Camera {
 
     /// Where the camera sees light that comes, in rain axes, from `look`: a unit vector in camera axes.
     pub fn seen_direction(&self, look: DVec3) -> DVec3 {
-        (self.camera_from_rain() * look.normalize().extend(-1.0)).truncate().normalize()
+        // The boost of (look, −1), without its matrix: thousands of clusters of stars ask for this in every frame.
+        let boosted = frames::rest_to_rain(self.momentum, look.normalize()) + self.momentum;
+        (self.attitude.conjugate() * boosted).normalize()
     }
 
     /// Pixel coordinates (x right, y down, origin at the upper left corner) of a direction in camera axes, or None behind the camera.
@@ -258,4 +260,22 @@ pub const BLACKBODY_HOTTEST: f32 = 2.0e6;
 /// The table of black bodies: ln of linear sRGB radiance over ln T, relative to the luminance at 5,772 K.
 pub fn blackbody_table() -> Vec<[f32; 4]> {
     blackbody::table(512, BLACKBODY_COLDEST, BLACKBODY_HOTTEST)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seen_direction_is_that_of_the_boosted_wave_vector() {
+        let attitude = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 1.3);
+        let momentum = DVec3::new(0.4, -1.7, 0.9);
+        let camera = Camera { position: DVec3::X * 9.0, momentum, attitude, field_of_view: 1.0 };
+        for look in [DVec3::X, DVec3::new(-0.3, 2.0, 0.7), DVec3::new(0.1, 0.2, -5.0), momentum, -momentum] {
+            let wave = camera.camera_from_rain() * look.normalize().extend(-1.0);
+            let seen = camera.seen_direction(look);
+            assert!((seen - wave.truncate().normalize()).length() < 1e-12, "{look}: {seen}");
+            assert!((camera.rain_direction(seen) - look.normalize()).length() < 1e-12, "{look}");
+        }
+    }
 }

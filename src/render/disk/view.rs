@@ -49,6 +49,8 @@ const LEAST_RING: f64 = 1e-3;
 const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
+/// Light of gas as dark as this, in its logarithm, is none.
+const LEAST_LOG_LIGHT: f64 = -690.0;
 /// Points between two circles at which heat and depth are fitted.
 const FIT_POINTS: u32 = 8;
 /// The weight of dark gas in the fit of heat, over that of the brightest.
@@ -191,9 +193,7 @@ fn rows(
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
     let within = Straight { light: within.light * brightest, ..within };
-    // Optical depths along a ray over those straight through: seen face on, and from where the camera is.
-    let height = camera.position.z.abs() / camera.radius();
-    let slants = [1.0, 1.0 / height.max(LEAST_COSINE)];
+    let slants = slants(camera);
     let straight = |a: usize, b: usize| {
         // Middle and quarters.
         [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
@@ -269,7 +269,7 @@ fn own_shares(camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> [
 fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
     let mut before = vec![0.0];
     for pair in seen.windows(2) {
-        let share = pair[0].places[azimuth].angle_to(pair[1].places[azimuth]).abs();
+        let share = pair[0].angle_to(&pair[1], azimuth);
         // Where there is no ray nothing is seen. If there is none at all the radii themselves are shared.
         let share = if share.is_finite() { share } else { 0.0 } + 1e-12 * (pair[1].radius - pair[0].radius);
         before.push(before[before.len() - 1] + share);
@@ -317,7 +317,7 @@ fn widths(camera: &Camera, inner: &SeenCircle, outer: &SeenCircle, width: u32) -
     std::array::from_fn(|k| {
         let [a, b] = [inner.places[k], outer.places[k]];
         let frequency = gamma + outward * (a.normalize() + b.normalize()).normalize().x;
-        a.angle_to(b).abs() / (pixel * frequency)
+        inner.angle_to(outer, k) / (pixel * frequency)
     })
 }
 
@@ -326,13 +326,18 @@ struct SeenCircle {
     radius: f64,
     /// Azimuth by which its pattern is ahead, in rad.
     lag: f64,
-    /// The radius that its pattern comes from.
-    pattern: f64,
-    /// Of gas that lets nothing through.
+    /// The radius that its pattern comes from, and the logarithm of that.
+    pattern: [f64; 2],
+    /// The light of gas that lets nothing through, and its logarithm.
     light: f64,
+    log_light: f64,
     depth: f64,
+    /// What it stops at each of [`slants`].
+    stopped: [f64; 2],
     /// For each azimuth the place, direction times light path, in the half plane that holds the ray: outward and across.
     places: [DVec2; AZIMUTHS],
+    /// And its angle there from outward, in rad.
+    angles: [f64; AZIMUTHS],
 }
 
 impl SeenCircle {
@@ -347,19 +352,31 @@ impl SeenCircle {
             let ray = lens_lookup_at(slice, (along - l) as f32, across as f32, along as f32, order);
             DVec2::new(f64::from(ray.cos_psi), f64::from(ray.sin_psi)) * if ray.valid { f64::from(ray.delay) } else { f64::NAN }
         });
+        let depth = radial.depth(r);
+        let pattern = radial.pattern_radius(r);
+        let log_light = (-GREEN / radial.temperature(r)).max(LEAST_LOG_LIGHT);
         SeenCircle {
             radius: r,
             lag: radial.lag(r),
-            pattern: radial.pattern_radius(r),
-            light: (-GREEN / radial.temperature(r)).exp().max(1e-300),
-            depth: radial.depth(r),
+            pattern: [pattern, pattern.ln()],
+            light: log_light.exp(),
+            log_light,
+            depth,
+            stopped: slants(camera).map(|slant| stopped(depth, slant)),
             places,
+            angles: places.map(|place| place.y.atan2(place.x)),
         }
     }
 
     /// Light of the gas as it is, face on.
     fn shining(&self) -> f64 {
         self.light * self.depth.min(1.0)
+    }
+
+    /// The angle to the same azimuth of another circle, in rad.
+    fn angle_to(&self, other: &SeenCircle, azimuth: usize) -> f64 {
+        let angle = (self.angles[azimuth] - other.angles[azimuth]).abs();
+        angle.min(TAU - angle)
     }
 
     /// Whether this circle looks as it should where one draws straight on from `a` to `b`; the light that may be missing is an absolute one here.
@@ -372,25 +389,39 @@ impl SeenCircle {
             let straight = |from: f64, to: f64| from + t * (to - from);
             let off = |value: f64, from: f64, to: f64| (straight(from, to) - value).abs();
             // Pixels for each r_s across the ring, and along it.
-            let wide = start.angle_to(end).abs() / pixel;
+            let wide = a.angle_to(b, k) / pixel;
             let across = wide / (b.radius - a.radius);
             // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
             let shown = own[k] * wide.min(1.0);
             let along = self.radius / here.length() / pixel;
-            let pattern = |circle: &SeenCircle| if within.height { self.pattern * circle.pattern.ln() } else { circle.pattern };
-            let light = straight(a.light.ln(), b.light.ln()).exp();
-            let depth = straight(a.depth, b.depth);
-            let stopped = |depth: f64, slant: f64| 1.0 - (-slant * depth).exp();
-            t > 0.0
+            let [[pattern, log], from, to] = [self.pattern, a.pattern, b.pattern];
+            let aside = if within.height { pattern * off(log, from[1], to[1]) } else { off(pattern, from[0], to[0]) };
+            // Where there is no ray t is not a number.
+            let placed = t > 0.0
                 && t < 1.0
-                && off(pattern(self), pattern(a), pattern(b)) * across < within.across
-                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along
-                && slants.into_iter().all(|slant| {
-                    (light * stopped(depth, slant) - self.light * stopped(self.depth, slant)).abs() * shown < within.light
-                        && (stopped(depth, slant) - stopped(self.depth, slant)).abs() * shown < within.stopped
+                && aside * across < within.across
+                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along;
+            placed && {
+                let light = straight(a.log_light, b.log_light).exp();
+                let depth = straight(a.depth, b.depth);
+                slants.into_iter().zip(self.stopped).all(|(slant, stops)| {
+                    let drawn = stopped(depth, slant);
+                    (light * drawn - self.light * stops).abs() * shown < within.light && (drawn - stops).abs() * shown < within.stopped
                 })
+            }
         })
     }
+}
+
+/// Optical depths along a ray over those straight through: seen face on, and from where the camera is.
+fn slants(camera: &Camera) -> [f64; 2] {
+    let height = camera.position.z.abs() / camera.radius();
+    [1.0, 1.0 / height.max(LEAST_COSINE)]
+}
+
+/// The share of the light from behind that gas of an optical depth stops at a slant.
+fn stopped(depth: f64, slant: f64) -> f64 {
+    1.0 - (-slant * depth).exp()
 }
 
 /// The cuts between arcs long enough to be told apart.
