@@ -8,7 +8,7 @@ use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 
-use crate::render_support::{eye, renderer, settings};
+use crate::render_support::{camera, eye, renderer, settings};
 
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
@@ -155,4 +155,25 @@ fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     let [colour, neither, brightness, both] = [(true, false), (false, false), (false, true), (true, true)].map(|(a, b)| light(a, b));
     println!("colour alone {:.3} of neither, brightness alone {:.3} of both", colour / neither, brightness / both);
     assert!((colour / neither - 1.0).abs() < 0.25 && (brightness / both - 1.0).abs() < 0.25, "{colour}, {neither}, {brightness}, {both}");
+}
+
+/// Gaps between rings too narrow to be seen are closed, in rows of pixels that hit them or not they were moiré: the picture is that of a disk without gaps
+/// which stops as much less of the light from behind.
+#[test]
+fn gaps_too_narrow_to_be_seen_are_closed() {
+    let size = [320, 180];
+    let mut renderer = renderer(size);
+    let [gaps, thinner] = [(0.5, 0.9), (0.0, 0.45)].map(|(gap, opacity)| {
+        let mut config = GameConfig::default();
+        (config.disk.gap, config.disk.opacity, config.disk.turbulence) = (gap, opacity, 0.0);
+        renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+        let camera = camera(27.0, 60.0, 60f64.to_radians());
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+        renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
+    });
+    let square = |picture: &mut dyn Iterator<Item = f64>| picture.map(|v| v * v).sum::<f64>();
+    let off = (square(&mut gaps.iter().zip(&thinner).map(|(a, b)| a - b)) / square(&mut thinner.iter().copied())).sqrt();
+    println!("gaps that are closed change {off:.3} of the picture");
+    // Straight through both stop the same; aslant a share of an opaque ring stops less than thin gas.
+    assert!(off < 0.05, "{off}");
 }

@@ -3,6 +3,9 @@
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
+/// Widths in pixels between which a gap between two rings opens. Narrower, it is closed from both sides: in rows of pixels that hit it or not it would be moiré.
+const SEEN_GAP: vec2<f32> = vec2<f32>(2.0, 4.0);
+
 /// Circles whose mean a thin image shows, for each of so many azimuths; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
 const THIN_AZIMUTHS: u32 = 12u;
@@ -115,6 +118,19 @@ fn second_before(d: f32, half: f32, depth: f32) -> vec2<f32> {
     return covered * vec2<f32>((1.0 - own) * (1.0 - exp(-depth)), own);
 }
 
+/// A ray between two that are so near to each other that all goes straight.
+fn between_rays(a: LensRay, b: LensRay, t: f32) -> LensRay {
+    var ray = b;
+    ray.cos_psi = mix(a.cos_psi, b.cos_psi, t);
+    ray.sin_psi = mix(a.sin_psi, b.sin_psi, t);
+    ray.delay = mix(a.delay, b.delay, t);
+    ray.frequency = mix(a.frequency, b.frequency, t);
+    ray.emission_radial = mix(a.emission_radial, b.emission_radial, t);
+    ray.emission_tangential = mix(a.emission_tangential, b.emission_tangential, t);
+    ray.emission_frequency = mix(a.emission_frequency, b.emission_frequency, t);
+    return ray;
+}
+
 /// The vertex of `row` at θ.
 fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let circle = circles[row];
@@ -131,18 +147,22 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
 
     var ray: LensRay;
+    // Where this circle lies if the gap beside it is closed.
+    var in_gap: LensRay;
+    let gap = circle.place.z;
     var psi = vec3<f32>(0.0);
     var valid = true;
     // Where the second image begins and ends beside the third: the same ray has crossed the plane on the other side of the hole.
     var second = vec2<f32>(0.0);
     var behind_second = order == 3u;
     // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. The lookup is called from this one place.
-    for (var k = 0u; k < select(select(3u, 1u, order == 1u), 5u, order == 3u); k++) {
-        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u);
+    for (var k = 0u; k < select(select(3u, select(1u, 2u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
+        let beside = k == 1u && order == 1u;
+        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u || beside);
         let opposite = k > 2u;
         let there = circles[which];
-        let r = there.gas.x;
-        let along = there.place.x - 2.0 * r * disk.sideways.w * select(half_sine * half_sine, 1.0 - half_sine * half_sine, opposite);
+        let r = select(there.gas.x, there.place.y, beside);
+        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(half_sine * half_sine, 1.0 - half_sine * half_sine, opposite);
         let found = lens_lookup_at(along, r * reach, r * select(c, -c, opposite) * disk.sideways.w, select(order, 2u, opposite));
         let seen = found.valid && found.delay > 0.0;
         valid = valid && (seen || opposite);
@@ -152,6 +172,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
             ray = found;
             psi.x = angle_seen;
         } else if k == 1u {
+            in_gap = found;
             psi.y = angle_seen;
         } else if k == 2u {
             psi.z = angle_seen;
@@ -160,6 +181,15 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         } else {
             second.y = angle_seen;
         }
+    }
+
+    // Gas of a ring is thinner by as much as it has grown over its gaps.
+    var share = 1.0 - gap;
+    if gap > 0.0 && order == 1u {
+        let pixel = frame.size.z * pixel_of(n * ray.cos_psi + side * ray.sin_psi, side * ray.cos_psi - n * ray.sin_psi);
+        let open = smoothstep(SEEN_GAP.x, SEEN_GAP.y, 2.0 * abs(psi.x - psi.y) / pixel);
+        share = mix(share, 1.0, open);
+        ray = between_rays(in_gap, ray, open);
     }
 
     var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
@@ -208,7 +238,7 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     var ln_g = log(g);
     let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
-    var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
+    var shown = vec2<f32>(circle.gas.z + ln_g, -log(1.0 - share * (1.0 - exp(-circle.gas.w))));
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let azimuth = atan2(abs(s), c);

@@ -115,7 +115,12 @@ impl DiskView {
             let seen: Vec<SeenCircle> =
                 radii(disk, order <= close).into_iter().map(|r| SeenCircle::new(disk, camera, slice, order, r)).collect();
             let own = own_shares(camera, &seen, width, order);
-            let (rows, pairs) = rows(disk, camera, &seen, width, own, if order <= close { FROM_NEAR } else { FROM_FAR });
+            let gaps = disk.config.gap > 0.0;
+            let (rows, pairs) = if gaps {
+                (if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
+            } else {
+                rows(camera, &seen, width, own, if order <= close { FROM_NEAR } else { FROM_FAR })
+            };
             let last = first + rows.len() as u32 - 1;
             let behind = samples.len() as u32;
             if order > 1 {
@@ -125,7 +130,12 @@ impl DiskView {
                 }
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
-            if disk.config.gap <= 0.0 && order > close {
+            if gaps {
+                for (circle, middle) in own.iter_mut().zip(gap_middles(disk)) {
+                    circle.place[1] = middle as f32;
+                    circle.place[2] = disk.config.gap as f32;
+                }
+            } else if order > close {
                 straighten(disk, &rows, &mut own);
             }
             circles.extend(own);
@@ -179,18 +189,8 @@ fn radii(disk: &Disk, close: bool) -> Vec<f64> {
 }
 
 /// The radii to draw in an order and the pairs of them with gas between.
-fn rows(
-    disk: &Disk,
-    camera: &Camera,
-    seen: &[SeenCircle],
-    width: u32,
-    own: [f64; AZIMUTHS],
-    within: Straight,
-) -> (Vec<f64>, Vec<[u32; 2]>) {
-    if disk.config.gap > 0.0 {
-        return (disk.arcs.circles.clone(), disk.arcs.rings.clone());
-    }
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+fn rows(camera: &Camera, seen: &[SeenCircle], width: u32, own: [f64; AZIMUTHS], within: Straight) -> (Vec<f64>, Vec<[u32; 2]>) {
+    let pixel = pixel_angle(camera, width);
     let brightest = seen.iter().map(SeenCircle::shining).fold(1e-300, f64::max);
     let within = Straight { light: within.light * brightest, ..within };
     let slants = slants(camera);
@@ -210,6 +210,22 @@ fn rows(
     }
     let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
     (chosen.into_iter().map(|k| seen[k].radius).collect(), pairs)
+}
+
+/// For each circle of a disk that has gaps between its rings the middle of the gap that it bounds, in r_s: there it lies where the gap is too narrow to be seen.
+fn gap_middles(disk: &Disk) -> Vec<f64> {
+    let mut radii = disk.arcs.circles.clone();
+    for pair in disk.arcs.rings.windows(2) {
+        let [a, b] = [pair[0][1] as usize, pair[1][0] as usize];
+        let middle = 0.5 * (radii[a] + radii[b]);
+        (radii[a], radii[b]) = (middle, middle);
+    }
+    radii
+}
+
+/// The optical depth that stops `share` of what `depth` stops.
+fn share_of_depth(depth: f32, share: f32) -> f32 {
+    -(share * (-depth).exp_m1()).ln_1p()
 }
 
 /// Sets heat and depth of circles at `radii` so that what goes straight between them is off by as little as can be in the mean, and not by nothing on
@@ -310,7 +326,7 @@ fn widest(disk: &Disk, camera: &Camera, slice: &Slice, width: u32, order: u32) -
 
 /// The width of the image between two circles at each azimuth, in pixels of the middle of a picture `width` pixels wide.
 fn widths(camera: &Camera, inner: &SeenCircle, outer: &SeenCircle, width: u32) -> [f64; AZIMUTHS] {
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let pixel = pixel_angle(camera, width);
     // Angles in the camera's frame are those of the rain frame over the frequency there; of the camera's motion the part outward, the same all round.
     let gamma = (1.0 + camera.momentum.length_squared()).sqrt();
     let outward = camera.momentum.dot(camera.position) / camera.radius();
@@ -413,6 +429,11 @@ impl SeenCircle {
     }
 }
 
+/// The angle of a pixel in the middle of a picture `width` pixels wide, in rad.
+fn pixel_angle(camera: &Camera, width: u32) -> f64 {
+    2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1))
+}
+
 /// Optical depths along a ray over those straight through: seen face on, and from where the camera is.
 fn slants(camera: &Camera) -> [f64; 2] {
     let height = camera.position.z.abs() / camera.radius();
@@ -432,7 +453,7 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     if l < 1.5 * end {
         return disk.arcs.cuts.clone();
     }
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
+    let pixel = pixel_angle(camera, width);
     let round = TAU * end / l / pixel / LEAST_ARC;
     let count = (round.ceil() as usize).clamp(16.min(all), all);
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
@@ -443,8 +464,13 @@ fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
     let radial = &disk.gas.radial;
     let nearer = through.unwrap_or(r);
     let [outward, along] = radial.momentum(nearer);
-    let depth = through.map_or(0.0, |r| radial.depth(r));
-    Circle { place: [depth, outward, along, nearer].map(|value| value as f32), ..circle(disk, r, 0.0, 0.0, [0; 4]) }
+    // A thin image has no gaps, but as much less gas.
+    let gas = |depth: f64| share_of_depth(depth as f32, (1.0 - disk.config.gap) as f32);
+    let behind = through.map_or(0.0, |r| gas(radial.depth(r)));
+    let mut circle = circle(disk, r, 0.0, 0.0, [0; 4]);
+    circle.gas[3] = gas(radial.depth(r));
+    circle.place = [behind, outward as f32, along as f32, nearer as f32];
+    circle
 }
 
 fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {

@@ -13,7 +13,7 @@ pub const HEIGHT: usize = 512;
 const OCTAVES: [(usize, usize, f64); 8] =
     [(3, 16, 0.75), (4, 48, 0.70), (7, 28, 0.70), (14, 56, 0.55), (10, 128, 0.50), (28, 112, 0.40), (56, 224, 0.28), (112, 256, 0.16)];
 
-/// The lattice, row by row; mean 0, deviation 1.
+/// The lattice, row by row; each row has mean 0 and deviation 1.
 pub static LATTICE: LazyLock<Vec<f32>> = LazyLock::new(lattice);
 
 /// The pattern at x turns and y heights: the lattice, between its points weighted by 3t² − 2t³, so that no crease shows close up.
@@ -72,8 +72,11 @@ fn lattice() -> Vec<f32> {
             }
         }
     }
-    let count = sum.len() as f64;
-    let mean = sum.iter().sum::<f64>() / count;
-    let deviation = (sum.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / count).sqrt();
-    sum.iter().map(|v| ((v - mean) / deviation).clamp(-3.0, 3.0) as f32).collect()
+    // Each row by itself: a ring that is brighter all round than its neighbours would make the whole disk brighter until its generation dies.
+    for row in sum.chunks_mut(WIDTH) {
+        let mean = row.iter().sum::<f64>() / WIDTH as f64;
+        let deviation = (row.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / WIDTH as f64).sqrt();
+        row.iter_mut().for_each(|v| *v = (*v - mean) / deviation);
+    }
+    sum.iter().map(|v| v.clamp(-3.0, 3.0) as f32).collect()
 }
