@@ -43,19 +43,25 @@ fn far_colour(in: Gas) -> vec4<f32> {
     return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, two_looks(streaks_at(in, even, odd, 2.0 * STEP)));
 }
 
-/// Texture coordinates that make bilinear interpolation smooth: weights 3t² − 2t³ within a texel.
-fn smooth_place(uv: vec2<f32>) -> vec2<f32> {
-    let size = vec2<f32>(textureDimensions(near_pattern));
-    let place = uv * size - 0.5;
-    let whole = floor(place);
-    let t = place - whole;
-    return (whole + t * t * (3.0 - 2.0 * t) + 0.5) / size;
-}
+/// Columns and rows of the finest level of the pattern without its finest octaves: powers of two, so that a place is brought back into it by a mask.
+const NEAR_SIZE: vec2<i32> = vec2<i32>(1024, 512);
+/// The coarsest level of it, of two columns and one row.
+const NEAR_LEVELS: f32 = 9.0;
 
-/// The pattern without its finest octaves, without a grain. Those are the same, eight times finer.
-fn close_pattern(uv: vec2<f32>, level: f32) -> f32 {
+/// The pattern without its finest octaves, without a grain: between texels by weights 3t² − 2t³. Those are the same, eight times finer.
+fn close_pattern(place: vec2<f32>, level: f32) -> f32 {
+    let which = u32(clamp(level + 0.5, 0.0, NEAR_LEVELS));
+    let size = NEAR_SIZE >> vec2<u32>(which);
+    let texel = place * vec2<f32>(size) - 0.5;
+    let whole = floor(texel);
+    let straight = texel - whole;
     // A texel that is smaller than a pixel is filtered as it is.
-    return textureSampleLevel(near_pattern, near_sampler, select(uv, smooth_place(uv), level < 0.0), level).x;
+    let t = select(straight, straight * straight * (3.0 - 2.0 * straight), level < 0.0);
+    // The first level is on the left, the others one below the other beside it.
+    let corner = vec2<i32>(select(0, NEAR_SIZE.x, which > 0u), max(NEAR_SIZE.y - 2 * size.y, 0));
+    let v = textureLoad(near_pattern, (vec2<i32>(whole) & (size - 1)) + corner, 0);
+    let row = mix(v.xz, v.yw, vec2<f32>(t.x));
+    return mix(row.x, row.y, t.y);
 }
 
 /// Places along a pixel that streaks are looked up at, at most, from near: low over the plane pixels are longest.

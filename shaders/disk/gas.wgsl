@@ -4,9 +4,8 @@
 /// The pattern with its finest octaves in 8 bits, (value + 4)/8: each texel holds itself and its next neighbours to the right, below and across, so that one
 /// fetch does for a bilinear sample. It is fetched and not sampled: software drivers then work out no more than the address.
 @group(2) @binding(1) var far_pattern: texture_2d<f32>;
-/// The pattern without its finest octaves.
+/// The pattern without its finest octaves, laid out in the same way.
 @group(2) @binding(2) var near_pattern: texture_2d<f32>;
-@group(2) @binding(3) var near_sampler: sampler;
 
 /// Texels of the pattern that sizes of pixels are told in: every other column of the lattice of src/scene/disk/noise.rs, and its rows, as many.
 const PATTERN_SIZE: f32 = 512.0;

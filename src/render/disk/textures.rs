@@ -15,31 +15,21 @@ pub struct Textures {
     /// With the finest octaves, in 8 bits, (value + 4)/8, all levels side by side: each texel with its next to the right, below and across, so that one fetch
     /// does for a bilinear sample.
     pub far: wgpu::TextureView,
-    /// Without them, in 16-bit floats, for close looks.
+    /// Without them, in 16-bit floats, for close looks; as the other is laid out.
     pub near: wgpu::TextureView,
-    /// Bilinear, and one halving at a time: two are twice the work.
-    pub near_sampler: wgpu::Sampler,
 }
 
 impl Textures {
     /// Uploads them.
     pub fn new(gpu: &Gpu) -> Textures {
         let levels = halvings((WIDTH as u32, HEIGHT as u32, LATTICE.clone()));
-        let in_halves = |level: &Level| level.2.iter().flat_map(|&value| half::f16::from_f32(value).to_le_bytes()).collect();
-        let halves: Vec<Vec<u8>> = levels.iter().map(in_halves).collect();
-        let near_sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("gas from near"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Nearest,
-            ..Default::default()
-        });
+        let eighth = |value: f32| ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8;
+        let half = |value: f32| half::f16::from_f32(value).to_bits();
+        let bytes = [bytemuck::cast_slice(&side_by_side(&FAR, eighth)).to_vec(), bytemuck::cast_slice(&side_by_side(&levels, half)).to_vec()];
+        let formats = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Rgba16Float];
         Textures {
-            far: texture(gpu, "gas from far", wgpu::TextureFormat::Rgba8Unorm, [FAR_WIDTH, FAR[0].1], &[side_by_side(&FAR)]),
-            near: texture(gpu, "gas from near", wgpu::TextureFormat::R16Float, [levels[0].0, levels[0].1], &halves),
-            near_sampler,
+            far: texture(gpu, "gas from far", formats[0], [FAR_WIDTH, FAR[0].1], &bytes[0]),
+            near: texture(gpu, "gas from near", formats[1], [FAR_WIDTH, levels[0].1], &bytes[1]),
         }
     }
 }
@@ -105,53 +95,39 @@ fn halved((width, height, values): &Level) -> Level {
     (width / 2, height / 2, mean.collect())
 }
 
-/// Width of the picture that holds all levels of [`FAR`], in texels: those of the first two, and 16 more, an odd number of lines of 64 bytes. Rows an even
+/// Width of the pictures that hold all levels, in texels: those of the first two, and 16 more, an odd number of lines of 64 bytes. Rows an even
 /// number of them apart get in one another's way in a processor's cache, where streaks are looked up one above the other.
 const FAR_WIDTH: u32 = 1552;
 
 /// All levels in one picture, the first on the left, the others one below the other beside it: a level of a texture that is chosen anew in each pixel costs a
-/// software driver more than the sum that finds its corner. Each texel has its next to the right, below and across.
-fn side_by_side(levels: &[Level]) -> Vec<u8> {
-    let mut texels = vec![[0; 4]; (FAR_WIDTH * levels[0].1) as usize];
+/// software driver more than the sum that finds its corner. Each texel has its next to the right, below and across; values are written `as_bits`.
+fn side_by_side<T: Copy + Default>(levels: &[Level], as_bits: impl Fn(f32) -> T) -> Vec<[T; 4]> {
+    let mut texels = vec![[T::default(); 4]; (FAR_WIDTH * levels[0].1) as usize];
     let (mut left, mut top) = (0, 0);
     for &(width, height, ref values) in levels {
-        let at = |x: u32, y: u32| {
-            let value = values[(y % height * width + x % width) as usize];
-            ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8
-        };
+        let at = |x: u32, y: u32| as_bits(values[(y % height * width + x % width) as usize]);
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             texels[((top + y) * FAR_WIDTH + left + x) as usize] = [at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)];
         }
         (left, top) = (levels[0].0, if left == 0 { 0 } else { top + height });
     }
-    texels.concat()
+    texels
 }
 
-/// A texture of this width and height with the bytes of each of its levels.
-fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, [width, height]: [u32; 2], levels: &[Vec<u8>]) -> wgpu::TextureView {
+/// A texture of this width and height with these bytes.
+fn texture(gpu: &Gpu, label: &str, format: wgpu::TextureFormat, [width, height]: [u32; 2], bytes: &[u8]) -> wgpu::TextureView {
+    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: levels.len() as u32,
+        size,
+        mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    for (mip, bytes) in levels.iter().enumerate() {
-        let (width, height) = ((width >> mip).max(1), (height >> mip).max(1));
-        gpu.queue.write_texture(
-            wgpu::TexelCopyTextureInfo {
-                texture: &texture,
-                mip_level: mip as u32,
-                origin: wgpu::Origin3d::ZERO,
-                aspect: wgpu::TextureAspect::All,
-            },
-            bytes,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None },
-            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        );
-    }
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes.len() as u32 / height), rows_per_image: None };
+    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);
     texture.create_view(&Default::default())
 }
