@@ -2,8 +2,8 @@
 
 struct DiskArguments {
     mesh: vec4<u32>,
-    /// For each order: indices, instances, first index, base vertex; then first instance and three words unused.
-    draws: array<vec4<u32>, 6>,
+    /// For each list of triangles: indices, instances, first index, base vertex; then first instance and three words unused.
+    draws: array<vec4<u32>, 8>,
 }
 
 @group(2) @binding(0) var<storage, read_write> arguments: DiskArguments;
@@ -17,9 +17,9 @@ fn before_mesh() {
 
 @compute @workgroup_size(1)
 fn before_draw() {
-    for (var order = 0u; order < 3u; order++) {
-        let count = min(atomicLoad(&disk_counters.indices[order]), disk.regions[order + 1u] - disk.regions[order]);
-        arguments.draws[2u * order] = vec4<u32>(count, 1u, disk.regions[order], 0u);
-        arguments.draws[2u * order + 1u] = vec4<u32>(0u);
+    for (var list = 0u; list < 4u; list++) {
+        let count = min(atomicLoad(&disk_counters.indices[list]), end_of(list) - disk.regions[list]);
+        arguments.draws[2u * list] = vec4<u32>(count, 1u, disk.regions[list], 0u);
+        arguments.draws[2u * list + 1u] = vec4<u32>(0u);
     }
 }

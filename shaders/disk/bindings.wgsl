@@ -14,3 +14,8 @@
 @group(1) @binding(6) var<storage, read_write> jobs: array<vec4<u32>>;
 @group(1) @binding(7) var<storage, read_write> disk_indices: array<u32>;
 @group(1) @binding(8) var<storage, read_write> disk_counters: Counters;
+
+/// The end of a list of triangles in the indices.
+fn end_of(list: u32) -> u32 {
+    return select(disk.regions[min(list + 1u, 3u)], disk.room.w, list == 3u);
+}

@@ -112,6 +112,13 @@ fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);
 }
 
+/// What of order 1 is farther away than a close look reaches, of a disk that is seen from near: the slant in each pixel, streaks as from far.
+@fragment
+fn beyond_fragment(in: Gas) -> @location(0) vec4<f32> {
+    let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
+    return gas_colour(in.light.rgb, in.slope.xyz, depth, two_looks(streaks_of(in, 2.0 * STEP)));
+}
+
 /// Half height of the disk at a radius of the pattern: thickness times that.
 fn near_half_height(radius: f32) -> f32 {
     return max(bitcast<f32>(disk.room.z) * radius, 1e-3);

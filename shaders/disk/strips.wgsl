@@ -15,18 +15,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let first_inner = ring.x * disk.sizes.x + 2u * arc;
     let first_outer = ring.y * disk.sizes.x + 2u * arc;
-    var seen = true;
+    var nearest = 1e9;
     for (var k = 0u; k < 3u; k++) {
-        seen = seen && disk_vertices[first_inner + k].apparent.w > 0.0 && disk_vertices[first_outer + k].apparent.w > 0.0;
+        nearest = min(nearest, min(disk_vertices[first_inner + k].apparent.w, disk_vertices[first_outer + k].apparent.w));
     }
-    if !seen || max(circles[ring.x].gas.w, circles[ring.y].gas.w) < 1e-4 {
+    if nearest <= 0.0 || max(circles[ring.x].gas.w, circles[ring.y].gas.w) < 1e-4 {
         return;
     }
     let total = inner.x + outer.x;
     let order = ring.z;
-    let begin = select(select(disk.regions.z, disk.regions.y, order == 2u), disk.regions.x, order == 1u);
-    let end = select(select(disk.regions.w, disk.regions.z, order == 2u), disk.regions.y, order == 1u);
-    var slot = begin + atomicAdd(&disk_counters.indices[order - 1u], 3u * total);
+    let beyond = order == 1u && disk.room.y > 0u && nearest > disk.light.y;
+    let list = select(order - 1u, 3u, beyond);
+    let end = end_of(list);
+    var slot = disk.regions[list] + atomicAdd(&disk_counters.indices[list], 3u * total);
     if slot + 3u * total > end {
         // No room. What is left of it becomes triangles of nothing: the draw goes to the end.
         for (; slot < end; slot++) {

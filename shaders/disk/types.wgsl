@@ -15,12 +15,12 @@ struct DiskFrame {
     gas: vec4<f32>,
     /// x: columns of a row; y: arcs round the hole; z: rows; w: rings over all orders.
     sizes: vec4<u32>,
-    /// x, y, z: first index of order 1, 2, 3; w: the end of order 3.
+    /// First indices of the lists of triangles: order 1, 2, 3, and what of order 1 lies beyond a close look.
     regions: vec4<u32>,
     /// x: vertices that there is room for; y: orders up to this one have a close look (finest octaves, slant in each pixel); z: half height over radius
-    /// (bits of an f32); w unused.
+    /// (bits of an f32); w: the end of the last list of triangles.
     room: vec4<u32>,
-    /// x: the scene's unit of light over the black body's; y, z, w unused.
+    /// x: the scene's unit of light over the black body's; y: arcs of order 1 whose light path is longer, in r_s, are beyond a close look; z, w unused.
     light: vec4<f32>,
     /// x, y: where in the pattern the first generation begins; z, w: from each to the next.
     offset: vec4<f32>,
@@ -53,8 +53,8 @@ struct DiskVertex {
 struct Counters {
     /// Vertices past the grid.
     vertices: atomic<u32>,
-    /// Indices of each order.
-    indices: array<atomic<u32>, 3>,
+    /// Indices in each list of triangles.
+    indices: array<atomic<u32>, 4>,
     /// Arcs drawn; arcs drawn coarser than asked; results that were not finite.
     arcs: atomic<u32>,
     coarse: atomic<u32>,

@@ -13,8 +13,10 @@ use super::view::DiskView;
 
 /// Room for vertices that halving makes.
 const EXTRA: u32 = 250_000;
-/// Room for indices of orders 1, 2 and 3 past those of the arcs as they are.
-const INDICES: [u32; 3] = [1_500_000, 600_000, 600_000];
+/// Room for indices of orders 1, 2 and 3, and of what of order 1 lies beyond a close look.
+const INDICES: [u32; 4] = [1_500_000, 600_000, 600_000, 1_500_000];
+/// Number of the last of these lists.
+const BEYOND: u64 = 3;
 
 /// The stages, their buffers and the draws.
 #[derive(Debug)]
@@ -28,6 +30,7 @@ pub struct ArcPass {
     far: wgpu::RenderPipeline,
     thin: wgpu::RenderPipeline,
     near: wgpu::RenderPipeline,
+    beyond: wgpu::RenderPipeline,
     circles: Growing,
     cuts: Growing,
     rings: Growing,
@@ -78,6 +81,7 @@ impl ArcPass {
             far: draw("disk far", "far_vertex", "far_fragment"),
             thin: draw("disk thin", "far_vertex", "thin_fragment"),
             near: draw("disk near", "vertex", "near_fragment"),
+            beyond: draw("disk beyond", "vertex", "beyond_fragment"),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
             rings: Growing::new(device, "disk rings", storage),
@@ -101,7 +105,9 @@ impl ArcPass {
         let [columns, arcs, rows, rings] = view.frame.sizes;
         let grid = columns * rows;
         view.frame.room[0] = grid + EXTRA;
-        view.frame.regions = [0, INDICES[0], INDICES[0] + INDICES[1], INDICES.iter().sum()];
+        let ends: [u32; 4] = std::array::from_fn(|list| INDICES[..=list].iter().sum());
+        view.frame.regions = [0, ends[0], ends[1], ends[2]];
+        view.frame.room[3] = ends[3];
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.close;
         let device = &gpu.device;
@@ -171,8 +177,16 @@ impl ArcPass {
                 0 => &self.far,
                 _ => &self.thin,
             });
-            pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + order * types::ARGUMENTS_DRAW_STEP);
+            self.draw_list(pass, order);
+            if order == 0 && self.close > 0 {
+                pass.set_pipeline(&self.beyond);
+                self.draw_list(pass, BEYOND);
+            }
         }
+    }
+
+    fn draw_list(&self, pass: &mut wgpu::RenderPass, list: u64) {
+        pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_DRAW + list * types::ARGUMENTS_DRAW_STEP);
     }
 
     /// What was counted, for reading back.
@@ -185,7 +199,7 @@ impl ArcPass {
         &self.seen.buffer
     }
 
-    /// Indices of the triangles, order by order.
+    /// Indices of the triangles, list by list.
     pub fn indices(&self) -> &wgpu::Buffer {
         &self.indices
     }

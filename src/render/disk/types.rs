@@ -46,7 +46,7 @@ pub struct DiskVertex {
 #[allow(missing_docs, reason = "documented once, in shaders/disk/types.wgsl")]
 pub struct DiskCounters {
     pub vertices: u32,
-    pub indices: [u32; 3],
+    pub indices: [u32; 4],
     pub arcs: u32,
     pub coarse: u32,
     pub caught: u32,
@@ -66,16 +66,17 @@ impl DiskCounters {
 
 impl std::fmt::Display for DiskCounters {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        let [first, second, third] = self.indices.map(|indices| indices / 3);
+        let [first, second, third, beyond] = self.indices.map(|indices| indices / 3);
+        let first = first + beyond;
         write!(f, "disk: {} arcs over all orders; {first}, {second} and {third} triangles by order", self.arcs)
     }
 }
 
 /// Bytes of `DiskArguments` in WGSL.
-pub const ARGUMENTS_BYTES: u64 = 112;
-/// Offset of the draw of order 1; each order takes [`ARGUMENTS_DRAW_STEP`].
+pub const ARGUMENTS_BYTES: u64 = 144;
+/// Offset of the first list's draw; each takes [`ARGUMENTS_DRAW_STEP`].
 pub const ARGUMENTS_DRAW: u64 = 16;
-/// Bytes between the draws of two orders.
+/// Bytes between the draws of two lists.
 pub const ARGUMENTS_DRAW_STEP: u64 = 32;
 /// Bytes of `SeenSprite` in WGSL.
 pub const SEEN_SPRITE_BYTES: u64 = 64;

@@ -161,7 +161,7 @@ impl DiskView {
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
                 room: [0, close, (disk.gas.thickness as f32).to_bits(), 0],
-                light: [DISK_UNIT as f32, 0.0, 0.0, 0.0],
+                light: [DISK_UNIT as f32, CLOSE as f32, 0.0, 0.0],
                 offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
             },
             circles,
