@@ -83,7 +83,9 @@ fn pixels_of_the_disk_ask_for_little_arithmetic() {
         let index = module.entry_points.iter().position(|entry| entry.name == name).unwrap();
         counter.function(&module.entry_points[index].function, info.get_entry_point(index))
     };
-    for (name, most, looped) in [("far_fragment", 320, false), ("thin_fragment", 340, false), ("near_fragment", 480, true)] {
+    for (name, most, looped) in
+        [("far_fragment", 320, false), ("thin_fragment", 340, false), ("beyond_fragment", 340, false), ("near_fragment", 520, true)]
+    {
         let work = work(name);
         println!("{name}: {work:?}");
         assert!(work.operations <= most, "{name} asks for {} operations, {most} were weighed", work.operations);

@@ -25,7 +25,8 @@ impl Textures {
         let levels = halvings((WIDTH as u32, HEIGHT as u32, LATTICE.clone()));
         let eighth = |value: f32| ((value + GREATEST) / (2.0 * GREATEST) * 255.0).round() as u8;
         let half = |value: f32| half::f16::from_f32(value).to_bits();
-        let bytes = [bytemuck::cast_slice(&side_by_side(&FAR, eighth)).to_vec(), bytemuck::cast_slice(&side_by_side(&levels, half)).to_vec()];
+        let bytes =
+            [bytemuck::cast_slice(&side_by_side(&FAR, eighth)).to_vec(), bytemuck::cast_slice(&side_by_side(&levels, half)).to_vec()];
         let formats = [wgpu::TextureFormat::Rgba8Unorm, wgpu::TextureFormat::Rgba16Float];
         Textures {
             far: texture(gpu, "gas from far", formats[0], [FAR_WIDTH, FAR[0].1], &bytes[0]),
