@@ -221,6 +221,7 @@ fn make_frame(
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
     settings.own_ship = (!afar).then_some(me);
+    settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
     frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
 
     let there = target.map(|history| state_of(&history.at(time)));
