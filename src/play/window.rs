@@ -16,7 +16,7 @@ use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
 
 use super::camera::{View, on_ship, state_of};
-use super::director::wide;
+use super::director::{on_caught, wide};
 use super::game::{GamePlugin, GameSet, Seat};
 use super::input::MouseTurn;
 use super::instruments::Instruments;
@@ -157,10 +157,27 @@ fn length(session: &Session, ship: usize) -> f64 {
     if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size }
 }
 
-/// Whether the ship is seen from far, by a camera that slowly goes round: on the title, and once it has crossed the horizon. From there on nothing that it sees
-/// changes, for the chase stands still; who stays outside looks on.
-fn seen_from_afar(screen: Screen, outcome: Option<Outcome>) -> bool {
-    screen == Screen::Title || (screen == Screen::Result && outcome == Some(Outcome::HunterLost))
+/// What the screen shows, whatever the player looked at before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sight {
+    /// What the player looks at.
+    Own,
+    /// All of it from far, by a camera that slowly goes round: on the title, and where the chase is not won. It stands still then, and there may be nothing
+    /// ahead of a ship; who has crossed the horizon sees nothing change any more.
+    Afar,
+    /// The quarry, caught.
+    Caught,
+}
+
+impl Sight {
+    fn of(screen: Screen, outcome: Option<Outcome>) -> Sight {
+        match (screen, outcome) {
+            (Screen::Title, _) => Sight::Afar,
+            (Screen::Result, Some(Outcome::Caught)) => Sight::Caught,
+            (Screen::Result, Some(_)) => Sight::Afar,
+            _ => Sight::Own,
+        }
+    }
 }
 
 /// How fast the title's camera goes round, in rad a second.
@@ -198,19 +215,24 @@ fn make_frame(
     let rigid = cockpit || config.video.reduced_motion;
     let attitude = seat.follower.follow(state.attitude, seconds, rigid);
     let field_of_view = config.video.fov.to_radians();
-    let afar = seen_from_afar(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
-    let target = session.target().and_then(|target| histories.get(target).copied());
+    let sight = Sight::of(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
+    let named = session.target();
+    let target = named.and_then(|target| histories.get(target).copied());
     let size_of_ship = length(&session, me);
-    let sought = target.filter(|_| seat.looking && !afar);
+    let sought = target.filter(|_| seat.looking && sight == Sight::Own);
     let facing = sought.and_then(|target| seat.gaze.facing(&state, seat.view, size_of_ship, attitude, time, target));
     let attitude = seat.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
-    let cockpit = cockpit && !afar;
-    let camera = if afar {
-        // It looks on from far, and slowly goes round.
-        let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
-        wide(state.position, turn, field_of_view)
-    } else {
-        on_ship(&state, seat.view, attitude, size_of_ship, field_of_view)
+    let (camera, hidden, lit) = match (sight, named.zip(target)) {
+        (Sight::Own, _) => {
+            (on_ship(&state, seat.view, attitude, size_of_ship, field_of_view), (seat.view == View::Cockpit).then_some(me), Some(me))
+        }
+        (Sight::Caught, Some((caught, history))) => {
+            (on_caught(history, length(&session, caught), state.position, time, field_of_view), None, Some(caught))
+        }
+        _ => {
+            let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
+            (wide(state.position, turn, field_of_view), None, None)
+        }
     };
 
     // Times of an earlier frame will do, and so will those of one yet earlier while a frame is being recorded.
@@ -220,9 +242,9 @@ fn make_frame(
     let mut settings = settings(config);
     let first = frame.0.is_none();
     settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
-    settings.own_ship = (!afar).then_some(me);
+    settings.own_ship = lit;
     settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
-    frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
+    frame.0 = Some(staged.0.frame(camera, size, time, &histories, hidden, &settings));
 
     let there = target.map(|history| state_of(&history.at(time)));
     let thrust = engine.limit(&controls.0).thrust.length();
@@ -245,10 +267,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ship_that_has_fallen_in_is_seen_from_afar() {
-        assert!(seen_from_afar(Screen::Title, None));
-        assert!(seen_from_afar(Screen::Result, Some(Outcome::HunterLost)));
-        assert!(!seen_from_afar(Screen::Result, Some(Outcome::Caught)));
-        assert!(!seen_from_afar(Screen::Playing, Some(Outcome::HunterLost)));
+    fn the_result_shows_what_it_tells_of() {
+        assert_eq!(Sight::of(Screen::Title, None), Sight::Afar);
+        assert_eq!(Sight::of(Screen::Result, Some(Outcome::Caught)), Sight::Caught);
+        for lost in [Outcome::HunterLost, Outcome::QuarryLost, Outcome::TimeOut] {
+            assert_eq!(Sight::of(Screen::Result, Some(lost)), Sight::Afar);
+        }
+        assert_eq!(Sight::of(Screen::Playing, Some(Outcome::HunterLost)), Sight::Own);
+        assert_eq!(Sight::of(Screen::Paused, None), Sight::Own);
     }
 }
