@@ -100,7 +100,7 @@ fn lay_in(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
     }
-    let letters: String = (' '..='~').chain("—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
+    let letters: String = (' '..='~').chain("\u{a0}“”—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
     for size in SIZES {
         // Kept by the fonts as long as it is asked for.
         let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
@@ -182,7 +182,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
         pos2(left, bottom),
         Align2::LEFT_BOTTOM,
         &[
-            ("SPEED against what hovers here", 11.0, FAINT),
+            ("SPEED  (0: hovering)", 11.0, FAINT),
             (&speed, 30.0, TEXT),
             ("LOAD", 11.0, FAINT),
             (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),

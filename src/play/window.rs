@@ -122,12 +122,31 @@ fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: Egu
     }
 }
 
-/// Says the goal when a chase begins.
-fn welcome(session: Res<Session>, screen: Res<State<Screen>>, clock: Res<Clock>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
-    /// How long it is shown after the beginning, in r_s/c of T.
+/// Says the goal when a chase begins, and on the first flight what to begin with: until the player has, or has had time to read it.
+fn welcome(
+    session: Res<Session>,
+    screen: Res<State<Screen>>,
+    clock: Res<Clock>,
+    real: Res<Time<Real>>,
+    mut seat: ResMut<Seat>,
+    mut notice: ResMut<Notice>,
+) {
+    /// How long the goal is shown after the beginning, in r_s/c of T.
     const SHOWN: f64 = 12.0;
-    if *screen.get() == Screen::Playing && clock.time < SHOWN && notice.until < real.elapsed_secs_f64() {
-        *notice = Notice { text: menu::goal(&session), until: real.elapsed_secs_f64() + 0.5 };
+    /// How long the hint is shown, in seconds of wall time in play.
+    const HINTED: f64 = 30.0;
+    if *screen.get() != Screen::Playing {
+        return;
+    }
+    if !seat.begun {
+        seat.hinted += real.delta_secs_f64();
+        seat.begun = seat.hinted > HINTED;
+    }
+    let goal = (clock.time < SHOWN || !seat.begun).then(|| menu::goal(&session));
+    let hint = (!seat.begun).then(|| menu::hint(&session));
+    let words: Vec<String> = goal.into_iter().chain(hint).collect();
+    if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
+        *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
     }
 }
 
