@@ -21,7 +21,7 @@ const WARM: Color32 = Color32::from_rgb(255, 190, 110);
 pub fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
-    session: Res<Session>,
+    mut session: ResMut<Session>,
     chase: Option<Res<Chase>>,
     panel: Res<Panel>,
     seat: Res<Seat>,
@@ -31,13 +31,14 @@ pub fn draw(
     let mut ask = |wish| _ = wishes.write(wish);
     match screen.get() {
         Screen::Playing => (),
-        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &session, &mut ask)),
+        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &mut session, &mut ask)),
         // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
             buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
-            ui.add_space(10.0);
+            calm(ui, &mut session);
+            ui.add_space(6.0);
             controls(ui, &session);
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
@@ -79,11 +80,12 @@ fn buttons(ui: &mut Ui, ask: &mut impl FnMut(Wish), choices: &[(&str, Wish)]) {
     }
 }
 
-fn title(ui: &mut Ui, session: &Session, ask: &mut impl FnMut(Wish)) {
+fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(Wish)) {
     ui.label(RichText::new("LENSRUNNER").size(42.0).color(PALE).strong());
     ui.label(RichText::new("a chase in the spacetime of a black hole").size(15.0).color(FAINT));
     ui.add_space(8.0);
-    ui.label(RichText::new("The picture turns, bends and brightens quickly. Those who are sensitive to it may set reduced_motion in game.toml.").size(12.5).color(WARM));
+    ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
+    calm(ui, session);
     ui.add_space(6.0);
     ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
     ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
@@ -91,6 +93,15 @@ fn title(ui: &mut Ui, session: &Session, ask: &mut impl FnMut(Wish)) {
     buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
     ui.add_space(4.0);
     controls(ui, session);
+}
+
+/// The switch of `video.reduced_motion`, until the game ends or `game.toml` says otherwise.
+fn calm(ui: &mut Ui, session: &mut Session) {
+    let mut on = session.config.video.reduced_motion;
+    let words = RichText::new("Reduced motion: the camera does not sway or glide").size(12.5).color(PALE);
+    if ui.checkbox(&mut on, words).changed() {
+        session.config.video.reduced_motion = on;
+    }
 }
 
 /// A number and its unit, which stay on one line.
@@ -271,12 +282,12 @@ mod tests {
     /// Title and pause are no higher than the lowest window the interface is laid out for.
     #[test]
     fn the_title_fits() {
-        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
         let mut height = f32::INFINITY;
         crate::play::plate::tests::on_canvas(INTERFACE, |painter, _| {
             // The first picture of an area only measures it.
             card(painter.ctx(), "title", WIDE, |ui| {
-                title(ui, &session, &mut |_| ());
+                title(ui, &mut session, &mut |_| ());
                 height = ui.min_rect().height() + 2.0 * INSIDE;
             });
         });
