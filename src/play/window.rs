@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass};
 
+use crate::render::frame::Settings;
 use crate::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRenderer};
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
@@ -218,6 +219,7 @@ fn make_frame(
     mut seat: ResMut<Seat>,
     mut frame: ResMut<FrameToDraw>,
     mut panel: ResMut<Panel>,
+    mut cut: Local<Option<(Sight, f64)>>,
 ) {
     // A window without area (minimised, say) shows nothing and waits.
     let Some(size) = windows.iter().map(|window| window.physical_size().to_array()).find(|size| size[0] > 0 && size[1] > 0) else { return };
@@ -259,8 +261,13 @@ fn make_frame(
         staged.0.ration_aurora(renderer.timing().latest());
     }
     let mut settings = settings(config);
-    let first = frame.0.is_none();
-    settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
+    let cut = cut.replace((sight, clock.time)).is_none_or(|(before, earlier)| before != sight || clock.time < earlier);
+    if cut {
+        // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship should be.
+        settings.fill = Settings::default().fill;
+    } else {
+        settings.adaptation = (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32;
+    }
     settings.own_ship = lit;
     settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
     frame.0 = Some(staged.0.frame(camera, size, time, &histories, hidden, &settings));
