@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
+use crate::render::plugin::SharedRenderer;
 use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
@@ -15,7 +16,7 @@ use super::markers::{self, arc};
 use super::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
 use super::screens::Screen;
 use super::session::Session;
-use super::window::Panel;
+use super::window::{Panel, Staged, loaded};
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
@@ -36,11 +37,15 @@ pub fn draw(
     rules: Res<ChaseRules>,
     notice: Res<Notice>,
     real: Res<Time<Real>>,
+    (staged, renderer): (Option<Res<Staged>>, Option<Res<SharedRenderer>>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
     lay_in(context, &painter);
+    if !loaded(staged, renderer) {
+        text(&painter, rect.center() + vec2(0.2 * rect.width(), 0.0), Align2::CENTER_CENTER, "loading the scene…", 18.0, TEXT);
+    }
     let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);

@@ -94,13 +94,26 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     .insert_resource(Seat { always_autopilot: options.autopilot, ..default() })
     .insert_resource(session)
     .init_resource::<Panel>()
-    .add_systems(Startup, (stage_scene, spawn_camera))
+    .add_systems(Startup, spawn_camera)
+    .add_systems(Update, stage_scene.run_if(not(loaded)).before(make_frame))
     .add_systems(Update, (fit_interface, welcome, grab_cursor, make_frame).chain().after(GameSet::Answer))
     .add_systems(EguiPrimaryContextPass, (hud::draw, menu::draw, overlay::draw).chain());
     app.run()
 }
 
-fn stage_scene(world: &mut World) {
+/// Whether there is nothing more to load.
+pub(super) fn loaded(staged: Option<Res<Staged>>, renderer: Option<Res<SharedRenderer>>) -> bool {
+    staged.is_some() || renderer.is_none()
+}
+
+/// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.
+const BEFORE: u32 = 4;
+
+fn stage_scene(world: &mut World, mut frames: Local<u32>) {
+    *frames += 1;
+    if *frames <= BEFORE {
+        return;
+    }
     let Some(renderer) = world.get_resource::<SharedRenderer>().cloned() else { return };
     let session = world.resource::<Session>();
     let stage = Stage::new(&mut renderer.lock(), &session.scene, &session.config).watched();
