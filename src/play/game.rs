@@ -39,7 +39,7 @@ pub struct Seat {
     pub always_autopilot: bool,
     /// How the camera follows.
     pub follower: Follower,
-    /// The player has used what the hint of the first flight names, or had time to read it.
+    /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.
     pub begun: bool,
     /// How long that hint has been shown, in seconds of wall time.
     pub hinted: f64,
@@ -161,8 +161,8 @@ fn read_keys(
     if hands.pushed("toggle_assist") {
         player.assist = Some(!player.assisted(&session.config));
     }
-    let hinted = ["thrust_forward", "look_at_target", "toggle_autopilot"];
-    player.begun |= player.always_autopilot || (*screen.get() == Screen::Playing && hinted.into_iter().any(|action| hands.holds(action)));
+    let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds("look_at_target") || hands.holds("toggle_autopilot");
+    player.begun |= player.always_autopilot || (begins && *screen.get() == Screen::Playing);
     if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
         let manual = !player.autopilot;
