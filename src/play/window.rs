@@ -213,6 +213,11 @@ impl Sight {
     }
 }
 
+/// Whether the picture at T = `time` has nothing to do with that before, which `last` keeps: what is shown is another thing, or the chase began anew.
+fn is_cut(last: &mut Option<(Sight, f64)>, sight: Sight, time: f64) -> bool {
+    last.replace((sight, time)).is_none_or(|(before, earlier)| before != sight || time < earlier)
+}
+
 /// How fast the title's camera goes round, in rad a second.
 const TITLE_TURN: f64 = 0.02;
 
@@ -274,8 +279,7 @@ fn make_frame(
         staged.0.ration_aurora(renderer.timing().latest());
     }
     let mut settings = settings(config);
-    let cut = cut.replace((sight, clock.time)).is_none_or(|(before, earlier)| before != sight || clock.time < earlier);
-    if cut {
+    if is_cut(&mut cut, sight, clock.time) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship should be.
         settings.fill = Settings::default().fill;
     } else {
@@ -304,6 +308,13 @@ fn make_frame(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_restart_is_a_cut() {
+        let mut last = None;
+        let cuts = [(Sight::Afar, 3.0), (Sight::Own, 0.0), (Sight::Own, 5.0), (Sight::Own, 5.0), (Sight::Own, 0.1), (Sight::Caught, 0.2)];
+        assert_eq!(cuts.map(|(sight, time)| is_cut(&mut last, sight, time)), [true, true, false, false, true, true]);
+    }
 
     #[test]
     fn the_result_shows_what_it_tells_of() {
