@@ -219,7 +219,7 @@ impl Stage {
 }
 
 /// What nozzles shine with where nothing is burnt, as a share of full thrust's.
-const IDLE_GLOW: f64 = 0.01;
+const IDLE_GLOW: f64 = 1e-3;
 /// Nozzles grow bright and dark over so much T, in r_s/c: a quarter of a second at the usual pace.
 const GLOW_SPAN: f64 = 0.375;
 
@@ -227,7 +227,7 @@ const GLOW_SPAN: f64 = 0.375;
 fn glow(history: &History, time: f64, full: f64) -> f64 {
     let share = (history.thrust(time, GLOW_SPAN) / full.max(1e-12)).clamp(0.0, 1.0);
     // Steeper than the thrust: before a dark sky, exposed for long, what the assist burns would look like full thrust.
-    IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share.sqrt()
+    IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share
 }
 
 /// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it: middle and radius in widths of the picture. That is exact enough for what is
