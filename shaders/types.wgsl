@@ -48,6 +48,7 @@ struct Placement {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
     /// The same centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
+    /// w: what its engines lack of their full light, as a share.
     position: vec4<f32>,
     /// dx/dT of the centre; w: r_s per unit of the model where the object moves or turns, else 0.
     velocity: vec4<f32>,
@@ -180,7 +181,7 @@ struct Material {
     base: vec4<f32>,
     /// Emitted radiance, linear; w: roughness.
     emissive: vec4<f32>,
-    /// x: metallic, y: texture layer or −1, z: 1 if the base colour shines by itself, w unused.
+    /// x: metallic, y: texture layer or −1, z: 1 if the base colour shines by itself, w: 1 if it shines as the engines burn.
     surface: vec4<f32>,
 }
 

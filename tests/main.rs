@@ -49,6 +49,8 @@ mod render_disk_order;
 #[cfg(feature = "game")]
 mod render_disk_thin;
 #[cfg(feature = "game")]
+mod render_engines;
+#[cfg(feature = "game")]
 mod render_fallbacks;
 #[cfg(feature = "game")]
 mod render_fragments;

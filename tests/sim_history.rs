@@ -19,6 +19,21 @@ fn flown() -> History {
     history
 }
 
+/// The history keeps states and forces, no commands: what the engines gave comes back from them.
+#[test]
+fn the_thrust_is_that_of_the_commands() {
+    let history = flown();
+    let commanded = DVec3::new(0.0, 0.02, 0.05).length();
+    // Within a command, across one that turns the thrust round, and over the start: a third of that span is before it.
+    for (time, span, share) in [(1.0, 0.1, 1.0), (3.3, 1.0, 1.0), (0.2, 0.3, 2.0 / 3.0), (-4.0, 1.0, 0.0)] {
+        let thrust = history.thrust(time, span);
+        // Rounding of the forces' difference, which is a hundredth of them.
+        assert!((thrust - share * commanded).abs() < 1e-12, "{time}: {thrust}");
+    }
+    // The last node is at 6.25.
+    assert!((history.thrust(6.35, 0.2) - 0.5 * commanded).abs() < 1e-12);
+}
+
 #[test]
 fn a_ship_moves_within_its_bounds() {
     let history = flown();

@@ -40,9 +40,11 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
     let ids = placement.ids;
     let kind = materials[material].surface;
     let filled = fill(placement);
+    // Only nozzles (w of `kind`) burn with the engines.
+    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * placement.position.w), 1.0);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
         vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red * filled, placement.light_green * filled,
-        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive);
+        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow);
 }
 
 /// By how much the light on the player's own ship is more or less than what falls on it: so that middle grey, as it was exposed in the frame before, is neither

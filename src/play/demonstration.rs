@@ -110,6 +110,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
     let (texture, view) = target(&gpu.device, "flight", flight.size, wgpu::TextureFormat::Rgba8UnormSrgb);
     let mut settings = settings(&session.config);
     settings.own_ship = Some(session.player());
+    settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
     let length = |ship: usize| if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size };
     let hunter = session.player();

@@ -108,6 +108,42 @@ pub fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Camera {
     static_camera(position, -position, DVec3::Z, field_of_view)
 }
 
+/// How far from a caught ship its camera is, in lengths of the ship: all of it is seen, and not much else than what is beyond.
+const NEAR_CAUGHT: f64 = 3.0;
+/// How far right of the picture's middle a caught ship is, in radians: at the left is what the result says.
+const ASIDE_CAUGHT: f64 = 0.12;
+/// Where the hole is then, in camera axes: farther right, its edge behind the ship.
+const HOLE_BEYOND: DVec3 = DVec3::new(0.45, 0.05, -1.0);
+
+/// A camera that flies with a caught ship `length` r_s long and sees all of it, the hole beyond and `own` (the position of the ship that caught it, in r_s) not in
+/// the way.
+pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_view: f64) -> Camera {
+    let state = state_of(&caught.at(time));
+    let inward = -state.position.normalize_or(DVec3::X);
+    let across = inward.cross(DVec3::Z).normalize_or(DVec3::Y);
+    // A little from above, from all sides: how the hole is seen depends on how the ship moves.
+    let cameras = (0..48).map(|k| {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 48.0).sin_cos();
+        let sight = inward * cosine + across * sine - DVec3::Z * 0.25;
+        let turned = ShipState { attitude: frames::look(sight, DVec3::Z).unwrap_or(DQuat::IDENTITY), ..state };
+        third_person(&turned, DVec3::Z * (NEAR_CAUGHT * length), DQuat::from_rotation_y(ASIDE_CAUGHT), field_of_view)
+    });
+    let fault = |camera: &Camera| {
+        let hole = camera.seen_direction(-camera.position.normalize_or(DVec3::X));
+        let [to_own, to_caught] = [own, state.position].map(|place| place - camera.position);
+        let in_front = to_own.length() < to_caught.length() && to_own.angle_between(to_caught) < 0.35;
+        let too_near = to_own.length() < 1.5 * length;
+        hole.angle_between(HOLE_BEYOND) + if in_front || too_near { 10.0 } else { 0.0 }
+    };
+    let Some(mut camera) = cameras.min_by(|a, b| fault(a).total_cmp(&fault(b))) else { return wide(state.position, 0.0, field_of_view) };
+    // Light from so near is all but straight; it is aimed at where the ship is seen all the same.
+    if let Some(seen) = apparition(&camera, time, caught, Order::ALL[0]) {
+        let aimed = frames::look(camera.attitude * seen.direction, DVec3::Z).unwrap_or(camera.attitude);
+        camera.attitude = (aimed * DQuat::from_rotation_y(ASIDE_CAUGHT)).normalize();
+    }
+    camera
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,5 +168,31 @@ mod tests {
         assert_eq!(hidden, Some(0));
         let seen = apparition(&camera, 0.0, &quarry, Order::ALL[0]).expect("seen").direction;
         assert!(seen.angle_between(DVec3::NEG_Z) < 1e-6, "{seen}");
+    }
+
+    /// However the caught ship moves, and wherever the other is: all of it is on the screen, right of the middle, at the chosen distance, with the hole in sight.
+    #[test]
+    fn a_caught_ship_is_seen_whole_before_the_hole() {
+        for (position, velocity) in
+            [(DVec3::X * 6.0, DVec3::ZERO), (DVec3::new(-3.0, 6.0, 0.5), DVec3::new(0.3, 0.2, 0.0)), (DVec3::Y * 3.0, DVec3::X * 0.5)]
+        {
+            let momentum = static_momentum(position).unwrap_or_default() + velocity;
+            let caught = History::new(0.0, &ShipState::new(position, momentum));
+            for own in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z].map(|side| position + side * 0.4) {
+                let camera = on_caught(&caught, 0.25, own, 0.0, 60_f64.to_radians());
+                let seen = apparition(&camera, 0.0, &caught, Order::ALL[0]).expect("seen").direction;
+                let ahead = seen.angle_between(DVec3::NEG_Z);
+                // A ship of this length at three of its lengths is 0.17 to each side; half the screen is 0.52.
+                assert!(seen.x > 0.05 && ahead < 0.25, "{position} {own}: {seen}");
+                let hole = camera.seen_direction(-camera.position.normalize());
+                assert!(hole.angle_between(DVec3::NEG_Z) < 0.7 && hole.x > seen.x, "{position} {own}: {hole}");
+                let line = position - camera.position;
+                assert!(
+                    (own - camera.position).angle_between(line) > 0.35 || (own - camera.position).length() > line.length(),
+                    "{position} {own}"
+                );
+                assert!((own - camera.position).length() > 0.375, "{position} {own}");
+            }
+        }
     }
 }

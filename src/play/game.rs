@@ -39,6 +39,10 @@ pub struct Seat {
     pub always_autopilot: bool,
     /// How the camera follows.
     pub follower: Follower,
+    /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.
+    pub begun: bool,
+    /// How long that hint has been shown, in seconds of wall time.
+    pub hinted: f64,
     /// The key that turns the camera to the target is held.
     pub looking: bool,
     /// How far the camera has turned to the target.
@@ -157,6 +161,8 @@ fn read_keys(
     if hands.pushed("toggle_assist") {
         player.assist = Some(!player.assisted(&session.config));
     }
+    let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds("look_at_target") || hands.holds("toggle_autopilot");
+    player.begun |= player.always_autopilot || (begins && *screen.get() == Screen::Playing);
     if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
         let manual = !player.autopilot;
@@ -364,6 +370,22 @@ mod tests {
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyV);
         app.update();
         assert!(!looking(&app));
+    }
+
+    /// The hint of the first flight stays until one of its keys is used in play, and does not come again.
+    #[test]
+    fn the_first_flight_begins_with_a_key() {
+        let mut app = game();
+        let begun = |app: &App| app.world().resource::<Seat>().begun;
+        push(&mut app, KeyCode::KeyW);
+        assert!(!begun(&app), "on the title nothing is flown");
+        push(&mut app, KeyCode::Enter);
+        push(&mut app, KeyCode::KeyC);
+        assert!(!begun(&app), "the camera is no part of it");
+        push(&mut app, KeyCode::KeyV);
+        assert!(begun(&app));
+        push(&mut app, KeyCode::KeyR);
+        assert!(begun(&app));
     }
 
     #[test]

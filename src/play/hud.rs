@@ -4,6 +4,7 @@ use bevy::prelude::*;
 use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
+use crate::render::plugin::SharedRenderer;
 use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
@@ -15,7 +16,7 @@ use super::markers::{self, arc};
 use super::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
 use super::screens::Screen;
 use super::session::Session;
-use super::window::Panel;
+use super::window::{Panel, Staged, loaded};
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
@@ -36,11 +37,15 @@ pub fn draw(
     rules: Res<ChaseRules>,
     notice: Res<Notice>,
     real: Res<Time<Real>>,
+    (staged, renderer): (Option<Res<Staged>>, Option<Res<SharedRenderer>>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
     lay_in(context, &painter);
+    if !loaded(staged, renderer) {
+        text(&painter, rect.center() + vec2(0.2 * rect.width(), 0.0), Align2::CENTER_CENTER, "loading the scene…", 18.0, TEXT);
+    }
     let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
@@ -100,7 +105,7 @@ fn lay_in(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
     }
-    let letters: String = (' '..='~').chain("—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
+    let letters: String = (' '..='~').chain("\u{a0}“”—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
     for size in SIZES {
         // Kept by the fonts as long as it is asked for.
         let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
@@ -182,7 +187,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
         pos2(left, bottom),
         Align2::LEFT_BOTTOM,
         &[
-            ("SPEED against what hovers here", 11.0, FAINT),
+            ("SPEED  (0: hovering)", 11.0, FAINT),
             (&speed, 30.0, TEXT),
             ("LOAD", 11.0, FAINT),
             (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),

@@ -43,6 +43,15 @@ impl Scale {
         format!("{days} d {hours:02}:{minutes:02}:{:02}", whole % 60)
     }
 
+    /// A time of `t` r_s/c in words and round numbers: `456 days`, `55 hours`.
+    pub fn span(&self, t: f64) -> String {
+        let seconds = t * self.metres / LIGHT_SPEED;
+        let sizes = [(86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
+        // Two digits at least, of days and hours.
+        let fits = sizes.iter().find(|(size, _)| seconds >= 5.0 * size);
+        fits.map_or_else(|| format!("{seconds:.3} s"), |(size, name)| format!("{:.0} {name}", seconds / size))
+    }
+
     /// A proper acceleration (c²/r_s) in g.
     pub fn gees(&self, acceleration: f64) -> f64 {
         acceleration * LIGHT_SPEED * LIGHT_SPEED / self.metres / STANDARD_GRAVITY
@@ -197,6 +206,7 @@ mod tests {
         assert_eq!(Scale::of(1.0).kilometres(2.0), "6 km");
         // r_s/c = 98,509.8 s = 1 d 03:21:49.
         assert_eq!(scale.clock(1.0), "1 d 03:21:49");
+        assert_eq!([1.0, 2.0, 400.0].map(|t| scale.span(t)), ["27 hours", "55 hours", "456 days"]);
         // c²/r_s = 3,043.3 m/s².
         assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
     }

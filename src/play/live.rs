@@ -74,12 +74,15 @@ fn reload(
     *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
 }
 
-/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys change (the pace)
+/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace, reduced motion)
 /// stays as it is in `playing` unless the file changed just that.
 fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
     let mut config = now.clone();
     if now.clock.pace == before.clock.pace {
         config.clock.pace = playing.clock.pace;
+    }
+    if now.video.reduced_motion == before.video.reduced_motion {
+        config.video.reduced_motion = playing.video.reduced_motion;
     }
     config
 }
@@ -141,10 +144,11 @@ mod tests {
         let before = GameConfig::default();
         let mut playing = before.clone();
         playing.clock.pace = 3.0;
+        playing.video.reduced_motion = true;
         let mut now = before.clone();
         now.disk.arcs = 900;
         let kept = taken_up(&playing, &before, &now);
-        assert_eq!((kept.disk.arcs, kept.clock.pace), (900, 3.0));
+        assert_eq!((kept.disk.arcs, kept.clock.pace, kept.video.reduced_motion), (900, 3.0, true));
 
         now.clock.pace = 0.5;
         assert_eq!(taken_up(&kept, &before, &now).clock.pace, 0.5);

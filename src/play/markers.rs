@@ -7,7 +7,7 @@ use crate::render::frame::Camera;
 
 use super::camera::BEHIND;
 use super::layout::settle;
-use super::plate::{ALARM, FAINT, OWN, SEEN, TEXT, TRUE, rimmed, text};
+use super::plate::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
 use super::window::Panel;
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
@@ -46,6 +46,11 @@ pub fn own_ship(rect: Rect, field_of_view: f64) -> Rect {
     Rect::from_center_size(rect.center() + vec2(0.0, scale * BEHIND.y as f32), 2.0 * scale * HALF)
 }
 
+/// Nothing but markers lies nearer to the screen's edge than this, in points.
+const FREE: f32 = 6.0;
+/// Side of the box of an arrow, in points.
+const ARROW: f32 = 34.0;
+
 /// What a marker is called; where its name would best be, which may be taken.
 struct Name {
     words: String,
@@ -67,7 +72,7 @@ struct Board<'a> {
 /// arrows, then names. All in points.
 pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> Vec<Rect> {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
-    let find = |direction: DVec3| place(direction, panel.field_of_view, size, 60.0);
+    let find = |direction: DVec3| place(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
     let before = taken.len();
     let mut board = Board { painter, rect, taken, names: Vec::new() };
@@ -103,13 +108,13 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
             rimmed(painter, Stroke::new(1.5, OWN), |stroke| Shape::line_segment([at + from, at + to], stroke));
         }
         board.takes(at, 12.0);
-        board.name("course".into(), 11.5, OWN.gamma_multiply(0.85), at + vec2(14.0, 12.0), Align2::LEFT_TOP);
+        board.name("course".into(), 11.5, OWN, at + vec2(14.0, 12.0), Align2::LEFT_TOP);
     }
     if let Some((Place::On(at), _)) = second {
         let at = point(at);
-        diamond(painter, at, 7.0, Stroke::new(1.2, SEEN.gamma_multiply(0.7)));
+        diamond(painter, at, 7.0, Stroke::new(1.2, SEEN));
         board.takes(at, 7.0);
-        board.name("2nd image".into(), 11.5, SEEN.gamma_multiply(0.85), at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
+        board.name("2nd image".into(), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
     }
     if let Some((Place::Edge(at, towards), _)) = first {
         board.arrow(at, towards, "target", SEEN);
@@ -134,23 +139,25 @@ impl Board<'_> {
 
     /// What names and arrows may cover.
     fn free(&self) -> Rect {
-        self.rect.shrink(6.0)
+        self.rect.shrink(FREE)
     }
 
-    /// An arrow at the edge of the screen, named. It keeps to an ellipse, so that it is seldom where the dials in the corners are.
+    /// An arrow at the edge of the screen, named. Where the dials are it goes along the edge, to the nearest place beside them.
     fn arrow(&mut self, at: [f64; 2], towards: [f64; 2], name: &str, colour: Color32) {
         let towards = vec2(towards[0] as f32, towards[1] as f32);
-        let out = self.rect.min + vec2(at[0] as f32, at[1] as f32) - self.rect.center();
-        let half = vec2(0.44 * self.rect.width(), 0.33 * self.rect.height());
-        let at = self.rect.center() + out / vec2(out.x / half.x, out.y / half.y).length().max(1.0);
-        let place = settle(Rect::from_center_size(at, Size::splat(34.0)), self.free(), &self.taken);
+        let at = self.rect.min + vec2(at[0] as f32, at[1] as f32);
+        // What lies inside of the arrows' row is no place for them.
+        let inside = self.free().shrink(ARROW + 1.0);
+        self.taken.push(inside);
+        let place = settle(Rect::from_center_size(at, Size::splat(ARROW)), self.free(), &self.taken);
+        self.taken.pop();
         self.taken.push(place);
         let at = place.center();
         let side = vec2(-towards.y, towards.x);
         let corners = vec![at + towards * 16.0, at - towards * 8.0 + side * 11.0, at - towards * 2.0, at - towards * 8.0 - side * 11.0];
         rimmed(self.painter, Stroke::new(2.0, colour), |stroke| Shape::closed_line(corners.clone(), stroke));
-        // The name is on the arrow's inner side, clear of its box along the axis in which it lies.
-        let beside = at - towards * 28.0;
+        // The name is on the arrow's inner side.
+        let beside = at - towards * (0.5 * ARROW + 14.0);
         self.name(name.into(), 11.5, colour, beside, Align2::CENTER_CENTER);
     }
 
@@ -158,9 +165,9 @@ impl Board<'_> {
     fn write(&mut self) {
         for name in std::mem::take(&mut self.names) {
             let galley = self.painter.layout_no_wrap(name.words.clone(), FontId::proportional(name.size), name.colour);
-            let place = settle(name.anchor.anchor_size(name.at, galley.size()), self.free(), &self.taken);
-            text(self.painter, place.min, Align2::LEFT_TOP, &name.words, name.size, name.colour);
-            self.taken.push(place);
+            let wanted = name.anchor.anchor_size(name.at, galley.size() + 2.0 * NAME_PAD);
+            let place = settle(wanted, self.free(), &self.taken);
+            self.taken.push(text(self.painter, place.min, Align2::LEFT_TOP, &name.words, name.size, name.colour));
         }
     }
 }
@@ -250,19 +257,32 @@ mod tests {
         apart(&boxes);
     }
 
-    /// The target is behind and below: its arrow would be where one's own ship is.
+    /// All round: at the edge, whole, and on no dial, which lie at the edge themselves.
     #[test]
-    fn arrows_keep_off_the_own_ship() {
+    fn arrows_are_at_the_edge_and_off_the_dials() {
         for size in [[900.0, 620.0], [1280.0, 720.0]] {
-            let panel = Panel { images: image(DVec3::new(0.02, -1.0, 0.5)), field_of_view: 1.05, ..Panel::default() };
-            on_canvas(size, |painter, rect| {
-                let ship = own_ship(rect, panel.field_of_view);
-                assert!(rect.contains_rect(ship), "{ship}");
-                let free = paint(painter, rect, &panel, Vec::new());
-                assert!(free.iter().any(|place| overlap(place, &ship)), "{free:?}: else this proves nothing");
-                let boxes = paint(painter, rect, &panel, vec![ship]);
-                assert!(boxes.iter().all(|place| !overlap(place, &ship)), "{boxes:?} {ship}");
-            });
+            for k in 0..64 {
+                let (y, x) = (f64::from(k) * std::f64::consts::TAU / 64.0).sin_cos();
+                let behind = DVec3::new(x, y, 0.4);
+                let panel =
+                    Panel { hole: Some(behind.with_z(0.5)), images: image(behind), field_of_view: 1.05, aside: true, ..Panel::default() };
+                on_canvas(size, |painter, rect| {
+                    let [wide, high] = size;
+                    // Four corners, the countdown, one's own ship.
+                    let corners =
+                        [(18.0, 18.0), (wide - 198.0, 18.0), (18.0, high - 183.0), (wide - 158.0, high - 126.0), (0.5 * wide - 73.0, 18.0)];
+                    let mut dials: Vec<_> = corners.map(|(x, y)| Rect::from_min_size(pos2(x, y), vec2(140.0, 96.0))).to_vec();
+                    dials.push(own_ship(rect, panel.field_of_view));
+                    let boxes = paint(painter, rect, &panel, dials.clone());
+                    assert_eq!(boxes.len(), 4, "two arrows, two names");
+                    for arrow in &boxes[..2] {
+                        let inner = rect.shrink(FREE + ARROW);
+                        assert!(rect.contains_rect(*arrow) && !overlap(arrow, &inner), "{k}: {arrow}");
+                    }
+                    assert!(boxes[2..].iter().all(|name| rect.contains_rect(*name)), "{k}: {boxes:?}");
+                    apart(&[boxes, dials].concat());
+                });
+            }
         }
     }
 

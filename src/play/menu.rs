@@ -8,6 +8,7 @@ use crate::sim::{Chase, Outcome};
 
 use super::game::{Flown, Seat};
 use super::instruments::Scale;
+use super::plate::{OWN, SEEN, SHADE, TRUE};
 use super::screens::{Screen, Wish};
 use super::session::Session;
 use super::window::Panel;
@@ -20,7 +21,7 @@ const WARM: Color32 = Color32::from_rgb(255, 190, 110);
 pub fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
-    session: Res<Session>,
+    mut session: ResMut<Session>,
     chase: Option<Res<Chase>>,
     panel: Res<Panel>,
     seat: Res<Seat>,
@@ -30,13 +31,14 @@ pub fn draw(
     let mut ask = |wish| _ = wishes.write(wish);
     match screen.get() {
         Screen::Playing => (),
-        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &session, &mut ask)),
+        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &mut session, &mut ask)),
         // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
             buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
-            ui.add_space(10.0);
+            calm(ui, &mut session);
+            ui.add_space(6.0);
             controls(ui, &session);
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
@@ -59,7 +61,7 @@ const NARROW: f32 = 330.0;
 /// A dark card at the left of the screen, with room for `width` points.
 fn card(context: &egui::Context, name: &'static str, width: f32, content: impl FnOnce(&mut Ui)) {
     egui::Area::new(egui::Id::new(name)).anchor(Align2::LEFT_CENTER, [ASIDE, 0.0]).show(context, |ui| {
-        egui::Frame::new().fill(Color32::from_rgba_premultiplied(5, 9, 16, 225)).corner_radius(12.0).inner_margin(INSIDE).show(ui, |ui| {
+        egui::Frame::new().fill(SHADE).corner_radius(12.0).inner_margin(INSIDE).show(ui, |ui| {
             ui.vertical_centered(|ui| {
                 ui.set_width(width);
                 content(ui);
@@ -78,30 +80,60 @@ fn buttons(ui: &mut Ui, ask: &mut impl FnMut(Wish), choices: &[(&str, Wish)]) {
     }
 }
 
-fn title(ui: &mut Ui, session: &Session, ask: &mut impl FnMut(Wish)) {
-    ui.label(RichText::new("LENSRUNNER").size(46.0).color(PALE).strong());
+fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(Wish)) {
+    ui.label(RichText::new("LENSRUNNER").size(42.0).color(PALE).strong());
     ui.label(RichText::new("a chase in the spacetime of a black hole").size(15.0).color(FAINT));
-    ui.add_space(14.0);
-    ui.label(
-        RichText::new("The picture turns, bends and brightens quickly. Those who are sensitive to motion or flashing light may set reduced_motion in game.toml, or let the autopilot fly.")
-            .size(12.5)
-            .color(WARM),
-    );
-    ui.add_space(12.0);
-    ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
-    ui.add_space(12.0);
-    buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
     ui.add_space(8.0);
+    ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
+    calm(ui, session);
+    ui.add_space(6.0);
+    ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
+    ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
+    ui.add_space(8.0);
+    buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
+    ui.add_space(4.0);
     controls(ui, session);
+}
+
+/// The switch of `video.reduced_motion`, until the game ends or `game.toml` says otherwise.
+fn calm(ui: &mut Ui, session: &mut Session) {
+    let mut on = session.config.video.reduced_motion;
+    let words = RichText::new("Reduced motion: the camera does not sway or glide").size(12.5).color(PALE);
+    if ui.checkbox(&mut on, words).changed() {
+        session.config.video.reduced_motion = on;
+    }
+}
+
+/// A number and its unit, which stay on one line.
+fn together(words: &str) -> String {
+    words.replace(' ', "\u{a0}")
 }
 
 /// What the chase is about, in a sentence.
 pub fn goal(session: &Session) -> String {
     let rules = session.scene.rules(&session.config);
-    format!(
-        "Catch the quarry: stay within {} r_s of it for {} r_s/c, before T = {} r_s/c, and do not fall into the hole.",
-        rules.capture_radius, rules.hold_time, rules.time_limit
-    )
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let within = together(&format!("{} r_s", rules.capture_radius));
+    let hold = together(&format!("{} r_s/c ({})", rules.hold_time, scale.span(rules.hold_time)));
+    let before = together(&format!("T = {} r_s/c ({})", rules.time_limit, scale.span(rules.time_limit)));
+    format!("Catch the quarry: stay within {within} of it for {hold}, before {before}, and do not fall into the hole.")
+}
+
+/// What r_s is, in a sentence.
+pub fn measure(session: &Session) -> String {
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let [radius, light] = [scale.kilometres(1.0), scale.span(1.0)].map(|words| together(&words));
+    format!("r_s is the hole's radius, {radius}; light goes as far in r_s/c, {light}.")
+}
+
+/// What to begin with, for the first flight.
+pub fn hint(session: &Session) -> String {
+    let keys = &session.config.controls;
+    let [thrust, look, pilot] = [&keys.thrust_forward, &keys.look_at_target, &keys.toggle_autopilot].map(|name| key(name));
+    let [thrust, look, pilot] =
+        [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
+            .map(|words| together(&words));
+    format!("{thrust}  ·  {look}  ·  {pilot}  ·  fly to the dashed ring “now”")
 }
 
 /// The keys, as they are bound.
@@ -123,10 +155,25 @@ fn controls(ui: &mut Ui, session: &Session) {
         ),
         ("HUD, dev overlay, picture", format!("{}  {}  {}", key(&keys.toggle_hud), key(&keys.toggle_overlay), key(&keys.screenshot))),
     ];
-    egui::Grid::new("controls").num_columns(2).spacing([28.0, 4.0]).show(ui, |ui| {
+    let rows = rows.map(|(what, how)| (RichText::new(what).color(FAINT), RichText::new(how).color(PALE)));
+    table(ui, "controls", rows);
+    ui.add_space(6.0);
+    table(ui, "markers", MARKERS.map(|(name, colour, meaning)| (RichText::new(name).color(colour), RichText::new(meaning).color(FAINT))));
+}
+
+/// The names of the HUD's markers, their colours, and what they mean.
+const MARKERS: [(&str, Color32, &str); 4] = [
+    ("now", TRUE, "dashed ring: where the quarry is at this moment. Fly to this one."),
+    ("seen, 7.8 r_s/c ago", SEEN, "its picture: the light left so long ago, from where it was."),
+    ("2nd image", SEEN, "the same ship by light that went round the hole's far side."),
+    ("course", OWN, "where you fly to; the nose points to the middle."),
+];
+
+fn table<const N: usize>(ui: &mut Ui, name: &str, rows: [(RichText, RichText); N]) {
+    egui::Grid::new(name).num_columns(2).min_row_height(15.0).spacing([16.0, 2.0]).show(ui, |ui| {
         for (what, how) in rows {
-            ui.label(RichText::new(what).size(13.0).color(FAINT));
-            ui.label(RichText::new(how).size(13.0).color(PALE));
+            ui.label(what.size(12.5));
+            ui.label(how.size(12.5));
             ui.end_row();
         }
     });
@@ -211,5 +258,39 @@ mod tests {
     #[test]
     fn keys_as_written_on_the_keyboard() {
         assert_eq!(["KeyW", "Digit4", "ControlLeft", "F3", "Space"].map(key), ["W", "4", "Ctrl", "F3", "Space"]);
+    }
+
+    /// A line never ends between a number and its unit, and what a unit is long is said.
+    #[test]
+    fn the_goal_keeps_numbers_and_units_together() {
+        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let said = goal(&session);
+        for words in ["0.5\u{a0}r_s", "T\u{a0}=\u{a0}400\u{a0}r_s/c\u{a0}(456\u{a0}days)"] {
+            assert!(said.contains(words), "{said}");
+        }
+        assert!(measure(&session).contains("29.5\u{a0}bn\u{a0}km"), "{}", measure(&session));
+    }
+
+    #[test]
+    fn the_hint_names_the_keys_as_bound() {
+        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        assert!(hint(&session).contains("hold\u{a0}V"), "{}", hint(&session));
+        session.config.controls.look_at_target = "KeyL".into();
+        assert!(hint(&session).contains("hold\u{a0}L"), "{}", hint(&session));
+    }
+
+    /// Title and pause are no higher than the lowest window the interface is laid out for.
+    #[test]
+    fn the_title_fits() {
+        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let mut height = f32::INFINITY;
+        crate::play::plate::tests::on_canvas(INTERFACE, |painter, _| {
+            // The first picture of an area only measures it.
+            card(painter.ctx(), "title", WIDE, |ui| {
+                title(ui, &mut session, &mut |_| ());
+                height = ui.min_rect().height() + 2.0 * INSIDE;
+            });
+        });
+        assert!(height < INTERFACE[1], "{height}");
     }
 }

@@ -1,4 +1,4 @@
-//! What the HUD is painted with: words with a dark rim, plates, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
+//! What the HUD is painted with: words on a dark ground, plates, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
 
 use std::sync::Arc;
 
@@ -17,7 +17,11 @@ pub const OWN: Color32 = Color32::from_rgb(150, 240, 150);
 /// Danger.
 pub const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
 /// Behind text, so that it stays readable before stars and before the bright disk.
-const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 242);
+///
+/// What shines through is weighed as light, not as the eye sees it: of the white of the disk 1 % is a tenth of the way from black to white.
+pub const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 252);
+/// Behind the names of markers: a little more is seen through them, for they lie on what they name.
+const NAME_SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 250);
 /// Space between a plate's edge and its words, in points.
 const PAD: Size = vec2(10.0, 6.0);
 /// How thick bars are, in points.
@@ -25,17 +29,21 @@ const BAR: f32 = 5.0;
 /// How much higher a plate is by its bar, in points.
 pub const BAR_ROOM: f32 = BAR + PAD.y;
 
-/// Words with a dark rim.
+/// Space between a name and the edge of its ground, in points.
+pub const NAME_PAD: Size = vec2(4.0, 1.5);
+
+/// Words on a dark ground that is [`NAME_PAD`] larger; returns the ground. `at` is where its `anchor` is.
 pub fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
-    for corner in [vec2(1.0, 1.0), vec2(-1.0, 1.0), vec2(1.0, -1.0), vec2(-1.0, -1.0)] {
-        painter.text(at + corner, anchor, words, FontId::proportional(size), Color32::from_black_alpha(150));
-    }
-    painter.text(at, anchor, words, FontId::proportional(size), colour)
+    let galley = painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour);
+    let ground = anchor.anchor_size(at, galley.size() + 2.0 * NAME_PAD);
+    painter.rect_filled(ground, 4.0, NAME_SHADE);
+    painter.galley(ground.min + NAME_PAD, galley, colour);
+    ground
 }
 
 /// A shape of strokes on a dark copy of it that is a little wider.
 pub fn rimmed(painter: &Painter, stroke: Stroke, shape: impl Fn(Stroke) -> Shape) {
-    painter.add(shape(Stroke::new(stroke.width + 2.5, Color32::from_black_alpha(170))));
+    painter.add(shape(Stroke::new(stroke.width + 3.5, Color32::from_black_alpha(240))));
     painter.add(shape(stroke));
 }
 
@@ -109,6 +117,23 @@ pub(super) mod tests {
         let context = Context::default();
         // What is drawn with the result is nobody's.
         let _ = context.run_ui(input, |ui| draw(&ui.ctx().layer_painter(LayerId::background()), rect));
+    }
+
+    /// Before the white of the disk every colour has the contrast that WCAG asks of small text, 4.5. Grounds are laid over the picture as light.
+    #[test]
+    fn words_are_read_before_the_brightest_disk() {
+        let linear = |encoded: u8| {
+            let value = f64::from(encoded) / 255.0;
+            if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+        };
+        let luminance = |colour: Color32| 0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b());
+        for ground in [SHADE, NAME_SHADE] {
+            let behind = luminance(ground) + 1.0 - f64::from(ground.a()) / 255.0;
+            for colour in [TEXT, FAINT, SEEN, TRUE, OWN, ALARM] {
+                let contrast = (luminance(colour) + 0.05) / (behind + 0.05);
+                assert!(contrast > 4.5, "{colour:?} on {ground:?}: {contrast}");
+            }
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use super::demonstration::write_png;
 use super::live::Notice;
+use super::window::loaded;
 
 /// Writes frames, and closes the window after so many.
 pub struct RecordPlugin {
@@ -41,7 +42,7 @@ impl Plugin for RecordPlugin {
         app.insert_resource(Recording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
             .insert_resource(News { sender, receiver: Mutex::new(receiver) })
             .add_systems(Update, tell)
-            .add_systems(Last, record);
+            .add_systems(Last, record.run_if(loaded));
     }
 }
 

@@ -6,6 +6,7 @@ use bevy::prelude::*;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass};
 
+use crate::render::frame::Settings;
 use crate::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRenderer};
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
@@ -16,7 +17,7 @@ use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
 
 use super::camera::{View, on_ship, state_of};
-use super::director::wide;
+use super::director::{on_caught, wide};
 use super::game::{GamePlugin, GameSet, Seat};
 use super::input::MouseTurn;
 use super::instruments::Instruments;
@@ -93,13 +94,26 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     .insert_resource(Seat { always_autopilot: options.autopilot, ..default() })
     .insert_resource(session)
     .init_resource::<Panel>()
-    .add_systems(Startup, (stage_scene, spawn_camera))
+    .add_systems(Startup, spawn_camera)
+    .add_systems(Update, stage_scene.run_if(not(loaded)).before(make_frame))
     .add_systems(Update, (fit_interface, welcome, grab_cursor, make_frame).chain().after(GameSet::Answer))
     .add_systems(EguiPrimaryContextPass, (hud::draw, menu::draw, overlay::draw).chain());
     app.run()
 }
 
-fn stage_scene(world: &mut World) {
+/// Whether there is nothing more to load.
+pub(super) fn loaded(staged: Option<Res<Staged>>, renderer: Option<Res<SharedRenderer>>) -> bool {
+    staged.is_some() || renderer.is_none()
+}
+
+/// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.
+const BEFORE: u32 = 4;
+
+fn stage_scene(world: &mut World, mut frames: Local<u32>) {
+    *frames += 1;
+    if *frames <= BEFORE {
+        return;
+    }
     let Some(renderer) = world.get_resource::<SharedRenderer>().cloned() else { return };
     let session = world.resource::<Session>();
     let stage = Stage::new(&mut renderer.lock(), &session.scene, &session.config).watched();
@@ -122,12 +136,31 @@ fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: Egu
     }
 }
 
-/// Says the goal when a chase begins.
-fn welcome(session: Res<Session>, screen: Res<State<Screen>>, clock: Res<Clock>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
-    /// How long it is shown after the beginning, in r_s/c of T.
+/// Says the goal when a chase begins, and on the first flight what to begin with: until the player has, or has had time to read it.
+fn welcome(
+    session: Res<Session>,
+    screen: Res<State<Screen>>,
+    clock: Res<Clock>,
+    real: Res<Time<Real>>,
+    mut seat: ResMut<Seat>,
+    mut notice: ResMut<Notice>,
+) {
+    /// How long the goal is shown after the beginning, in r_s/c of T.
     const SHOWN: f64 = 12.0;
-    if *screen.get() == Screen::Playing && clock.time < SHOWN && notice.until < real.elapsed_secs_f64() {
-        *notice = Notice { text: menu::goal(&session), until: real.elapsed_secs_f64() + 0.5 };
+    /// How long the hint is shown, in seconds of wall time in play.
+    const HINTED: f64 = 30.0;
+    if *screen.get() != Screen::Playing {
+        return;
+    }
+    if !seat.begun {
+        seat.hinted += real.delta_secs_f64();
+        seat.begun = seat.hinted > HINTED;
+    }
+    let goal = (clock.time < SHOWN || !seat.begun).then(|| menu::goal(&session));
+    let hint = (!seat.begun).then(|| menu::hint(&session));
+    let words: Vec<String> = goal.into_iter().chain(hint).collect();
+    if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
+        *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
     }
 }
 
@@ -157,10 +190,32 @@ fn length(session: &Session, ship: usize) -> f64 {
     if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size }
 }
 
-/// Whether the ship is seen from far, by a camera that slowly goes round: on the title, and once it has crossed the horizon. From there on nothing that it sees
-/// changes, for the chase stands still; who stays outside looks on.
-fn seen_from_afar(screen: Screen, outcome: Option<Outcome>) -> bool {
-    screen == Screen::Title || (screen == Screen::Result && outcome == Some(Outcome::HunterLost))
+/// What the screen shows, whatever the player looked at before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sight {
+    /// What the player looks at.
+    Own,
+    /// All of it from far, by a camera that slowly goes round: on the title, and where the chase is not won. It stands still then, and there may be nothing
+    /// ahead of a ship; who has crossed the horizon sees nothing change any more.
+    Afar,
+    /// The quarry, caught.
+    Caught,
+}
+
+impl Sight {
+    fn of(screen: Screen, outcome: Option<Outcome>) -> Sight {
+        match (screen, outcome) {
+            (Screen::Title, _) => Sight::Afar,
+            (Screen::Result, Some(Outcome::Caught)) => Sight::Caught,
+            (Screen::Result, Some(_)) => Sight::Afar,
+            _ => Sight::Own,
+        }
+    }
+}
+
+/// Whether the picture at T = `time` has nothing to do with that before, which `last` keeps: what is shown is another thing, or the chase began anew.
+fn is_cut(last: &mut Option<(Sight, f64)>, sight: Sight, time: f64) -> bool {
+    last.replace((sight, time)).is_none_or(|(before, earlier)| before != sight || time < earlier)
 }
 
 /// How fast the title's camera goes round, in rad a second.
@@ -182,6 +237,7 @@ fn make_frame(
     mut seat: ResMut<Seat>,
     mut frame: ResMut<FrameToDraw>,
     mut panel: ResMut<Panel>,
+    mut cut: Local<Option<(Sight, f64)>>,
 ) {
     // A window without area (minimised, say) shows nothing and waits.
     let Some(size) = windows.iter().map(|window| window.physical_size().to_array()).find(|size| size[0] > 0 && size[1] > 0) else { return };
@@ -198,19 +254,24 @@ fn make_frame(
     let rigid = cockpit || config.video.reduced_motion;
     let attitude = seat.follower.follow(state.attitude, seconds, rigid);
     let field_of_view = config.video.fov.to_radians();
-    let afar = seen_from_afar(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
-    let target = session.target().and_then(|target| histories.get(target).copied());
+    let sight = Sight::of(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
+    let named = session.target();
+    let target = named.and_then(|target| histories.get(target).copied());
     let size_of_ship = length(&session, me);
-    let sought = target.filter(|_| seat.looking && !afar);
+    let sought = target.filter(|_| seat.looking && sight == Sight::Own);
     let facing = sought.and_then(|target| seat.gaze.facing(&state, seat.view, size_of_ship, attitude, time, target));
     let attitude = seat.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
-    let cockpit = cockpit && !afar;
-    let camera = if afar {
-        // It looks on from far, and slowly goes round.
-        let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
-        wide(state.position, turn, field_of_view)
-    } else {
-        on_ship(&state, seat.view, attitude, size_of_ship, field_of_view)
+    let (camera, hidden, lit) = match (sight, named.zip(target)) {
+        (Sight::Own, _) => {
+            (on_ship(&state, seat.view, attitude, size_of_ship, field_of_view), (seat.view == View::Cockpit).then_some(me), Some(me))
+        }
+        (Sight::Caught, Some((caught, history))) => {
+            (on_caught(history, length(&session, caught), state.position, time, field_of_view), None, Some(caught))
+        }
+        _ => {
+            let turn = if config.video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
+            (wide(state.position, turn, field_of_view), None, None)
+        }
     };
 
     // Times of an earlier frame will do, and so will those of one yet earlier while a frame is being recorded.
@@ -218,10 +279,15 @@ fn make_frame(
         staged.0.ration_aurora(renderer.timing().latest());
     }
     let mut settings = settings(config);
-    let first = frame.0.is_none();
-    settings.adaptation = if first { 1.0 } else { (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32 };
-    settings.own_ship = (!afar).then_some(me);
-    frame.0 = Some(staged.0.frame(camera, size, time, &histories, cockpit.then_some(me), &settings));
+    if is_cut(&mut cut, sight, clock.time) {
+        // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship should be.
+        settings.fill = Settings::default().fill;
+    } else {
+        settings.adaptation = (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32;
+    }
+    settings.own_ship = lit;
+    settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
+    frame.0 = Some(staged.0.frame(camera, size, time, &histories, hidden, &settings));
 
     let there = target.map(|history| state_of(&history.at(time)));
     let thrust = engine.limit(&controls.0).thrust.length();
@@ -244,10 +310,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_ship_that_has_fallen_in_is_seen_from_afar() {
-        assert!(seen_from_afar(Screen::Title, None));
-        assert!(seen_from_afar(Screen::Result, Some(Outcome::HunterLost)));
-        assert!(!seen_from_afar(Screen::Result, Some(Outcome::Caught)));
-        assert!(!seen_from_afar(Screen::Playing, Some(Outcome::HunterLost)));
+    fn a_restart_is_a_cut() {
+        let mut last = None;
+        let cuts = [(Sight::Afar, 3.0), (Sight::Own, 0.0), (Sight::Own, 5.0), (Sight::Own, 5.0), (Sight::Own, 0.1), (Sight::Caught, 0.2)];
+        assert_eq!(cuts.map(|(sight, time)| is_cut(&mut last, sight, time)), [true, true, false, false, true, true]);
+    }
+
+    #[test]
+    fn the_result_shows_what_it_tells_of() {
+        assert_eq!(Sight::of(Screen::Title, None), Sight::Afar);
+        assert_eq!(Sight::of(Screen::Result, Some(Outcome::Caught)), Sight::Caught);
+        for lost in [Outcome::HunterLost, Outcome::QuarryLost, Outcome::TimeOut] {
+            assert_eq!(Sight::of(Screen::Result, Some(lost)), Sight::Afar);
+        }
+        assert_eq!(Sight::of(Screen::Playing, Some(Outcome::HunterLost)), Sight::Own);
+        assert_eq!(Sight::of(Screen::Paused, None), Sight::Own);
     }
 }

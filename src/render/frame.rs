@@ -126,6 +126,9 @@ pub struct Settings {
     pub hold_exposure: bool,
     /// The player's own ship, by its number among the scene's: lit for the picture and not metered. None for what is measured.
     pub own_ship: Option<usize>,
+    /// Greatest thrust (c²/r_s) of ships that hunt and of those that flee, where the scene does not say it: nozzles shine by what share of it the ship
+    /// burns. None: as at full thrust.
+    pub engines: Option<[f64; 2]>,
     /// Least and greatest light that middle grey on the own ship is brought to, of 1 for white.
     pub fill: [f32; 2],
     /// The circle of the picture that the meter leaves out: its middle from the picture's, right and down, and its radius (0: none), in widths of the picture.
@@ -165,6 +168,7 @@ impl Default for Settings {
             adaptation: 1.0,
             hold_exposure: false,
             own_ship: None,
+            engines: None,
             fill: [0.0, f32::MAX],
             unmetered: [0.0; 3],
             smooth: true,

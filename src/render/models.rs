@@ -221,7 +221,12 @@ impl Models {
             self.materials.push(Material {
                 base: material.base_colour,
                 emissive: [r, g, b, material.roughness],
-                surface: [material.metallic, layer.map_or(-1.0, |layer| layer as f32), material.temperature, 0.0],
+                surface: [
+                    material.metallic,
+                    layer.map_or(-1.0, |layer| layer as f32),
+                    material.temperature,
+                    f32::from(u8::from(material.drive)),
+                ],
             });
         }
         self.vertex_buffer.write(gpu, &self.vertices);

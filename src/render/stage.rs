@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
 use crate::scene::config::AuroraConfig;
+use crate::scene::ship::Ai;
 use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting, viewpoint};
 use crate::sim::History;
 use crate::spacetime::frames;
@@ -33,6 +34,8 @@ pub struct Stage {
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
     has_ships: bool,
+    /// Of each ship of the scene: whether it flees, and its greatest thrust (c²/r_s) where the scene says it.
+    engines: Vec<(bool, Option<f64>)>,
     planet: Option<Planet>,
     /// Inner and outer radius of the disk.
     disk: Option<[f64; 2]>,
@@ -92,6 +95,7 @@ impl Stage {
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             ambient: config.render.ambient as f32,
             has_ships: !scene.ships.is_empty(),
+            engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             disk,
             show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, disk, &config.aurora)))),
@@ -125,6 +129,13 @@ impl Stage {
     pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Camera {
         let view = self.camera.viewpoint(time, ships);
         Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view }
+    }
+
+    /// The greatest thrust of a ship, in c²/r_s; None where nozzles shine as at full thrust anyway.
+    fn full_thrust(&self, ship: usize, settings: &Settings) -> Option<f64> {
+        let [hunting, fleeing] = settings.engines?;
+        let &(flees, said) = self.engines.get(ship)?;
+        Some(said.unwrap_or(if flees { fleeing } else { hunting }))
     }
 
     /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
@@ -179,6 +190,14 @@ impl Stage {
             };
             let images = placed.len();
             placed.extend(place(&view, time, &object, settings.orders));
+            if let Some(ship) = number_of_ship
+                && let Some(full) = self.full_thrust(ship, settings)
+            {
+                placed[images..].iter_mut().for_each(|image| {
+                    let emitted = time - f64::from(image.placement.offset[3]);
+                    image.placement.position[3] = (1.0 - glow(histories[ship], emitted, full)) as f32;
+                });
+            }
             if matches!(number_of_ship, Some(ship) if settings.own_ship == Some(ship)) {
                 placed[images..].iter_mut().for_each(|image| image.placement.triangles[3] |= OWN);
                 unmetered = placed[images..].first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
@@ -197,6 +216,18 @@ impl Stage {
         settings.sky_brightness *= self.sky.2;
         FrameInput { camera, time, placed, aurora, settings }
     }
+}
+
+/// What nozzles shine with where nothing is burnt, as a share of full thrust's.
+const IDLE_GLOW: f64 = 1e-3;
+/// Nozzles grow bright and dark over so much T, in r_s/c: a quarter of a second at the usual pace.
+const GLOW_SPAN: f64 = 0.375;
+
+/// The light of a ship's nozzles at T = `time`, as a share of that at the thrust `full` (c²/r_s).
+fn glow(history: &History, time: f64, full: f64) -> f64 {
+    let share = (history.thrust(time, GLOW_SPAN) / full.max(1e-12)).clamp(0.0, 1.0);
+    // Steeper than the thrust: before a dark sky, exposed for long, what the assist burns would look like full thrust.
+    IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share
 }
 
 /// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it: middle and radius in widths of the picture. That is exact enough for what is

@@ -134,6 +134,9 @@ fn smooth_normals(positions: &[Vec3], triangles: &[[u32; 3]]) -> Vec<Vec3> {
     sums.into_iter().map(|sum| sum.normalize_or(Vec3::Y)).collect()
 }
 
+/// The material of nozzles, by name: what shines as the engines burn.
+const DRIVE: &str = "drive";
+
 fn read_material(material: &gltf::Material<'_>, images: &[Option<Arc<Image>>]) -> Material {
     let surface = material.pbr_metallic_roughness();
     let texture = surface.base_color_texture().or_else(|| material.emissive_texture());
@@ -144,6 +147,7 @@ fn read_material(material: &gltf::Material<'_>, images: &[Option<Arc<Image>>]) -
         temperature: 0.0,
         metallic: surface.metallic_factor().clamp(0.0, 1.0),
         roughness: surface.roughness_factor().clamp(0.0, 1.0),
+        drive: material.name() == Some(DRIVE),
         texture: texture.and_then(|texture| images.get(texture.texture().source().index()).cloned().flatten()),
     }
 }

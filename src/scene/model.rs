@@ -46,13 +46,23 @@ pub struct Material {
     pub metallic: f32,
     /// Perceptual roughness in [0, 1].
     pub roughness: f32,
+    /// It shines as the ship's engines burn: `emissive` is its light at full thrust.
+    pub drive: bool,
     /// The image multiplied into `base_colour` (and into `emissive`). Materials that share an image share the `Arc`.
     pub texture: Option<Arc<Image>>,
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { base_colour: [0.8, 0.8, 0.8, 1.0], emissive: [0.0; 3], temperature: 0.0, metallic: 0.0, roughness: 0.6, texture: None }
+        Self {
+            base_colour: [0.8, 0.8, 0.8, 1.0],
+            emissive: [0.0; 3],
+            temperature: 0.0,
+            metallic: 0.0,
+            roughness: 0.6,
+            drive: false,
+            texture: None,
+        }
     }
 }
 

@@ -178,6 +178,7 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
         roughness: surface.1,
         emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
         temperature: or(&entry.temperature, "temperature", 0.0, 1e9, "K", 0.0)? as f32,
+        drive: false,
         texture: entry.texture.map(|name| match name {
             TextureName::Checker => texture::checker(),
             TextureName::Galaxy => texture::galaxy(),

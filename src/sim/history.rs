@@ -3,7 +3,7 @@
 use bevy::prelude::Component;
 use glam::{DQuat, DVec3};
 
-use crate::spacetime::matter::{STEP_SHARE, ShipState, has_ended, rate, runge_kutta, step, velocity};
+use crate::spacetime::matter::{STEP_SHARE, ShipState, gamma, has_ended, rate, runge_kutta, step, velocity};
 use crate::spacetime::metric::river_speed;
 
 use super::flight::Command;
@@ -101,6 +101,13 @@ impl Bounds {
     }
 }
 
+/// The proper acceleration (c²/r_s) by the engines from a node on. Of dp/dT, γ times what they add to free fall is the thrust a, boosted: a + p (p·a)/(1 + γ).
+fn burn(node: &Node) -> f64 {
+    let (p, g) = (node.state.momentum, gamma(node.state.momentum));
+    let boosted = (node.force_after - rate(&node.state, DVec3::ZERO, DVec3::ZERO).momentum) * g;
+    (boosted - p * (p.dot(boosted) / (g * (1.0 + g)))).length()
+}
+
 /// The worldline of one ship. Every node is kept (184 bytes a step), so what crossed the horizon is seen for ever, unless
 /// [`History::forget_beyond`] says that nobody will look that far.
 #[derive(Component, Clone, Debug)]
@@ -194,6 +201,17 @@ impl History {
             sample.velocity = DVec3::ZERO;
         }
         sample
+    }
+
+    /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the momentum of free fall.
+    /// 0 where the ship coasts, as it does before the first node and after the last.
+    pub fn thrust(&self, time: f64, span: f64) -> f64 {
+        let from = time - span;
+        let first = self.nodes.partition_point(|node| node.time <= from).saturating_sub(1);
+        let after = self.nodes.partition_point(|node| node.time < time);
+        let legs = self.nodes[first..(after + 1).clamp(first, self.nodes.len())].windows(2);
+        let burnt: f64 = legs.map(|leg| burn(&leg[0]) * (leg[1].time.min(time) - leg[0].time.max(from)).max(0.0)).sum();
+        burnt / span
     }
 
     /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain axes, in

@@ -1,0 +1,56 @@
+//! Nozzles shine by what the engines burnt when the light left.
+
+use glam::{DQuat, DVec3};
+use lensrunner::render::frame::Settings;
+use lensrunner::render::stage::{Stage, third_person};
+use lensrunner::scene::{self, GameConfig};
+use lensrunner::sim::{Command, History};
+use lensrunner::spacetime::matter::step;
+
+use crate::render_support::renderer;
+
+/// The player's ship from behind, after T = 2 under a share of full thrust until `until`: its light in all, and whether nozzles follow the engines.
+fn light(share: f64, until: f64, follows: bool) -> f64 {
+    let (config, scene) = (GameConfig::default(), scene::load("chase").unwrap());
+    let size = [160, 90];
+    let mut renderer = renderer(size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let mut state = scene.ships.iter().find(|ship| ship.player).unwrap().state;
+    let mut history = History::new(0.0, &state);
+    for k in 1..=64 {
+        let time = f64::from(k) / 32.0;
+        let thrust = if time <= until { DVec3::NEG_Z * (share * config.ship.thrust) } else { DVec3::ZERO };
+        state = step(&state, 1.0 / 32.0, thrust, DVec3::ZERO);
+        history.push(time, &state, &Command { thrust, rates: DVec3::ZERO });
+    }
+    let engines = follows.then_some([config.ship.thrust, config.enemy.thrust]);
+    // Straight from behind, nozzles fill a good part of the picture.
+    let camera = third_person(&state, DVec3::Z * (2.0 * config.ship.size), DQuat::IDENTITY, 0.6);
+    let settings = Settings { engines, orders: 1, stars: false, milky_way: false, ..Settings::default() };
+    let histories: Vec<&History> = scene.ships.iter().map(|_| &history).collect();
+    let other = scene.ships.iter().position(|ship| !ship.player);
+    let picture = renderer.picture(&stage.frame(camera, size, 2.0, &histories, other, &settings), true).unwrap();
+    // Of the ship alone: what has a layer.
+    let bodies = picture.linear.iter().zip(&picture.layers).filter(|(_, layer)| layer[0] > 0.0);
+    bodies.map(|(light, _)| f64::from(light[2])).sum()
+}
+
+#[test]
+fn nozzles_shine_by_the_thrust() {
+    let always = light(0.0, 2.0, false);
+    let [none, half, full] = [0.0, 0.5, 1.0].map(|share| light(share, 2.0, true));
+    // The hull is lit all the same: what the nozzles add is the difference.
+    assert!((full / always - 1.0).abs() < 0.02, "full thrust {full}, without thrust but told so {always}");
+    assert!(none < 0.4 * full, "coasting {none}, full thrust {full}");
+    let middle = (half - none) / (full - none);
+    assert!((middle - 0.25).abs() < 0.02, "half of the thrust is {middle} of the light");
+}
+
+/// A ship is seen as it was when its light left, about T = 1.5: engines shut down after that still burn, those shut down shortly before are fading.
+#[test]
+fn nozzles_fade() {
+    let [burning, late, fading, out] = [2.0, 1.75, 1.375, 0.9].map(|until| light(1.0, until, true));
+    // The light on the hull changes with its motion.
+    assert!((late / burning - 1.0).abs() < 0.05, "{burning} {late}");
+    assert!(out < 0.8 * fading && fading < 0.8 * burning, "{burning} {fading} {out}");
+}
