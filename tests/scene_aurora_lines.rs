@@ -44,7 +44,8 @@ fn integrated(spectrum: &[(f64, f64)], g: f64) -> [f64; 3] {
     const WIDTH: f64 = 0.3;
     let radiance = |wavelength: f64| -> f64 {
         let line = |(middle, kilorayleighs): &(f64, f64)| {
-            let photons = kilorayleighs * 1e13 / (4.0 * PI) * (-0.5 * ((wavelength - middle) / WIDTH).powi(2)).exp() / (WIDTH * (2.0 * PI).sqrt());
+            let photons =
+                kilorayleighs * 1e13 / (4.0 * PI) * (-0.5 * ((wavelength - middle) / WIDTH).powi(2)).exp() / (WIDTH * (2.0 * PI).sqrt());
             photons * 6.626_070_15e-34 * 299_792_458.0 / (middle * 1e-9)
         };
         spectrum.iter().map(line).sum()
