@@ -22,8 +22,9 @@ pub const KINDS: usize = 2;
 const LINES: [[f64; 4]; KINDS] = [[1.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]];
 /// The greatest and the least height at which any light is drawn, km.
 pub const HEIGHTS: [f64; 2] = [500.0, 60.0];
-/// The part of a line's light that may be made above the heights at which its kind is drawn, and as much below: it is drawn at their ends.
-const OUTSIDE: f64 = 0.002;
+/// Of each kind, the part of a line's light that may be made above the heights at which it is drawn, and as much below: it is drawn at their ends. More for red, a
+/// hundredth of which comes from above 450 km: its chords have to be short further down, where it waits seconds.
+const OUTSIDE: [f64; KINDS] = [0.002, 0.008];
 /// Steps of height of the integrals, km.
 const STEP: f64 = 0.5;
 /// Reaches µR(E) whose falls are mixed, evenly spaced in their logarithm: how many, the first and the last, g cm⁻².
@@ -103,7 +104,7 @@ impl Quantiles {
             sums
         };
         let sums: Vec<Vec<[f64; 4]>> = (0..ROWS).map(of_row).collect();
-        let ends = LINES.map(|lines| ends(&sums, lines));
+        let ends: [[f32; 2]; KINDS] = std::array::from_fn(|kind| ends(&sums, LINES[kind], OUTSIDE[kind]));
         let mut heights = Vec::with_capacity(ROWS * KINDS * (PARTS + 1));
         let mut photons = Vec::with_capacity(ROWS * (PARTS + 1));
         for sums in &sums {
@@ -141,15 +142,16 @@ struct Part {
     made: [f64; 4],
 }
 
-/// Heights (km) between which all but [`OUTSIDE`] of the light of each of some lines is made, at either end and in every row.
-fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4]) -> [f32; 2] {
+/// Heights (km) between which all but the part `outside` of the light of each of some lines is made, at either end and in every row.
+fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4], outside: f64) -> [f32; 2] {
+    let parts = (1.0 / outside).round() as usize;
     let [mut highest, mut lowest] = [HEIGHTS[1], HEIGHTS[0]];
     for sums in rows {
         for line in (0..4).filter(|&line| lines[line] > 0.0) {
             let alone = std::array::from_fn(|k| if k == line { 1.0 } else { 0.0 });
-            let at = |part: usize| equal_parts(sums, alone, (1.0 / OUTSIDE) as usize).nth(part).map(|part| part.height);
+            let at = |part: usize| equal_parts(sums, alone, parts).nth(part).map(|part| part.height);
             highest = at(1).map_or(highest, |height| highest.max(height));
-            lowest = at((1.0 / OUTSIDE) as usize - 1).map_or(lowest, |height| lowest.min(height));
+            lowest = at(parts - 1).map_or(lowest, |height| lowest.min(height));
         }
     }
     [highest.min(HEIGHTS[0]) as f32, lowest.max(HEIGHTS[1]) as f32]
