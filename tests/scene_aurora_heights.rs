@@ -11,7 +11,7 @@ const KIND: [usize; 4] = [0, 0, 1, 0];
 
 /// Least and greatest value that game.toml allows.
 fn allowed(key: &str) -> [f64; 2] {
-    let setting = settings().into_iter().find(|setting| setting.section == "aurora" && setting.key == key).unwrap();
+    let setting = settings().iter().find(|setting| setting.section == "aurora" && setting.key == key).unwrap();
     match setting.allowed {
         Allowed::Number { min, max } => [min, max],
         other => panic!("{key}: {other:?}"),
