@@ -83,6 +83,8 @@ mod render_swing;
 #[cfg(feature = "game")]
 mod render_trouble;
 mod scene_aurora;
+mod scene_aurora_heights;
+mod scene_aurora_lines;
 mod scene_config;
 mod scene_disk;
 mod scene_files;

@@ -8,7 +8,7 @@ use lensrunner::measure::aurora::sheet::{Falls, Sheet};
 use lensrunner::measure::aurora::splat::Splat;
 use lensrunner::play::aurora_race;
 use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
-use lensrunner::render::aurora::{PYRAMID, RAYS_PERIOD, planet_history, veil};
+use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
 use lensrunner::render::layout;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::static_camera;
@@ -50,6 +50,15 @@ fn falls(spectrum: Spectrum) -> wgpu::Buffer {
     layout::storage(&GPU, "falls", &Quantiles::new(&spectrum).laid_out())
 }
 
+/// Settings that say no more than the heights between which those are drawn.
+fn heights(spectrum: Spectrum) -> wgpu::Buffer {
+    let [[top, foot], [red_top, red_foot]] = Quantiles::new(&spectrum).ends;
+    let settings = AuroraSettings { heights: [top, foot, red_top, red_foot], ..AuroraSettings::default() };
+    let uniform = layout::buffer(&GPU.device, "aurora", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
+    GPU.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&settings));
+    uniform
+}
+
 /// Electrons as the game has them where the flux is the mean.
 const SPECTRUM: Spectrum = Spectrum { accelerated: 4.0, thermal: 1.5 };
 
@@ -60,6 +69,7 @@ fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
     let body = "let fall = fall_at(row.x); let kind = u32(row.z); \
                 twin_out[2u * id.x] = vec4<f32>(fall, height_of(fall, kind, row.y), 0.0, 0.0); \
                 twin_out[2u * id.x + 1u] = photons_of(fall, kind, row.y);";
+    let ends = Quantiles::new(&SPECTRUM).ends;
     let fluxes = [0.05, 0.3, 1.0, 2.2, 4.0, 9.0];
     let parts = [0.1, 0.35, 0.6, 0.85, 1.0];
     for flux in fluxes {
@@ -82,7 +92,7 @@ fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
                 made[k][line] + (x - k as f64) * (made[k + 1][line] - made[k][line])
             };
             let above = lines.iter().map(|&line| above_it(line)).sum::<f64>() / of(&whole);
-            let bottom = if red { 130.0 } else { 84.0 };
+            let bottom = f64::from(ends[usize::from(red)][1]);
             assert!(
                 (above - f64::from(row[1])).abs() < 0.02 || (row[1] == 1.0 && f64::from(height) <= bottom + 12.0),
                 "{row:?}: {above} of the light is above {height} km"
@@ -155,10 +165,11 @@ fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
     let body = "let count = u32(row.y); let chord = chord_at(RED, row.x, count); let above = chord_height(RED, chord, count); \
                 let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
                 twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
+    let heights = heights(SPECTRUM);
     // So many chords, and by how much the straight line between their ends may be off, in parts of the wait: a curtain moves some 100 m in a second.
     for (count, part) in [(4.0, 1.0), (8.0, 0.3)] {
         let rows: Vec<[f32; 4]> = (150..400).step_by(10).map(|z| [z as f32, count, 0.0, 0.0]).collect();
-        for (row, got) in rows.iter().zip(run_with(Pass::AuroraWalk, body, [&[], &[]], &[(4, &falls)], &rows, 1)) {
+        for (row, got) in rows.iter().zip(run_with(Pass::AuroraWalk, body, [&[], &[]], &[(0, &heights), (4, &falls)], &rows, 1)) {
             let want = lines::delays(f64::from(row[0]))[Line::Red as usize];
             assert!(got[2] >= row[0] && row[0] >= got[3], "{row:?} lies in {got:?}");
             assert!((f64::from(got[0]) - want).abs() < part * want + 1.0, "{} km, {count} chords: {} s, lives {want} s", row[0], got[0]);

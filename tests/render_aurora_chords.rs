@@ -13,7 +13,7 @@ use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::dipole::PLANET_RADIUS;
 use lensrunner::scene::aurora::fall::Spectrum;
-use lensrunner::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
+use lensrunner::scene::aurora::quantiles::{KINDS, PARTS, Quantiles};
 use lensrunner::scene::{self, GameConfig, Planet};
 use lensrunner::sim::History;
 use lensrunner::spacetime::light::{Branch, Order};
@@ -55,17 +55,17 @@ fn ends_of(renderer: &mut Renderer, camera: Camera, frame: &AuroraFrame, setting
 }
 
 /// Height of the end `k` of `count` chords; as in streaks.wgsl.
-fn height_of_end(kind: usize, k: usize, count: usize) -> f64 {
+fn height_of_end(heights: [f32; 2], kind: usize, k: usize, count: usize) -> f64 {
     let left = 1.0 - k as f64 / count as f64;
-    let [high, low] = HEIGHTS[kind];
+    let [high, low] = heights.map(f64::from);
     low + (high - low) * if kind == 1 { left * left } else { left }
 }
 
 /// What goes linearly with height between the ends of a chord.
-fn between(ends: &[End], kind: usize, height: f64, of: impl Fn(&End) -> Option<DVec3>) -> Option<DVec3> {
+fn between(ends: &[End], (kind, heights): (usize, [f32; 2]), height: f64, of: impl Fn(&End) -> Option<DVec3>) -> Option<DVec3> {
     let count = ends.len() - 1;
-    let above = (0..count).rev().find(|&k| height_of_end(kind, k, count) >= height).unwrap_or(0);
-    let [high, low] = [above, above + 1].map(|k| height_of_end(kind, k, count));
+    let above = (0..count).rev().find(|&k| height_of_end(heights, kind, k, count) >= height).unwrap_or(0);
+    let [high, low] = [above, above + 1].map(|k| height_of_end(heights, kind, k, count));
     Some(of(&ends[above])?.lerp(of(&ends[above + 1])?, (high - height) / (high - low)))
 }
 
@@ -118,9 +118,9 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Camera, config: &GameC
             at(x as usize) + (x - x.floor()) * (at(x as usize + 1) - at(x as usize))
         });
         let places = |of: &dyn Fn(f64) -> Option<DVec3>| Some([pixel(of(heights[0])?)?, pixel(of(heights[1])?)?]);
-        let drawn = |ends: &[End], height: f64| between(ends, kind, height, |end| end.seen);
+        let drawn = |ends: &[End], height: f64| between(ends, (kind, falls.ends[kind]), height, |end| end.seen);
         let exact = |height: f64| {
-            let body = between(fine, kind, height, |end| Some(end.body))?;
+            let body = between(fine, (kind, falls.ends[kind]), height, |end| Some(end.body))?;
             by_exact_ray(&camera, planet, &history, body, Order::new(image as u8).unwrap())
         };
         let (got, finer) = (places(&|height| drawn(own, height)), places(&|height| drawn(fine, height)));

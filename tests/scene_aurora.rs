@@ -114,9 +114,10 @@ fn red_waits_green_less_blue_not_at_all() {
 #[test]
 fn lines_have_their_colours() {
     let xyz = lines::kilorayleigh_xyz(1.0);
-    // Luminance per kR: 557.7 nm 1.93e-4, 427.8 nm 2.45e-6, 630 nm 4.54e-5 cd m⁻², from the CIE table; the fit is within a few per cent
-    // where the eye sees, and less so at its violet end.
-    for (line, want, relative) in [(Line::Green, 1.93e-4, 0.03), (Line::Blue, 2.45e-6, 0.35), (Line::Red, 4.54e-5, 0.05)] {
+    // Luminance per kR: 557.7 nm 1.93e-4, 427.8 nm 2.45e-6 and 391.4 nm 4.1e-8, 630.0 nm 4.54e-5 and 636.4 nm 3.48e-5 cd m⁻², from the CIE table; the fit is
+    // within a few per cent where the eye sees, and less so at its violet end.
+    let [blue, red] = [2.45e-6 + 0.65 / 0.20 * 4.1e-8, 4.54e-5 + 0.001_85 / 0.005_85 * 3.48e-5];
+    for (line, want, relative) in [(Line::Green, 1.93e-4, 0.03), (Line::Blue, blue, 0.35), (Line::Red, red, 0.05)] {
         let got = xyz[line as usize][1];
         assert!((got / want - 1.0).abs() < relative, "{line:?}: {got} cd/m² per kR");
     }

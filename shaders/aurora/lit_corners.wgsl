@@ -1,7 +1,7 @@
 // Where the lit tiles of an image are on the screen, for the pass that wipes them and for the one that colours them.
 
 /// Frequency ratios that colours are given at. Twin of src/render/aurora/colours.rs.
-const SHIFTS: u32 = 8u;
+const SHIFTS: u32 = 16u;
 
 struct Lines {
     /// Linear sRGB of a kilorayleigh of each line at each frequency ratio, the least first, in the unit of the picture's luminance.

@@ -10,6 +10,8 @@ struct AuroraSettings {
     clock: vec4<f32>,
     /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw unused.
     strokes: vec4<f32>,
+    /// Greatest and least height in km of green light (xy) and of red (zw).
+    heights: vec4<f32>,
 };
 
 /// The paper's walk: linear on the screen.
@@ -78,7 +80,7 @@ const RED: u32 = 1u;
 
 /// Greatest and least height of a kind, km.
 fn height_range(kind: u32) -> vec2<f32> {
-    return select(vec2<f32>(340.0, 84.0), vec2<f32>(480.0, 130.0), kind == RED);
+    return select(aurora.heights.xy, aurora.heights.zw, kind == RED);
 }
 
 /// Chords of a streak. Red light has twice as many: it waits, and how long changes fast with height.

@@ -117,11 +117,8 @@ impl Race {
         let start = Instant::now();
         gpu.queue.submit([encoder.finish()]);
         wait(gpu)?;
-        let seconds = match watch {
-            Some(watch) => watch.seconds(gpu)?,
-            None => start.elapsed().as_secs_f64(),
-        };
-        Ok((out, seconds))
+        let waited = start.elapsed().as_secs_f64();
+        Ok((out, watch.map_or(Ok(waited), |watch| watch.seconds(gpu, waited))?))
     }
 }
 

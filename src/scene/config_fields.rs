@@ -198,8 +198,8 @@ config! {
         parts: u32 = 8u32, integer(4, 48), "parts", "parts in which the light along a streak is drawn";
         share: f64 = 0.33, number(0.02, 1.0), "", "most of a frame's time that it takes in the window: streaks become fewer and wider";
         radius: f64 = 0.8, number(0.05, 50.0), "km", "spread of a luminous point (the planet's radius is 6371 km)";
-        energy: f64 = 4.0, number(0.1, 100.0), "keV", "energy that electrons gain in the potential above the aurora";
-        thermal: f64 = 1.5, number(0.05, 50.0), "keV", "thermal energy on top of it";
+        energy: f64 = 4.0, number(0.5, 50.0), "keV", "energy that electrons gain in the potential above the aurora";
+        thermal: f64 = 1.5, number(0.2, 20.0), "keV", "thermal energy on top of it";
         flux: f64 = 20.0, number(0.0, 1000.0), "erg cm^-2 s^-1", "energy flux in a curtain";
         brightness: f64 = 0.007, number(0.0, 10.0), "per kilorayleigh", "what a kilorayleigh of green light is in the picture";
         field: f64 = 30.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";

@@ -53,19 +53,33 @@ pub fn planet(seed: u32) -> Arc<Image> {
 
 /// Albedo of the planet at a unit vector, linear sRGB.
 fn planet_light(place: [f32; 3], seed: u32) -> [f32; 3] {
-    let mix = |a: [f32; 3], b: [f32; 3], s: f32| std::array::from_fn(|k| a[k] + (b[k] - a[k]) * s);
-    let step = |low: f32, high: f32, x: f32| {
-        let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
     let height = clouds_of_noise(place, 1.7, seed) + 0.35 * (clouds_of_noise(place, 6.0, seed ^ 5) - 0.5);
-    let land = step(0.51, 0.54, height);
-    let high = step(0.54, 0.75, height);
+    let land = smooth(0.51, 0.54, height);
+    let high = smooth(0.54, 0.75, height);
     let ground = mix([0.05, 0.09, 0.035], [0.20, 0.15, 0.09], high);
-    let ice = step(0.80, 0.90, place[1].abs() + 0.12 * (height - 0.5));
-    let surface = mix(mix([0.010, 0.028, 0.060], ground, land), [0.65, 0.70, 0.75], ice);
-    let cloud = step(0.50, 0.72, clouds_of_noise(place.map(|x| x + 0.15 * height), 3.1, seed ^ 77));
-    mix(surface, [0.75; 3], 0.8 * cloud)
+    let open = mix([0.010, 0.028, 0.060], ground, land);
+    let frozen = smooth(0.80, 0.90, place[1].abs() + 0.12 * (height - 0.5));
+    let surface = if frozen > 0.0 { mix(open, ice_light(place, land, seed), frozen) } else { open };
+    let cloud = smooth(0.50, 0.72, clouds_of_noise(place.map(|x| x + 0.15 * height), 3.1, seed ^ 77));
+    // Over the ice, where air is cold and dry, clouds are thin.
+    mix(surface, [0.75; 3], (0.8 - 0.45 * frozen) * cloud)
+}
+
+/// Albedo of what is frozen: on land snow and older, bluer ice, with bare rock along ridges; on the sea floes, with dark leads of open water between them.
+fn ice_light(place: [f32; 3], land: f32, seed: u32) -> [f32; 3] {
+    let (broad, fine) = (clouds_of_noise(place, 9.0, seed ^ 211), clouds_of_noise(place, 17.0, seed ^ 212));
+    // Where noise passes through its mean it draws lines.
+    let line = |noise: f32, width: f32| smooth(width, 0.0, (noise - 0.5).abs());
+    let leads = line(broad, 0.045).max(0.7 * line(fine, 0.03));
+    let floes = mix([0.20, 0.27, 0.34], [0.55, 0.60, 0.65], smooth(0.35, 0.62, 0.4 * broad + 0.6 * fine));
+    let sea = mix(floes, [0.015, 0.035, 0.060], 0.92 * leads);
+    let snow = mix([0.40, 0.50, 0.60], [0.90, 0.92, 0.94], smooth(0.36, 0.60, 0.6 * broad + 0.4 * fine));
+    let rock = smooth(0.56, 0.68, broad) * line(fine, 0.05);
+    mix(sea, mix(snow, [0.10, 0.09, 0.08], 0.85 * rock), land)
+}
+
+fn mix(a: [f32; 3], b: [f32; 3], s: f32) -> [f32; 3] {
+    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * s)
 }
 
 /// Six octaves of smooth noise in [0, 1] over space.

@@ -17,7 +17,8 @@ pub enum ChartError {
     Plot(#[from] PlotError),
 }
 
-const COLUMNS: [&str; 9] = ["view", "method", "electrons", "radius_km", "points", "walk_ms", "splat_ms", "total_ms", "error"];
+const COLUMNS: [&str; 10] =
+    ["view", "method", "electrons", "radius_km", "points", "walk_ms", "splat_ms", "total_ms", "error", "difference"];
 
 /// A radius in km from the command line.
 pub fn radius(text: &str) -> Result<f32, String> {
@@ -69,6 +70,8 @@ pub fn to_sheet(rows: &[Row], adapter: &str) -> Sheet {
             number(row.splat),
             number(row.total),
             number(row.error),
+            // Of the exact walk in flat space it is rounding, far below what other columns show.
+            format!("{:.3e}", row.difference),
         ]);
     }
     sheet
@@ -96,7 +99,11 @@ fn family(methods: &[String], method: &str) -> usize {
     methods.iter().filter(|method| !method.ends_with(THREADS) && !method.ends_with(ADAPTER)).position(|method| method == own).unwrap_or(0)
 }
 
-/// Two rows of panels, a column for each view: time against electrons at the middle radius, error against time for all.
+/// Differences are drawn no lower: those of rounding.
+const LEAST_DIFFERENCE: f64 = 1e-7;
+
+/// Three rows of panels, a column for each view: time against electrons at the middle radius, error against time for all, and against time the difference from
+/// the particle method with the same random numbers.
 pub fn draw(sheet: &Sheet) -> Figure {
     let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let middle = radii.get(radii.len() / 2).cloned().unwrap_or_default();
@@ -141,20 +148,45 @@ pub fn draw(sheet: &Sheet) -> Figure {
             title: format!("{view}: {most} electrons"),
             x: Axis::log("time of a frame, ms"),
             // Through bent light there is no line integral to judge by.
-            y: Axis::linear(if *view == "bent" { "difference from the particle method" } else { "error against the line integral" }),
+            y: Axis::linear(if *view == "bent" { "error against many more electrons" } else { "error against the line integral" }),
             points,
             pareto: true,
             ..Scatter::default()
         })
     };
+    // The particle method itself, on one thread, is no point: it differs by nothing.
+    let differences = |view: &&str| {
+        let points = rows_of(view)
+            .into_iter()
+            .filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle)
+            .filter(|row| sheet.number(row, "difference") > 0.0)
+            .map(|row| Point {
+                x: sheet.number(row, "total_ms"),
+                y: sheet.number(row, "difference").max(LEAST_DIFFERENCE),
+                label: sheet.text(row, "method").to_owned(),
+                family: family(&methods, sheet.text(row, "method")),
+                failed: false,
+                chosen: false,
+            })
+            .collect();
+        Panel::Scatter(Scatter {
+            title: format!("{view}: the same random numbers"),
+            x: Axis::log("time of a frame, ms"),
+            y: Axis::log("difference from the particle method"),
+            points,
+            ..Scatter::default()
+        })
+    };
+    // A sheet of before has no such column.
+    let known = sheet.column("difference").is_ok();
     Figure {
         title: "Aurora: walks on the screen against particles in space".into(),
         subtitle:
             "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads, or the graphics adapter (-gpu). “bent” is seen through the lensing of a hole."
                 .into(),
-        panels: views.iter().map(times).chain(views.iter().map(errors)).collect(),
+        panels: views.iter().map(times).chain(views.iter().map(errors)).chain(views.iter().filter(|_| known).map(differences)).collect(),
         columns: views.len().max(1),
-        size: [1900, 1100],
+        size: [1900, if known { 1600 } else { 1100 }],
         footer: Provenance::footer(&sheet.notes),
     }
 }
@@ -165,7 +197,7 @@ pub fn ratios(sheet: &Sheet) -> String {
     let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let (middle, most) = (radii.get(radii.len() / 2).cloned().unwrap_or_default(), counts.last().cloned().unwrap_or_default());
     let mut text = String::from(
-        "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the same on all threads | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|---|\n",
+        "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the same on all threads | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear | difference from the particle method: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for view in distinct(sheet, "view") {
         let of = |method: &str, column: &str| {
@@ -189,6 +221,7 @@ pub fn ratios(sheet: &Sheet) -> String {
             pair("particles-gpu", "exact-gpu", "walk_ms"),
             pair("particles-gpu", "exact-gpu", "total_ms"),
             ["exact", "exact-pyramid", "linear"].map(|method| format!("{:.3}", of(method, "error"))).join(", "),
+            ["exact", "exact-pyramid", "linear"].map(|method| format!("{:.4}", of(method, "difference"))).join(", "),
         ];
         text += &format!("| {view} | {} |\n", columns.join(" | "));
     }

@@ -6,7 +6,6 @@ use super::{BOTH_POLES, Segment};
 use crate::render::placements::{View, departure};
 use crate::scene::aurora::dipole::{REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::lines::{self, Line};
-use crate::scene::aurora::quantiles::HEIGHTS;
 use crate::sim::History;
 use crate::spacetime::light::Order;
 
@@ -37,6 +36,8 @@ pub struct Bend<'a, 'b> {
     pub scale: f64,
     /// Of green and of red light, the height (km) above which hardly any is made: chords up there may lie as they like.
     pub tops: [f64; 2],
+    /// The greatest and the least height (km) of green light and of red: [`crate::scene::aurora::quantiles::Quantiles::ends`].
+    pub heights: [[f64; 2]; 2],
 }
 
 impl Bend<'_, '_> {
@@ -76,7 +77,7 @@ impl Bend<'_, '_> {
     /// Whether the middles of so many chords lie where their light is seen. Nothing is known of what is not seen.
     fn hold(&self, chords: usize, order: Order, began: f64, streak: impl Fn(Line, f64) -> (DVec2, f64)) -> bool {
         [(Line::Green, chords), (Line::Red, 2 * chords)].into_iter().enumerate().all(|(kind, (line, count))| {
-            let [high, low] = HEIGHTS[kind];
+            let [high, low] = self.heights[kind];
             // Ends and middles; as in streaks.wgsl.
             let height = |k: usize| {
                 let end = |k: usize| {

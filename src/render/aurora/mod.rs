@@ -32,6 +32,7 @@ pub struct AuroraSettings {
     pub history: [u32; 4],
     pub clock: [f32; 4],
     pub strokes: [f32; 4],
+    pub heights: [f32; 4],
 }
 
 /// `Segment` in WGSL.

@@ -20,7 +20,7 @@ use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_lin
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
 use crate::scene::aurora::motion::{Motion, Plan, STEP};
-use crate::scene::aurora::quantiles::{DELAYS, PARTS, Quantiles, ROWS as ROWS_OF_FALLS};
+use crate::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Surroundings;
 use crate::scene::planet::{AuroraShape, Planet};
@@ -39,7 +39,7 @@ pub const RAYS_PERIOD: f64 = 102_400.0;
 /// Nodes of all curtains together.
 const NODES: usize = 1024;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
-const REACH: f64 = 1.0 + 500.0 / PLANET_RADIUS;
+const REACH: f64 = 1.0 + HEIGHTS[0] / PLANET_RADIUS;
 /// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
@@ -57,8 +57,6 @@ const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
 const LONGEST: f64 = 400.0;
-/// In the falls, the height above which one of [`PARTS`] equal parts of green light is made where the curtain is faintest; that of red follows.
-const TOPS: usize = 4 * ROWS_OF_FALLS * (PARTS + 1) + 2 * DELAYS + 1;
 /// Room for strokes: more are not drawn in one order.
 pub const MOST_STROKES: usize = 1 << 20;
 
@@ -93,7 +91,7 @@ pub struct Show {
     /// Inner and outer radius of the scene's accretion disk, r_s.
     disk: Option<[f64; 2]>,
     config: AuroraConfig,
-    falls: Arc<Vec<f32>>,
+    falls: Falls,
     plan: Plan,
     motion: Option<Motion>,
     /// Rows of nodes, newest first, and when the newest was.
@@ -144,7 +142,7 @@ impl Show {
         Some(Show {
             planet: *planet,
             disk,
-            falls: falls(&config),
+            falls: Falls::of(&config),
             config,
             plan,
             motion: None,
@@ -177,7 +175,7 @@ impl Show {
             motion.change(config.field, config.renewal, config.contrast);
         }
         if [config.energy, config.thermal] != [self.config.energy, self.config.thermal] {
-            self.falls = falls(config);
+            self.falls = Falls::of(config);
         }
         self.config = config.clone();
         true
@@ -246,7 +244,8 @@ impl Show {
             flags |= BOTH_POLES;
         }
         let orders: Vec<Order> = frame.placements.iter().filter_map(|placement| Order::new(placement.ids[0] as u8)).collect();
-        let bend = Bend { view, time, history: &history, scale, tops: [0, 1].map(|kind| f64::from(self.falls[TOPS + kind * (PARTS + 1)])) };
+        let bend =
+            Bend { view, time, history: &history, scale, tops: self.falls.tops, heights: self.falls.ends.map(|ends| ends.map(f64::from)) };
         let chords = bend.chords(&segments, |segment, wait| self.middle(segment, wait + ahead), &orders, flags);
         let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.
@@ -263,9 +262,10 @@ impl Show {
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
             strokes: [self.config.radius as f32, levels as f32, 0.0, 0.0],
+            heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
         };
         frame.segments = segments;
-        frame.falls = self.falls.clone();
+        frame.falls = self.falls.table.clone();
         (streaks > 0 && self.rows.len() > 1).then_some(frame)
     }
 
@@ -415,8 +415,22 @@ fn node_place(row: &[[f32; 4]], node: usize) -> DVec2 {
 }
 
 /// Falls of electrons with the energies that the keys ask for.
-fn falls(config: &AuroraConfig) -> Arc<Vec<f32>> {
-    Arc::new(Quantiles::new(&Spectrum { accelerated: config.energy, thermal: config.thermal }).laid_out())
+#[derive(Clone, Debug)]
+struct Falls {
+    /// As the shaders read them.
+    table: Arc<Vec<f32>>,
+    /// See [`Quantiles::ends`].
+    ends: [[f32; 2]; KINDS],
+    /// The height (km) above which one of [`PARTS`] equal parts of each kind's light is made where the curtain is faintest.
+    tops: [f64; KINDS],
+}
+
+impl Falls {
+    fn of(config: &AuroraConfig) -> Falls {
+        let falls = Quantiles::new(&Spectrum { accelerated: config.energy, thermal: config.thermal });
+        let tops = [0, 1].map(|kind| f64::from(falls.heights[kind * (PARTS + 1) + 1]));
+        Falls { table: Arc::new(falls.laid_out()), ends: falls.ends, tops }
+    }
 }
 
 /// As many steps as there are between two rows.

@@ -1,8 +1,11 @@
 //! The lines an aurora shines in: photons per ion pair by height, how long the light waits, and its colour.
 //!
-//! Four channels: green O(¹S) 557.7 nm; the blue-violet bands of N₂⁺ (391.4 and 427.8 nm and their neighbours, given as 427.8); red
-//! O(¹D) 630.0 and 636.4 nm; and the crimson first positive bands of N₂ (600 to 700 nm, given as 650). Rates: Solomon, Hays and Abreu
-//! 1988 as in NCAR's GLOW (`gchem.f90`); shares of the species: Rees 1989.
+//! Four channels: green O(¹S) 557.7 nm; the first negative bands of N₂⁺ at 427.8 and 391.4 nm, blue and violet; red O(¹D) 630.0 and 636.4 nm; and
+//! the crimson first positive bands of N₂ (600 to 700 nm, given as 650). Those that share an upper state are one channel, counted by the photons of the
+//! first of them, and each has its own Doppler shift. Rates: Solomon, Hays and Abreu 1988 as in NCAR's GLOW (`gchem.f90`); shares of the species: Rees 1989.
+//!
+//! Left out is what has no ratio in those sources or is seen only when strongly shifted: N₂⁺ 470.9 nm, O(¹S) 297.2 nm, and the first positive bands
+//! in the infrared.
 
 use super::air::{Air, air};
 use crate::scene::blackbody::matching;
@@ -12,9 +15,9 @@ use crate::scene::blackbody::matching;
 pub enum Line {
     /// O(¹S) 557.7 nm.
     Green,
-    /// N₂⁺ first negative bands.
+    /// N₂⁺ first negative bands; photons are those of 427.8 nm.
     Blue,
-    /// O(¹D) 630.0 and 636.4 nm.
+    /// O(¹D) 630.0 and 636.4 nm; photons are those of 630.0 nm.
     Red,
     /// N₂ first positive bands.
     Crimson,
@@ -24,13 +27,13 @@ impl Line {
     /// All of them, in order.
     pub const ALL: [Line; 4] = [Line::Green, Line::Blue, Line::Red, Line::Crimson];
 
-    /// Wavelength in nm by which it is coloured.
-    pub fn wavelength(self) -> f64 {
+    /// Where it shines: wavelengths in nm, each with its photons for one of the first.
+    pub fn bands(self) -> &'static [(f64, f64)] {
         match self {
-            Line::Green => 557.7,
-            Line::Blue => 427.8,
-            Line::Red => 630.0,
-            Line::Crimson => 650.0,
+            Line::Green => &[(557.7, 1.0)],
+            Line::Blue => &[(427.8, 1.0), (391.4, VIOLET_BRANCH / BLUE_BRANCH)],
+            Line::Red => &[(630.0, 1.0), (636.4, RED_OTHER / RED_RATE)],
+            Line::Crimson => &[(650.0, 1.0)],
         }
     }
 }
@@ -41,9 +44,10 @@ const GREEN_OTHER: f64 = 0.045;
 /// Radiative rates of O(¹D), s⁻¹: 630.0 and 636.4 nm.
 pub const RED_RATE: f64 = 0.00585;
 const RED_OTHER: f64 = 0.00185;
-/// N₂⁺(B) per ionisation of N₂, and the part of it that shines at 427.8 nm, the (0,1) band.
+/// N₂⁺(B) per ionisation of N₂, and the parts of it that shine at 427.8 nm, the (0,1) band, and at 391.4 nm, the (0,0) band.
 const ION_BRANCH: f64 = 0.11;
 const BLUE_BRANCH: f64 = 0.20;
+const VIOLET_BRANCH: f64 = 0.65;
 /// O(¹D) made per ion pair: a middling value over direct excitation, recombination and transfer (crude: a factor 2 either way).
 const RED_PER_PAIR: f64 = 0.5;
 /// N₂(A) made per ion pair of N₂, with the cascade from above (crude).
@@ -110,13 +114,17 @@ const HC: f64 = 1.986_445_857e-16;
 /// Luminous efficacy at the peak of ȳ, lm/W.
 const EFFICACY: f64 = 683.0;
 
-/// CIE XYZ (Y in cd m⁻²) of one kilorayleigh of each line, seen with the frequency ratio `g` = ν_observed/ν_emitted. One rayleigh is
-/// 10¹⁰/4π photons m⁻² s⁻¹ sr⁻¹; photons are counted in the source's frame, and radiance goes as g⁴ (of which one power is the photon's
-/// energy): I/ν³ is invariant and a line of width ∝ ν integrates to g⁴.
+/// CIE XYZ (Y in cd m⁻²) of each line where the first of its [`Line::bands`] has one kilorayleigh, with the others beside it, seen with the frequency ratio
+/// `g` = ν_observed/ν_emitted: each band is seen at its own shifted wavelength. One rayleigh is 10¹⁰/4π photons m⁻² s⁻¹ sr⁻¹; photons are counted in the
+/// source's frame, and radiance goes as g⁴ (of which one power is the photon's energy): I/ν³ is invariant and a line of width ∝ ν integrates to g⁴.
 pub fn kilorayleigh_xyz(g: f64) -> [[f64; 3]; 4] {
     Line::ALL.map(|line| {
-        let seen = line.wavelength() / g;
-        let radiance = 1e13 / (4.0 * std::f64::consts::PI) * HC / line.wavelength() * g.powi(4);
-        matching(seen).map(|weight| EFFICACY * weight * radiance)
+        let mut xyz = [0.0; 3];
+        for (wavelength, photons) in line.bands() {
+            let radiance = photons * 1e13 / (4.0 * std::f64::consts::PI) * HC / wavelength * g.powi(4);
+            let weights = matching(wavelength / g);
+            xyz = std::array::from_fn(|k| xyz[k] + EFFICACY * weights[k] * radiance);
+        }
+        xyz
     })
 }

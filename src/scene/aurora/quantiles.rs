@@ -3,7 +3,8 @@
 //! A row is the mean over all electrons that come down there, of every energy and slope of the spectrum: what is drawn is not one electron but all of a few
 //! hundred metres of a curtain. Drawn one by one, each with the energy that chance gave it, five times as many made a picture with more grain.
 //!
-//! Steps are short where light is made and long where there is none.
+//! Steps are short where light is made and long where there is none. How high and how deep the light goes depends on the spectrum, from 500 km for the softest
+//! electrons to 65 km for the hardest, and so do the heights between which it is drawn ([`Quantiles::ends`]).
 
 use super::air::overhead;
 use super::fall::{Spectrum, range, sane_energy, share_left, slope};
@@ -19,13 +20,16 @@ pub const FLUXES: [f64; 2] = [0.05, 4.0];
 pub const KINDS: usize = 2;
 /// The lines of each kind: 1 for those that it has of green, blue, red, crimson.
 const LINES: [[f64; 4]; KINDS] = [[1.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]];
-/// For each kind the greatest and the least height at which it is drawn, km.
-pub const HEIGHTS: [[f64; 2]; KINDS] = [[340.0, 84.0], [480.0, 130.0]];
+/// The greatest and the least height at which any light is drawn, km.
+pub const HEIGHTS: [f64; 2] = [500.0, 60.0];
+/// Of each kind, the part of a line's light that may be made above the heights at which it is drawn, and as much below: it is drawn at their ends. More for red, a
+/// hundredth of which comes from above 450 km: its chords have to be short further down, where it waits seconds.
+const OUTSIDE: [f64; KINDS] = [0.002, 0.008];
 /// Steps of height of the integrals, km.
 const STEP: f64 = 0.5;
 /// Reaches µR(E) whose falls are mixed, evenly spaced in their logarithm: how many, the first and the last, g cm⁻².
-const REACHES: usize = 96;
-const REACH_ENDS: [f64; 2] = [1e-8, 2e-2];
+const REACHES: usize = 128;
+const REACH_ENDS: [f64; 2] = [2e-9, 0.25];
 /// Slopes, and energies above that of the potential, over which the spectrum is summed; the latter up to so many thermal energies.
 const SLOPES: usize = 64;
 const ENERGIES: usize = 96;
@@ -40,6 +44,8 @@ pub struct Quantiles {
     pub photons: Vec<[f32; 4]>,
     /// Mean wait (s) of green and red at 64 heights from 80 to 500 km; the molecules do not wait.
     pub delays: Vec<[f32; 2]>,
+    /// For each kind the greatest and the least height (km) at which it is drawn, the same for all rows.
+    pub ends: [[f32; 2]; KINDS],
 }
 
 /// Heights of [`Quantiles::delays`], km.
@@ -79,15 +85,14 @@ impl Quantiles {
     /// Integrates the falls of a curtain's electrons; `spectrum` is theirs where the flux is the mean. Brighter parts are harder: the potential goes as
     /// the square root of the flux.
     pub fn new(spectrum: &Spectrum) -> Self {
-        let levels: Vec<f64> = (0..).map(|k| 500.0 - STEP * f64::from(k)).take_while(|&z| z >= 80.0).collect();
+        let levels: Vec<f64> = (0..).map(|k| HEIGHTS[0] - STEP * f64::from(k)).take_while(|&z| z >= HEIGHTS[1]).collect();
         let overheads: Vec<f64> = levels.iter().map(|z| overhead(z - 0.5 * STEP)).collect();
         let light: Vec<[f64; 4]> = levels.iter().map(|&z| lines::photons(z)).collect();
         // Energy left below each level, of electrons of each reach.
         let reach = |k: usize| REACH_ENDS[0] * (REACH_ENDS[1] / REACH_ENDS[0]).powf(k as f64 / (REACHES - 1) as f64);
         let left: Vec<Vec<f64>> = (0..REACHES).map(|k| overheads.iter().map(|over| share_left(*over, reach(k))).collect()).collect();
-        let mut heights = Vec::with_capacity(ROWS * KINDS * (PARTS + 1));
-        let mut photons = Vec::with_capacity(ROWS * (PARTS + 1));
-        for row in 0..ROWS {
+        // Of each row, sums of each line from above down to each level.
+        let of_row = |row: usize| {
             let shares = shares(&Spectrum { accelerated: spectrum.accelerated * flux(row).sqrt(), ..*spectrum });
             let mut sums = vec![[0.0; 4]; levels.len() + 1];
             let mut before = 1.0;
@@ -96,10 +101,17 @@ impl Quantiles {
                 sums[k + 1] = std::array::from_fn(|line| sums[k][line] + (before - left) * light[line]);
                 before = left;
             }
+            sums
+        };
+        let sums: Vec<Vec<[f64; 4]>> = (0..ROWS).map(of_row).collect();
+        let ends: [[f32; 2]; KINDS] = std::array::from_fn(|kind| ends(&sums, LINES[kind], OUTSIDE[kind]));
+        let mut heights = Vec::with_capacity(ROWS * KINDS * (PARTS + 1));
+        let mut photons = Vec::with_capacity(ROWS * (PARTS + 1));
+        for sums in &sums {
             let mut made = [[0.0; 4]; PARTS + 1];
-            for (lines, range) in LINES.iter().zip(HEIGHTS) {
-                for (part, made) in equal_parts(&sums, *lines).zip(&mut made) {
-                    heights.push(part.height.clamp(range[1], range[0]) as f32);
+            for (lines, [highest, lowest]) in LINES.iter().zip(ends) {
+                for (part, made) in equal_parts(sums, *lines, PARTS).zip(&mut made) {
+                    heights.push((part.height as f32).clamp(lowest, highest));
                     *made = std::array::from_fn(|line| made[line] + (lines[line] * part.made[line]) as f32);
                 }
             }
@@ -112,7 +124,7 @@ impl Quantiles {
                 [green as f32, red as f32]
             })
             .collect();
-        Quantiles { heights, photons, delays }
+        Quantiles { heights, photons, delays, ends }
     }
 
     /// All of them in the order in which shaders/aurora/streaks.wgsl reads them.
@@ -130,13 +142,28 @@ struct Part {
     made: [f64; 4],
 }
 
-/// Equal parts of the light of some lines, from sums of each line at [`STEP`]s down from 500 km: their PARTS + 1 ends.
-fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4]) -> impl Iterator<Item = Part> {
+/// Heights (km) between which all but the part `outside` of the light of each of some lines is made, at either end and in every row.
+fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4], outside: f64) -> [f32; 2] {
+    let parts = (1.0 / outside).round() as usize;
+    let [mut highest, mut lowest] = [HEIGHTS[1], HEIGHTS[0]];
+    for sums in rows {
+        for line in (0..4).filter(|&line| lines[line] > 0.0) {
+            let alone = std::array::from_fn(|k| if k == line { 1.0 } else { 0.0 });
+            let at = |part: usize| equal_parts(sums, alone, parts).nth(part).map(|part| part.height);
+            highest = at(1).map_or(highest, |height| highest.max(height));
+            lowest = at(parts - 1).map_or(lowest, |height| lowest.min(height));
+        }
+    }
+    [highest.min(HEIGHTS[0]) as f32, lowest.max(HEIGHTS[1]) as f32]
+}
+
+/// Equal parts of the light of some lines, from sums of each line at [`STEP`]s down from the first of [`HEIGHTS`]: the ends of so many parts.
+fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4], parts: usize) -> impl Iterator<Item = Part> {
     let of = move |sum: &[f64; 4]| -> f64 { sum.iter().zip(&lines).map(|(sum, line)| sum * line).sum() };
     let total = sums.last().map_or(0.0, of);
     let mut k = 0;
-    (0..=PARTS).map(move |part| {
-        let wanted = total * part as f64 / PARTS as f64;
+    (0..=parts).map(move |part| {
+        let wanted = total * part as f64 / parts as f64;
         while k + 2 < sums.len() && of(&sums[k + 1]) < wanted {
             k += 1;
         }
@@ -144,6 +171,6 @@ fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4]) -> impl Iterator<Item = Part>
         let rise = of(below) - of(above);
         let inside = if rise > 0.0 { ((wanted - of(above)) / rise).clamp(0.0, 1.0) } else { 0.0 };
         let made = std::array::from_fn(|line| above[line] + inside * (below[line] - above[line]));
-        Part { height: 500.0 + 0.5 * STEP - STEP * (k as f64 + inside), made }
+        Part { height: HEIGHTS[0] + 0.5 * STEP - STEP * (k as f64 + inside), made }
     })
 }
