@@ -397,10 +397,8 @@ impl SeenCircle {
             let [[pattern, log], from, to] = [self.pattern, a.pattern, b.pattern];
             let aside = if within.height { pattern * off(log, from[1], to[1]) } else { off(pattern, from[0], to[0]) };
             // Where there is no ray t is not a number.
-            let placed = t > 0.0
-                && t < 1.0
-                && aside * across < within.across
-                && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along;
+            let placed =
+                t > 0.0 && t < 1.0 && aside * across < within.across && off(self.lag, a.lag, b.lag) * along * wide.min(1.0) < within.along;
             placed && {
                 let light = straight(a.log_light, b.log_light).exp();
                 let depth = straight(a.depth, b.depth);
