@@ -35,7 +35,7 @@ const SIGMA: f64 = 1.0;
 /// Least thickness of a curtain's charge, km (a standard deviation): curls are then some 40 km apart, as folds on the sky are 10 to 50 km wide.
 pub const THICKNESS: f64 = 6.0;
 /// Part of a renewal time that a surge takes, and by which power of e it brings nodes nearer to their rest.
-const SURGE: f64 = 0.25;
+const SURGE: f64 = 0.4;
 const SURGES_TO: f64 = 3.0;
 /// A surge comes this long after the one before at the latest, in d/U: later, curls would have wound up more than twice.
 const WOUND_UP: f64 = 24.0;
