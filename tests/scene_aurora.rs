@@ -387,15 +387,23 @@ fn curtains_of_a_planet_fold_again_and_again() {
             Plan { curves: curtains(shape, 3), nodes, field: config.field, renewal: config.renewal, contrast: config.contrast, seed: 3 };
         let mut motion = Motion::new(plan, 0.0);
         let rest = motion.nodes().to_vec();
+        let mut over = Vec::new();
         for minute in 1..=4 {
             for _ in 0..120 {
                 motion.step();
             }
             let (turned, moved) = folded(&motion, &rest);
-            assert!(minute < 2 || turned > 90.0, "minute {minute}: nothing is turned by more than {turned}°");
+            assert!(turned > 90.0, "minute {minute}: nothing is turned by more than {turned}°");
             // At the drift U, half beside a curtain and half from others, for a renewal time and a surge.
             assert!(moved < 2.0 * jump(config.field) * config.renewal, "minute {minute}: {moved} km from its rest");
+            let now = motion.nodes();
+            let pieces = motion.starts().windows(2).flat_map(|window| window[0]..window[1] - 1);
+            let back = pieces.filter(|&k| (now[k + 1].place - now[k].place).dot(rest[k + 1].place - rest[k].place) < 0.0).count();
+            over.push(back as f64 / now.len() as f64);
         }
+        // Pieces that run against their direction at rest: with the grid alone they are 1 to 3 in 100, where surges push a curtain together.
+        let mean = over[1..].iter().sum::<f64>() / 3.0;
+        assert!(mean > 0.05, "{over:?} of the pieces run back");
     }
 }
 
