@@ -17,6 +17,7 @@ use lensrunner::scene::aurora::air;
 use lensrunner::scene::aurora::dipole::on_field_line;
 use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines::{self, Line};
+use lensrunner::scene::aurora::motion::RAYS_LENGTH;
 use lensrunner::scene::aurora::quantiles::Quantiles;
 use lensrunner::scene::aurora::random;
 use lensrunner::spacetime::light::{self, Branch, Order};
@@ -186,6 +187,22 @@ fn the_clock_of_the_rays_starts_again_without_a_jump() {
         assert!((got[0] - got[1]).abs() < 0.03 && (got[2] - got[3]).abs() < 0.03, "{row:?}: {got:?}");
     }
     assert_eq!(RAYS_PERIOD, 102_400.0);
+}
+
+#[test]
+fn rays_go_round_an_oval_without_a_seam() {
+    let rows: Vec<[f32; 4]> = (0..400).map(|k| [0.37 * k as f32, 9.0 * RAYS_LENGTH as f32, 0.0, 0.0]).collect();
+    let body =
+        "twin_out[id.x] = vec4<f32>(rays(row.x, 5.0, 0.0), rays(row.x + row.y, 5.0, 0.0), rays(row.x, 5.0, 1.6), rays(row.x, 5.0, 11.0));";
+    let (mut fine, mut coarse) = (0.0f32, 0.0f32);
+    for (row, got) in rows.iter().zip(run(Pass::AuroraEnds, body, [&[], &[]], &rows, 1)) {
+        // After 15,000 km a number of f32 is a thousandth of one, and noise changes by 2 values a km at most.
+        assert!((got[0] - got[1]).abs() < 0.02, "{row:?}: {got:?}");
+        // Seen kilometres apart, the finer noise goes over to its mean first, and then all of it.
+        (fine, coarse) = (fine.max((got[0] - got[2]).abs()), coarse.max((got[2] - 1.0).abs()));
+        assert!((got[3] - 1.0).abs() < 1e-5, "{got:?}");
+    }
+    assert!(fine > 0.1 && coarse > 0.3, "{fine}, {coarse}");
 }
 
 #[test]

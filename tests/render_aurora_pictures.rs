@@ -319,6 +319,31 @@ fn a_watched_aurora_goes_on_without_a_burst() {
 }
 
 #[test]
+fn an_oval_is_brighter_at_magnetic_midnight() {
+    let (scene, config) = orbit_scene();
+    let size = [96, 54];
+    let mut renderer = renderer_under(&default_surroundings(), size);
+    let stage = Stage::new(&mut renderer, &scene, &config);
+    let planet = scene.planet.unwrap();
+    for time in [0.0, 0.3 * planet.day] {
+        let mut frame = aurora_alone(&stage, stage.camera(time, &[]), size, time, &config);
+        // In the dipole's axes, which turn with the planet; in space it points away from the hole.
+        let [x, y] = [2, 3].map(|k| f64::from(frame.aurora.as_ref().unwrap().settings.strokes[k]));
+        let state = planet.state(time).unwrap();
+        let midnight = state.attitude * planet.dipole() * DVec3::new(x, y, 0.0);
+        assert!(midnight.dot(state.position.normalize()) > 0.4, "{midnight} at {}", state.position);
+        // The light of both sides, with midnight on the one, on the other, and on neither.
+        let lit = [1.0, -1.0, 0.0].map(|part: f64| {
+            frame.aurora.as_mut().unwrap().settings.strokes[2..].copy_from_slice(&[(part * x) as f32, (part * y) as f32]);
+            total(&renderer.picture(&frame, false).unwrap())
+        });
+        // 3 %: brighter parts have harder electrons, whose lines are a little others.
+        assert!(((lit[0] + lit[1]) / (2.0 * lit[2]) - 1.0).abs() < 0.03, "{lit:?}");
+        assert!((lit[0] / lit[1]).ln().abs() > 0.05, "{lit:?}");
+    }
+}
+
+#[test]
 fn lines_shift_as_the_settings_ask() {
     let (scene, mut config) = orbit_scene();
     let size = [96, 54];

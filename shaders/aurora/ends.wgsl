@@ -1,7 +1,8 @@
 // Second pass of the aurora: the ends of each streak's chords, from what was projected beside them. One thread per end and image order.
 
-/// Values of the rays' noise, a power of two; the seconds after which both its drifts have passed a multiple of them stand in show.rs.
-const RAYS_CELLS: i32 = 1024;
+/// Values of the rays' noise, a power of two; the seconds after which both its drifts have passed a multiple of them stand in show.rs, the kilometres in
+/// motion.rs (RAYS_LENGTH).
+const RAYS_CELLS: i32 = 512;
 
 /// Smooth noise in [0, 1], of period RAYS_CELLS in x: the clock may start again without a jump.
 fn ray_noise(x: f32, channel: u32) -> f32 {
@@ -18,11 +19,16 @@ fn resolved(apart: f32) -> f32 {
     return 1.0 - smoothstep(1.0, 3.0, apart);
 }
 
-/// Rays: brightness along the curtain at a few kilometres, drifting, at a time in s; seen at places `apart` nodes from one another.
-fn rays(arc: f32, time: f32, apart: f32) -> f32 {
-    let fine = mix(0.5, ray_noise(arc * 2.7 + 0.11 * time, 3u), resolved(2.7 * apart));
-    let coarse = mix(0.5, ray_noise(arc * 0.83 - 0.07 * time, 4u), resolved(0.83 * apart));
+/// Rays: brightness `along` km of the curtain, a kilometre and three wide, drifting, at a time in s; seen at places `apart` km from one another.
+fn rays(along: f32, time: f32, apart: f32) -> f32 {
+    let fine = mix(0.5, ray_noise(along * 1.2 + 0.11 * time, 3u), resolved(1.2 * apart));
+    let coarse = mix(0.5, ray_noise(along * 0.3 - 0.07 * time, 4u), resolved(0.3 * apart));
     return fine * coarse * 4.0;
+}
+
+/// Brightness of a place by its local time: strokes.zw point to magnetic midnight.
+fn night(place: vec2<f32>) -> f32 {
+    return 1.0 + dot(place, aurora.strokes.zw) / max(length(place), 1.0);
 }
 
 @compute @workgroup_size(64)
@@ -61,12 +67,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let pole = normalize(place + vec2<f32>(1e-6, 0.0));
     let towards = step / max(length(step), 1e-6);
     let turn = vec2<f32>(pole.x * towards.y - pole.y * towards.x, -dot(pole, towards));
-    let apart = streak.apart * f32(segment.range.w);
-    let node = f32(segment.range.y) + nodes_along;
-    let waited = mix(a.z, b.z, part) * mix(1.0, rays(node, aurora.clock.z - wait, apart), aurora.clock.w);
+    let apart = streak.apart * f32(segment.range.w) * (b.w - a.w);
+    let along = mix(a.w, b.w, part);
+    let whole = night(place);
+    let waited = whole * mix(a.z, b.z, part) * mix(1.0, rays(along, aurora.clock.z - wait, apart), aurora.clock.w);
     let now_a = node_at(segment.range.y + before, aurora.clock.y).z;
     let now_b = node_at(segment.range.y + before + 1u, aurora.clock.y).z;
-    let prompt = mix(now_a, now_b, part) * mix(1.0, rays(node, aurora.clock.z, apart), aurora.clock.w);
+    let prompt = whole * mix(now_a, now_b, part) * mix(1.0, rays(along, aurora.clock.z, apart), aurora.clock.w);
     end.along = vec4<f32>(reference.east.xyz * turn.x + reference.north.xyz * turn.y, waited);
     end.across = vec4<f32>(reference.north.xyz * turn.x - reference.east.xyz * turn.y, prompt);
     chords[id.y * aurora.counts.x * ends + index] = end;

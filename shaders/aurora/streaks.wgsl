@@ -8,7 +8,7 @@ struct AuroraSettings {
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
-    /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw unused.
+    /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw: to magnetic midnight, as long as it is brighter there.
     strokes: vec4<f32>,
     /// Greatest and least height in km of green light (xy) and of red (zw).
     heights: vec4<f32>,
@@ -49,7 +49,7 @@ struct ChordEnd {
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
 @group(1) @binding(1) var<storage, read> aurora_placements: array<Placement>;
-/// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean.
+/// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean, w: place along the curtain at rest in km.
 @group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
 @group(1) @binding(3) var<storage, read> segments: array<Segment>;
 /// Photons (ROWS × (PARTS + 1) × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.

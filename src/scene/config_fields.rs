@@ -202,8 +202,8 @@ config! {
         thermal: f64 = 1.5, number(0.2, 20.0), "keV", "thermal energy on top of it";
         flux: f64 = 20.0, number(0.0, 1000.0), "erg cm^-2 s^-1", "energy flux in a curtain";
         brightness: f64 = 0.007, number(0.0, 10.0), "per kilorayleigh", "what a kilorayleigh of green light is in the picture";
-        field: f64 = 30.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";
-        renewal: f64 = 45.0, number(1.0, 1000.0), "s", "time in which new electrons bring a curtain back to its place";
+        field: f64 = 50.0, number(0.0, 500.0), "mV/m", "electric field beside a curtain: how fast it folds";
+        renewal: f64 = 60.0, number(1.0, 1000.0), "s", "time between two surges of new electrons, which bring a curtain back to its place";
         contrast: f64 = 0.7, number(0.0, 1.0), "", "contrast of the rays and of the brightness that travels along the curtains";
         pace: f64 = 4.0, number(0.0, 1000.0), "s per r_s/c", "how fast the aurora moves against the game's clock";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which aurora";

@@ -19,7 +19,7 @@ use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::fall::Spectrum;
 use crate::scene::aurora::lines::kilorayleigh_xyz;
-use crate::scene::aurora::motion::{Motion, Plan, STEP};
+use crate::scene::aurora::motion::{Motion, Plan, STEP, length};
 use crate::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
 use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Surroundings;
@@ -36,8 +36,13 @@ const ROW: f64 = 1.0;
 const MOST_ROWS: usize = 2;
 /// Seconds after which the rays' noise is the same again: in them it drifts by 11 and by 7 times its 1024 values (project.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
-/// Nodes of all curtains together.
-const NODES: usize = 1024;
+/// Distance between nodes of the curtains, km, and how many they are together: curls are seven nodes round at least.
+const NODE_SPACING: f64 = 6.0;
+const NODES: [usize; 2] = [1024, 4096];
+/// About how many parts of curtains are drawn at most: of many nodes, several pairs make one.
+const MOST_SEGMENTS: usize = 1024;
+/// How much brighter an oval is at magnetic midnight, which is away from the hole and its disk, and fainter at noon.
+const MIDNIGHT: f64 = 0.5;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
 const REACH: f64 = 1.0 + HEIGHTS[0] / PLANET_RADIUS;
 /// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
@@ -130,9 +135,11 @@ impl Show {
         if !config.enabled || planet.aurora == AuroraShape::None {
             return None;
         }
+        let curves = curtains(planet.aurora, config.seed);
+        let kilometres: f64 = curves.iter().map(length).sum();
         let plan = Plan {
-            curves: curtains(planet.aurora, config.seed),
-            nodes: NODES,
+            curves,
+            nodes: ((kilometres / NODE_SPACING) as usize).clamp(NODES[0], NODES[1]),
             field: config.field,
             renewal: config.renewal,
             contrast: config.contrast,
@@ -257,11 +264,14 @@ impl Show {
         let spread = segments.iter().map(|segment| spread(segment, poles)).fold(0.0, f64::max);
         let widest = self.config.radius.hypot(spread) * scale / (nearest * view.pixel) * drawn_out;
         let levels = if nearest <= object.reach || widest > NARROW { PYRAMID } else { 1 };
+        // Away from the hole, in the axes of the dipole.
+        let away = (now.attitude.inverse() * now.position).normalize_or_zero().truncate();
+        let midnight = if both { MIDNIGHT * away } else { DVec2::ZERO };
         frame.settings = AuroraSettings {
             counts: [streaks, chords, parts, row as u32],
             history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
-            strokes: [self.config.radius as f32, levels as f32, 0.0, 0.0],
+            strokes: [self.config.radius as f32, levels as f32, midnight.x as f32, midnight.y as f32],
             heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
         };
         frame.segments = segments;
@@ -310,7 +320,7 @@ impl Show {
 
     /// The curtains as they are now become the newest row.
     fn keep(&mut self, motion: &Motion) {
-        let row = motion.nodes().iter().map(|node| [node.place.x as f32, node.place.y as f32, node.flux as f32, 0.0]).collect();
+        let row = motion.nodes().iter().map(|node| [node.place.x, node.place.y, node.flux, node.along].map(|x| x as f32)).collect();
         self.newest = motion.time();
         self.rows.push_front(row);
         self.rows.truncate(ROWS);
@@ -361,12 +371,13 @@ impl Show {
             (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks)) * self.ration.part();
         // On the small, several pairs of nodes make one.
         let least = if both { 2 * TURN } else { TURN };
-        let stride = ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).clamp(1, 64);
+        let stride =
+            ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).max(row.len().div_ceil(MOST_SEGMENTS)).clamp(1, 64);
         let mut segments = Vec::new();
         let mut first = 0;
         for (window, curve) in motion.starts().windows(2).zip(&self.plan.curves) {
             let pairs = window[1] - window[0] - 1;
-            let length: f64 = motion.rest_length(curve) / pairs as f64;
+            let length: f64 = length(curve) / pairs as f64;
             let mut k = 0;
             while k < pairs {
                 let span = stride.min(pairs - k);

@@ -12,36 +12,38 @@ use crate::scene::planet::AuroraShape;
 /// Colatitude of the auroral oval, radians (21°), and of the middle of the arcs (magnetic latitude 67.9°).
 const OVAL: f64 = 0.367;
 const ARCS: f64 = 0.3857;
-/// A quarter of a circle by a cubic Bézier curve: its handles over its radius.
-const QUARTER: f64 = 0.5523;
+/// Parts of an oval, each with waves of its own.
+const PARTS: u32 = 12;
 
 /// The curves of an aurora of this shape.
 pub fn curtains(shape: AuroraShape, seed: u32) -> Vec<Curve> {
     match shape {
         AuroraShape::None => Vec::new(),
         AuroraShape::Oval => {
-            let mut curves = ring(OVAL, 12.0, [26.0, 5.0], seed);
-            // A second curtain poleward, on the night side of it only.
-            curves.extend(ring(0.83 * OVAL, 8.0, [18.0, 4.0], seed.wrapping_add(50)).into_iter().take(2));
+            let mut curves = ring(OVAL, 12.0, [20.0, 4.0], seed);
+            // A second curtain poleward, half of the way round: where that is turns with the planet.
+            curves.extend(ring(0.83 * OVAL, 8.0, [15.0, 3.0], seed.wrapping_add(50)).into_iter().take(PARTS as usize / 2));
             curves
         }
         AuroraShape::Arcs => [(-75.0, 2.0, 380.0), (0.0, 3.0, 520.0), (55.0, 1.5, 300.0)].map(|arc| self::arc(arc, seed)).to_vec(),
     }
 }
 
-/// A closed curve of four quarters round the pole; `sine` is height (km) and waves of each quarter.
+/// A closed curve of [`PARTS`] arcs round the pole; `sine` is height (km) and waves of each.
 fn ring(colatitude: f64, width: f64, sine: [f64; 2], seed: u32) -> Vec<Curve> {
     let radius = colatitude * (PLANET_RADIUS + REFERENCE_HEIGHT);
-    (0..4)
-        .map(|quarter| {
-            let random = |k: u32| f64::from(uniform(seed, quarter, k));
-            let angle = 0.25 * TAU * f64::from(quarter);
-            let (a, b) = (DVec2::from_angle(angle), DVec2::from_angle(angle + 0.25 * TAU));
+    let part = TAU / f64::from(PARTS);
+    // Of a cubic Bézier curve that is a part of a circle: its handles over its radius.
+    let handle = 4.0 / 3.0 * (0.25 * part).tan();
+    (0..PARTS)
+        .map(|k| {
+            let random = |number: u32| f64::from(uniform(seed, k, number));
+            let (a, b) = (DVec2::from_angle(part * f64::from(k)), DVec2::from_angle(part * f64::from(k + 1)));
             Curve {
-                control: [a, a + a.perp() * QUARTER, b - b.perp() * QUARTER, b].map(|point| point * radius),
-                // A whole number of waves from nought to nought: the quarters join.
-                amplitude: sine[0] * (0.6 + 0.8 * random(0)),
-                waves: (sine[1] * (0.7 + 0.6 * random(1))).round(),
+                control: [a, a + a.perp() * handle, b - b.perp() * handle, b].map(|point| point * radius),
+                // A whole number of waves from nought to nought: the parts join.
+                amplitude: sine[0] * (0.2 + 1.2 * random(0)),
+                waves: (sine[1] * (0.5 + random(1))).round(),
                 phase: 0.0,
                 width,
             }

@@ -2,7 +2,7 @@
 //!
 //! Paper 3 (Sekiguchi, Fujisawa and Mikawa, *Fast Simulation and Rendering of Aurora Using Screen Space*) with measured air and cross
 //! sections in place of tuned radii. The way of an electron, file by file: [`curve`] (seeds along a Bézier curve with a sine in the plane
-//! across the field) → [`motion`] (charge → [`poisson`] → electric field → drift in that plane) → [`dipole`] (the field line down) →
+//! across the field; a [`chain`] is several of them) → [`motion`] (charge → [`poisson`], and [`near`] what is finer → electric field → drift in that plane) → [`dipole`] (the field line down) →
 //! [`fall`] (collisions by the density of the [`air`]) → [`lines`] (photons by line, height and delay; their colours). [`deposition`] is
 //! the judge of the fall: the parameterisation of Fang and others (2010). [`curtains`] are the auroras of a planet, and [`quantiles`] the
 //! fall and its light as tables for the GPU.
@@ -10,6 +10,7 @@
 //! Units here are those of the field's tables: heights in km, energies in keV, densities in cm⁻³ and g cm⁻³, times in s.
 
 pub mod air;
+pub mod chain;
 pub mod curtains;
 pub mod curve;
 pub mod deposition;
@@ -17,6 +18,7 @@ pub mod dipole;
 pub mod fall;
 pub mod lines;
 pub mod motion;
+pub mod near;
 pub mod poisson;
 pub mod quantiles;
 pub mod random;

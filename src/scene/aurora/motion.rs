@@ -1,14 +1,24 @@
 //! The motion of the curtains in the plane across the field: charge → potential → electric field → drift (paper 3, 2.4).
 //!
-//! The electrons that come down charge the sheet negatively. The charges are laid on a grid (cloud in cell), −∇²V = ρ/ε₀ is solved with V = 0 on
-//! the edge of the square ([`Poisson`]), E = −∇V by central differences, and every node drifts with E × B/B², which is what the Lorentz force
-//! leaves of a charge's motion once its gyration (a microsecond for electrons) is averaged away. A charged sheet in this drift is a vortex
-//! sheet: it folds and curls by itself, in the north counterclockwise as seen from the ground (Hallinan and Davis 1970). New electrons keep arriving
-//! where the curve was, so nodes are drawn back to it within the renewal time, and no fold winds up without end.
+//! The electrons that come down charge the sheet negatively. Each node carries the charge of its share of the curve, as a Gaussian as thick as the sheet.
+//! What is far is solved on a grid: charges laid out cloud in cell, −∇²V = ρ/ε₀ with V = 0 on the edge of the square ([`Poisson`]), E = −∇V by central
+//! differences. What is near, and finer than the grid, is summed over pairs of nodes ([`Near`]). Every node drifts with E × B/B², which is what the
+//! Lorentz force leaves of a charge's motion once its gyration (a microsecond for electrons) is averaged away. A charged sheet in this drift is a vortex
+//! sheet: its waves grow, fold and curl by themselves, in the north counterclockwise as seen from the ground (Hallinan and Davis 1970). A wave of
+//! wavenumber k that is long against the sheet's thickness d grows at kU/2, U the jump of the drift across the sheet; waves of 2πd grow fastest, at
+//! 0.22 U/d, and those below 3 d hardly.
+//!
+//! New electrons keep arriving where the curve was. They come in surges that run along the curtain: between two of them it folds freely, and in a surge
+//! its nodes go back to where they rest. Drawn back all the time instead, nodes that turn in a curl would fall into its middle, since turning
+//! evens out where they are drawn to: their charge would gather in knots that grow.
+
+use std::f64::consts::TAU;
 
 use glam::DVec2;
 
+use super::chain::{Link, links};
 use super::curve::Curve;
+use super::near::{Charge, Near};
 use super::poisson::Poisson;
 use super::random::uniform;
 
@@ -20,6 +30,22 @@ pub const STEP: f64 = 0.5;
 pub const FIELD: f64 = 5e-5;
 /// No node drifts faster, km s⁻¹: the fastest seen in the ionosphere are near 4.
 pub const TOP_SPEED: f64 = 4.0;
+/// What the grid has instead of each charge: a Gaussian of so many cells, the least at which modes between its points are gone (to 1 %).
+const SIGMA: f64 = 1.0;
+/// Least thickness of a curtain's charge, km (a standard deviation): curls are then some 40 km apart, as folds on the sky are 10 to 50 km wide.
+pub const THICKNESS: f64 = 6.0;
+/// Part of a renewal time that a surge takes, and by which power of e it brings nodes nearer to their rest.
+const SURGE: f64 = 0.4;
+const SURGES_TO: f64 = 3.0;
+/// A surge comes this long after the one before at the latest, in d/U: later, curls would have wound up more than twice.
+const WOUND_UP: f64 = 24.0;
+/// Length of the noise by which surges come earlier and later along a curtain, km, and by how many renewal times they do.
+const SURGE_LENGTH: f64 = 250.0;
+const SURGE_SPREAD: f64 = 1.5;
+/// Lengths of the waves of brightness that travel along the curtains, km, and the times in which they pass a node, s.
+const WAVES: [(f64, f64); 2] = [(95.0, 23.0), (30.0, -9.0)];
+/// Round a ring [`Node::along`] grows by a multiple of this, km: the period of the rays' noise in shaders/aurora/ends.wgsl, 512 values at 0.3 a km.
+pub const RAYS_LENGTH: f64 = 512.0 / 0.3;
 
 /// What moves, and how strongly.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +56,7 @@ pub struct Plan {
     pub nodes: usize,
     /// Electric field toward a long straight curtain beside it, mV/m: the sheet's charge is −2 ε₀ of it.
     pub field: f64,
-    /// Time in which new electrons take the place of old, s.
+    /// Time between two surges in which new electrons take the place of old, s; infinite for none.
     pub renewal: f64,
     /// Contrast of the brightness that travels along the curtains, 0 to 1.
     pub contrast: f64,
@@ -45,18 +71,23 @@ pub struct Node {
     pub place: DVec2,
     /// Energy flux over its mean.
     pub flux: f64,
+    /// Where it lies along its curtain at rest, km, for the pattern of rays; stretched a little round a ring, for a whole number of [`RAYS_LENGTH`].
+    pub along: f64,
 }
 
 /// All curtains, stepping at a fixed rate.
 #[derive(Clone, Debug)]
 pub struct Motion {
     plan: Plan,
-    /// Curve and place along it of each node.
-    rest: Vec<(usize, f64)>,
+    /// Where each node is at rest: curve, place along it, and place, km.
+    rest: Vec<(usize, f64, DVec2)>,
+    /// By how many renewal times surges come earlier at each node.
+    early: Vec<f64>,
     /// First node of each curve, and their number after the last.
     starts: Vec<usize>,
-    /// Whether a curve goes on in another before its start and after its end.
-    joined: Vec<[bool; 2]>,
+    /// Lengths of the curves at rest, km, and how they go on in one another.
+    lengths: Vec<f64>,
+    links: Vec<Link>,
     nodes: Vec<Node>,
     /// Speeds of the last step, for Adams and Bashforth's second-order step.
     speeds: Vec<DVec2>,
@@ -65,6 +96,7 @@ pub struct Motion {
     side: f64,
     poisson: Poisson,
     grid: Vec<f64>,
+    near: Near,
     caught: u64,
 }
 
@@ -78,29 +110,44 @@ impl Motion {
         for (index, part) in lengths.iter().enumerate() {
             // At least a few, so that every curve can bend.
             let count = ((plan.nodes as f64 * part / total).round() as usize).max(8);
-            rest.extend((0..count).map(|k| (index, k as f64 / (count - 1) as f64)));
+            let at = |k: usize| k as f64 / (count - 1) as f64;
+            rest.extend((0..count).map(|k| (index, at(k), plan.curves[index].point(at(k)))));
             starts.push(rest.len());
         }
-        let points: Vec<DVec2> = rest.iter().map(|&(curve, t)| plan.curves[curve].point(t)).collect();
-        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let low = rest.iter().map(|rest| rest.2).fold(DVec2::INFINITY, DVec2::min);
+        let high = rest.iter().map(|rest| rest.2).fold(DVec2::NEG_INFINITY, DVec2::max);
         // Twice as wide as the charges: the grounded frame is then far.
         let side = 2.0 * (high - low).max_element().max(10.0);
-        let nodes: Vec<Node> = points.iter().map(|&place| Node { place, flux: 1.0 }).collect();
+        let centre = 0.5 * (low + high);
+        let spacing = side / (GRID + 1) as f64;
+        let links = links(&plan.curves, &lengths);
+        let along = |curve: usize, t: f64| {
+            let link = links[curve];
+            let stretch = if link.closed { (link.total / RAYS_LENGTH).round().max(1.0) * RAYS_LENGTH / link.total.max(1e-6) } else { 1.0 };
+            // Each chain has other rays.
+            (link.start + t * lengths[curve]) * stretch + 613.0 * link.chain as f64
+        };
+        let nodes: Vec<Node> = rest.iter().map(|&(curve, t, place)| Node { place, flux: 1.0, along: along(curve, t) }).collect();
         let mut motion = Motion {
             speeds: vec![DVec2::ZERO; nodes.len()],
+            near: Near::new(1.0, SIGMA * spacing, centre, side),
+            poisson: Poisson::of_clouds(GRID, spacing, SIGMA * spacing),
+            grid: vec![0.0; GRID * GRID],
             rest,
+            early: Vec::new(),
             starts,
-            joined: joints(&plan.curves),
+            lengths,
+            links,
             nodes,
             time,
-            centre: 0.5 * (low + high),
+            centre,
             side,
-            poisson: Poisson::new(GRID, side / (GRID + 1) as f64),
-            grid: vec![0.0; GRID * GRID],
             caught: 0,
             plan,
         };
+        motion.near.thicken(motion.thickness());
+        let early = |&(curve, t, _): &(usize, f64, DVec2)| SURGE_SPREAD * motion.noise_along(curve, t, SURGE_LENGTH, 0.0, 900);
+        motion.early = motion.rest.iter().map(early).collect();
         motion.shine();
         motion
     }
@@ -114,6 +161,14 @@ impl Motion {
     /// Strength of the field, renewal time and contrast as in [`Plan`], from now on.
     pub fn change(&mut self, field: f64, renewal: f64, contrast: f64) {
         (self.plan.field, self.plan.renewal, self.plan.contrast) = (field, renewal, contrast);
+        self.near.thicken(self.thickness());
+    }
+
+    /// Thickness d of the sheet, km: the standard deviation of the Gaussian that each node's charge is. At least as far as nodes lie apart at rest, so that
+    /// a sheet drawn out to twice its length is still even to 2 %, and no less than drifts past in a step, so that waves grow by an eighth in one at most.
+    pub fn thickness(&self) -> f64 {
+        let spacing = self.lengths.iter().sum::<f64>() / (self.nodes.len() - self.lengths.len()).max(1) as f64;
+        THICKNESS.max(spacing).max(jump(self.plan.field).abs() * STEP)
     }
 
     /// The time reached, s.
@@ -131,11 +186,6 @@ impl Motion {
         &self.starts
     }
 
-    /// Length of a curve at rest, km.
-    pub fn rest_length(&self, curve: &Curve) -> f64 {
-        length(curve)
-    }
-
     /// Nodes whose speed was not finite, and that were put back to where they rest, so far.
     pub fn caught(&self) -> u64 {
         self.caught
@@ -143,21 +193,19 @@ impl Motion {
 
     /// One step of [`STEP`] seconds.
     pub fn step(&mut self) {
-        self.charge();
+        let charges: Vec<Charge> = self.charge().collect();
+        self.lay_out(&charges);
         self.poisson.solve(&mut self.grid);
+        self.near.sort(charges);
         self.time += STEP;
         for k in 0..self.nodes.len() {
-            let (curve, t) = self.rest[k];
-            let home = self.plan.curves[curve].point(t);
+            let home = self.rest[k].2;
             let place = self.nodes[k].place;
-            let field = self.field_at(place);
-            // mV/m over T is mm/s·1000: 1e-3/B m/s, 1e-6/B km/s. The field points down, so E × B turns E to the left seen from above.
-            let drift = (field.perp() * (1e-6 / FIELD)).clamp_length_max(TOP_SPEED);
-            let speed = drift + (home - place) / self.plan.renewal.max(STEP);
-            let next = place + (1.5 * speed - 0.5 * self.speeds[k]) * STEP;
+            let drift = drift(self.field_at(place)).clamp_length_max(TOP_SPEED);
+            let next = place + (1.5 * drift - 0.5 * self.speeds[k]) * STEP;
             if next.is_finite() {
-                self.nodes[k].place = next;
-                self.speeds[k] = speed;
+                self.nodes[k].place = home + (next - home) * (-self.renewed(k) * STEP).exp();
+                self.speeds[k] = drift;
             } else {
                 self.nodes[k].place = home;
                 self.speeds[k] = DVec2::ZERO;
@@ -167,13 +215,47 @@ impl Motion {
         self.shine();
     }
 
+    /// The rate (1/s) at which new electrons take the place of old where a node is.
+    fn renewed(&self, k: usize) -> f64 {
+        if self.plan.renewal == f64::INFINITY {
+            return 0.0;
+        }
+        let period = self.plan.renewal.max(STEP).min(WOUND_UP * self.thickness() / jump(self.plan.field).abs().max(1e-6));
+        let phase = (self.time / period + self.early[k]).rem_euclid(1.0) / SURGE;
+        if phase < 1.0 { SURGES_TO / (SURGE * period) * (1.0 - (TAU * phase).cos()) } else { 0.0 }
+    }
+
+    /// Smooth noise in [0, 1] along the curtains, a value every so many km, without a seam round a ring; it has moved by `gone` values.
+    fn noise_along(&self, curve: usize, t: f64, long: f64, gone: f64, channel: u32) -> f64 {
+        let link = self.links[curve];
+        let round = (link.total / long).round().max(1.0);
+        let (values, round) = if link.closed { (round / link.total.max(1e-6), round) } else { (1.0 / long, f64::INFINITY) };
+        let channel = self.plan.seed.wrapping_mul(7919).wrapping_add(link.chain as u32 * 2 + channel);
+        smooth_noise(channel, (link.start + t * self.lengths[curve]) * values - gone, round)
+    }
+
     /// The potential on the grid after the last step, V (mV/m times km), row by row from low x and y: for tests and charts.
     pub fn potential(&self) -> &[f64] {
         &self.grid
     }
 
-    /// The field at a place after the last step, mV/m.
+    /// The field at a place where the charges were before the last step, mV/m.
     pub fn field_at(&self, place: DVec2) -> DVec2 {
+        self.far_at(place) + self.near.field_at(place)
+    }
+
+    /// The charges as they were before the last step.
+    pub fn charges(&self) -> &[Charge] {
+        self.near.charges()
+    }
+
+    /// The middle of the grounded square and its side, km.
+    pub fn square(&self) -> (DVec2, f64) {
+        (self.centre, self.side)
+    }
+
+    /// The field of the grid: of all charges as Gaussians of a cell's width.
+    fn far_at(&self, place: DVec2) -> DVec2 {
         let spacing = self.spacing();
         let p = (place - self.centre + 0.5 * self.side) / spacing - 1.0;
         if !p.is_finite() {
@@ -185,8 +267,11 @@ impl Motion {
         };
         let (i, j) = (p.x.floor() as i64, p.y.floor() as i64);
         let s = p - DVec2::new(i as f64, j as f64);
+        // Central differences of fourth order: the second order's are short by a twelfth where the grid's part hands over to the pairs.
         let at = |i: i64, j: i64| {
-            -DVec2::new(potential(i + 1, j) - potential(i - 1, j), potential(i, j + 1) - potential(i, j - 1)) / (2.0 * spacing)
+            let near = DVec2::new(potential(i + 1, j) - potential(i - 1, j), potential(i, j + 1) - potential(i, j - 1));
+            let far = DVec2::new(potential(i + 2, j) - potential(i - 2, j), potential(i, j + 2) - potential(i, j - 2));
+            -(8.0 * near - far) / (12.0 * spacing)
         };
         at(i, j).lerp(at(i + 1, j), s.x).lerp(at(i, j + 1).lerp(at(i + 1, j + 1), s.x), s.y)
     }
@@ -195,53 +280,68 @@ impl Motion {
         self.side / (GRID + 1) as f64
     }
 
-    /// Lays the charges on the grid: ρ/ε₀ in mV/m per km.
-    fn charge(&mut self) {
+    /// The charge of each node: of its share of its curve at rest, half as much at the ends; stretching thins it out. Electrons: it is negative.
+    fn charge(&self) -> impl Iterator<Item = Charge> {
+        self.starts.windows(2).enumerate().flat_map(move |(curve, window)| {
+            let share = -2.0 * self.plan.field * self.lengths[curve] / (window[1] - window[0] - 1) as f64;
+            (window[0]..window[1]).map(move |k| {
+                let part = if k == window[0] || k + 1 == window[1] { 0.5 } else { 1.0 };
+                Charge { place: self.nodes[k].place, amount: share * part * self.nodes[k].flux }
+            })
+        })
+    }
+
+    /// Lays the charges on the grid, cloud in cell: ρ/ε₀ in mV/m per km.
+    fn lay_out(&mut self, charges: &[Charge]) {
         self.grid.fill(0.0);
         let spacing = self.spacing();
-        for (curve, window) in self.starts.windows(2).enumerate() {
-            let count = window[1] - window[0];
-            // Each node carries the charge of its share of the curve at rest; stretching thins it out.
-            // Electrons: it is negative.
-            let charge = -2.0 * self.plan.field * length(&self.plan.curves[curve]) / count as f64 / (spacing * spacing);
-            for node in &self.nodes[window[0]..window[1]] {
-                let p = (node.place - self.centre + 0.5 * self.side) / spacing - 1.0;
-                let (i, j) = (p.x.floor(), p.y.floor());
-                let s = p - DVec2::new(i, j);
-                for (di, dj, weight) in
-                    [(0, 0, (1.0 - s.x) * (1.0 - s.y)), (1, 0, s.x * (1.0 - s.y)), (0, 1, (1.0 - s.x) * s.y), (1, 1, s.x * s.y)]
-                {
-                    let (i, j) = (i as i64 + di, j as i64 + dj);
-                    if (0..GRID as i64).contains(&i) && (0..GRID as i64).contains(&j) {
-                        self.grid[j as usize * GRID + i as usize] += charge * node.flux * weight;
-                    }
+        for charge in charges {
+            let p = (charge.place - self.centre + 0.5 * self.side) / spacing - 1.0;
+            let (i, j) = (p.x.floor(), p.y.floor());
+            let s = p - DVec2::new(i, j);
+            for (di, dj, weight) in
+                [(0, 0, (1.0 - s.x) * (1.0 - s.y)), (1, 0, s.x * (1.0 - s.y)), (0, 1, (1.0 - s.x) * s.y), (1, 1, s.x * s.y)]
+            {
+                let (i, j) = (i as i64 + di, j as i64 + dj);
+                if (0..GRID as i64).contains(&i) && (0..GRID as i64).contains(&j) {
+                    self.grid[j as usize * GRID + i as usize] += charge.amount * weight / (spacing * spacing);
                 }
             }
         }
     }
 
-    /// Brightness that travels along the curtains: two octaves of smooth noise, going at different speeds.
+    /// Brightness that travels along the curtains: two octaves of smooth noise, going at different speeds, without a seam round a ring.
     fn shine(&mut self) {
         for k in 0..self.nodes.len() {
-            let (curve, t) = self.rest[k];
+            let (curve, t, _) = self.rest[k];
+            let link = self.links[curve];
             // A curtain that ends fades out over the last tenth of it.
             let end = |joined: bool, t: f64| if joined { 1.0 } else { smooth((t / 0.12).min(1.0)) };
-            let fade = end(self.joined[curve][0], t) * end(self.joined[curve][1], 1.0 - t);
-            let along = (k - self.starts[curve]) as f64;
-            let channel = self.plan.seed.wrapping_mul(7919).wrapping_add(curve as u32 * 2);
-            // Patterns a few dozen nodes long, passing a node in ten seconds or so.
-            let wave = 0.65 * smooth_noise(channel, along / 41.0 - self.time / 23.0)
-                + 0.35 * smooth_noise(channel + 1, along / 13.0 + self.time / 9.0);
-            self.nodes[k].flux = fade * (1.0 + self.plan.contrast.clamp(0.0, 1.0) * (2.0 * wave - 1.0));
+            let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
+            let wave = [0, 1].map(|octave: usize| {
+                let (long, passing) = WAVES[octave];
+                self.noise_along(curve, t, long, self.time / passing, octave as u32)
+            });
+            self.nodes[k].flux = fade * (1.0 + self.plan.contrast.clamp(0.0, 1.0) * (1.3 * wave[0] + 0.7 * wave[1] - 1.0));
         }
     }
 }
 
-/// Noise in [0, 1], smooth, one value per unit of `x`.
-fn smooth_noise(channel: u32, x: f64) -> f64 {
+/// The drift E × B/B² in a field (mV/m), km s⁻¹: B points down, so it turns E to the left seen from above. mV/m over T is mm/s·1000.
+fn drift(field: DVec2) -> DVec2 {
+    field.perp() * (1e-6 / FIELD)
+}
+
+/// The jump U of the drift across a long straight curtain with a field (mV/m) toward it from both sides, km s⁻¹.
+pub fn jump(field: f64) -> f64 {
+    2.0 * field * (1e-6 / FIELD)
+}
+
+/// Noise in [0, 1], smooth, one value per unit of `x`, the same again after `round` of them.
+fn smooth_noise(channel: u32, x: f64, round: f64) -> f64 {
     let cell = x.floor();
     let s = x - cell;
-    let at = |k: f64| f64::from(uniform(channel, k as i64 as u32, 77));
+    let at = |k: f64| f64::from(uniform(channel, (if round.is_finite() { k.rem_euclid(round) } else { k }) as i64 as u32, 77));
     at(cell) + (at(cell + 1.0) - at(cell)) * smooth(s)
 }
 
@@ -250,16 +350,7 @@ fn smooth(s: f64) -> f64 {
     s * s * (3.0 - 2.0 * s)
 }
 
-/// For each curve whether another begins or ends where it starts, and where it ends.
-fn joints(curves: &[Curve]) -> Vec<[bool; 2]> {
-    let meets = |own: usize, place: DVec2| {
-        let mut others = curves.iter().enumerate().filter(|(index, _)| *index != own);
-        others.any(|(_, curve)| [0.0, 1.0].iter().any(|&t| curve.point(t).distance(place) < 1.0))
-    };
-    curves.iter().enumerate().map(|(index, curve)| [0.0, 1.0].map(|t| meets(index, curve.point(t)))).collect()
-}
-
 /// Length of a curve, km, by 256 chords.
-fn length(curve: &Curve) -> f64 {
+pub fn length(curve: &Curve) -> f64 {
     (0..256).map(|k| curve.point(f64::from(k) / 256.0).distance(curve.point(f64::from(k + 1) / 256.0))).sum()
 }
