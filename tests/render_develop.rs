@@ -136,7 +136,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
             let (column, row) = (k as u32 % size[0], k as u32 / size[0]);
             let place = [f64::from(column) + 0.5 - 80.0, f64::from(row) + 0.5 - 45.0].map(|side| side / 160.0);
             let off = (place[0] - f64::from(circle[0])).hypot(place[1] - f64::from(circle[1]));
-            assert!(off < f64::from(circle[2]), "the own ship's pixel {column}, {row} is metered");
+            assert!(off < f64::from(circle[2]), "the own ship's pixel {column}, {row} is metered: {off} from {circle:?}");
         }
         assert!(circle[2] < 0.25, "{circle:?} is more than the ship");
         for (k, (lit, plain)) in lit.linear.iter().zip(&plain.linear).enumerate() {

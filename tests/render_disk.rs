@@ -6,6 +6,7 @@ use glam::DVec3;
 use lensrunner::measure::disk;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
+use lensrunner::render::disk::arcs::ArcPass;
 use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::readback;
@@ -54,7 +55,9 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera) -> Drawn {
     assert_eq!((counters.coarse, counters.caught), (0, 0));
     let bytes = readback::buffer(&GPU, renderer.disk().unwrap().arcs().indices()).unwrap();
     let indices: &[u32] = bytemuck::cast_slice(&bytes);
-    let triangles = indices[..counters.indices[0] as usize].chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
+    // Those of order 1, near and beyond.
+    let lists = [0, 3].map(|list| &indices[ArcPass::lists()[list] as usize..][..counters.indices[list] as usize]);
+    let triangles = lists.concat().chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
     Drawn { grid, all, triangles }
 }
 

@@ -230,11 +230,13 @@ fn glow(history: &History, time: f64, full: f64) -> f64 {
     IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share
 }
 
-/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it: middle and radius in widths of the picture. That is exact enough for what is
-/// a few lengths away, and what is far away is small.
+/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in widths of the picture. That is
+/// exact enough for what is a few lengths away, and what is far away is small.
 fn circle(camera: &Camera, image: &Placed, reach: f64) -> [f32; 3] {
-    let [x, y, z, _] = image.placement.offset.map(f64::from);
-    let offset = DVec3::new(x, y, z);
+    let [x, y, z, delay] = image.placement.offset.map(f64::from);
+    // Space falls inwards at √(1/r) and takes the light with it.
+    let radius = camera.radius().max(1e-3);
+    let offset = DVec3::new(x, y, z) - camera.position / radius * (delay / radius.sqrt());
     let apparent = (camera.camera_from_rain() * offset.extend(-offset.length())).truncate();
     if image.placement.ids[0] != 1 || apparent.z >= -1e-3 {
         return [0.0; 3];

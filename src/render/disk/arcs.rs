@@ -105,9 +105,8 @@ impl ArcPass {
         let [columns, arcs, rows, rings] = view.frame.sizes;
         let grid = columns * rows;
         view.frame.room[0] = grid + EXTRA;
-        let ends: [u32; 4] = std::array::from_fn(|list| INDICES[..=list].iter().sum());
-        view.frame.regions = [0, ends[0], ends[1], ends[2]];
-        view.frame.room[3] = ends[3];
+        view.frame.regions = ArcPass::lists();
+        view.frame.room[3] = INDICES.iter().sum();
         self.threads = [grid, arcs * rows, arcs * rings];
         self.close = view.close;
         let device = &gpu.device;
@@ -197,6 +196,11 @@ impl ArcPass {
     /// Seen vertices: rows of the grid, then what halving made.
     pub fn seen(&self) -> &wgpu::Buffer {
         &self.seen.buffer
+    }
+
+    /// Where the indices of each list of triangles begin: orders 1 to 3, and what of order 1 lies beyond a close look.
+    pub fn lists() -> [u32; 4] {
+        std::array::from_fn(|list| INDICES[..list].iter().sum())
     }
 
     /// Indices of the triangles, list by list.
