@@ -467,3 +467,25 @@ fn field_lines_are_the_dipoles() {
     let dip = upwards(point).dot(point.normalize()).asin();
     assert!((dip - inclination(latitude)).abs() < 1e-9);
 }
+
+/// However short a surge is beside a step, each node gets what a period should give it: without a field, e⁻³ of the way from where it rests is left.
+#[test]
+fn short_surges_come_to_as_much_as_long_ones() {
+    for renewal in [1.0, 1.5, 2.0, 6.0] {
+        let plan = Plan { curves: vec![straight(500.0)], nodes: 300, field: 100.0, renewal: f64::INFINITY, contrast: 1.0, seed: 4 };
+        let mut motion = Motion::new(plan, 0.0);
+        let rest = motion.nodes().to_vec();
+        (0..20).for_each(|_| motion.step());
+        motion.change(0.0, renewal, 1.0);
+        // A step still goes on with half of the speed before it.
+        (0..2).for_each(|_| motion.step());
+        let away = |motion: &Motion| motion.nodes().iter().zip(&rest).map(|(now, rest)| now.place.distance(rest.place)).collect::<Vec<_>>();
+        let before = away(&motion);
+        (0..12).for_each(|_| motion.step());
+        let periods = 12.0 * STEP / renewal;
+        for (before, after) in before.iter().zip(away(&motion)).filter(|(before, _)| **before > 1e-3) {
+            let left = (after / before).ln() / (-3.0 * periods);
+            assert!((left - 1.0).abs() < 1e-3, "renewal {renewal} s: {left} of what should come");
+        }
+    }
+}

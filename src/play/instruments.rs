@@ -47,9 +47,10 @@ impl Scale {
     pub fn span(&self, t: f64) -> String {
         let seconds = t * self.metres / LIGHT_SPEED;
         let sizes = [(86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
-        // Two digits at least, of days and hours.
+        // Five of a size at least.
         let fits = sizes.iter().find(|(size, _)| seconds >= 5.0 * size);
-        fits.map_or_else(|| format!("{seconds:.3} s"), |(size, name)| format!("{:.0} {name}", seconds / size))
+        let short = || if seconds >= 0.1 { format!("{seconds:.1} s") } else { format!("{:.4} ms", 1e3 * seconds) };
+        fits.map_or_else(short, |(size, name)| format!("{:.0} {name}", seconds / size))
     }
 
     /// A proper acceleration (c²/r_s) in g.
@@ -207,6 +208,7 @@ mod tests {
         // r_s/c = 98,509.8 s = 1 d 03:21:49.
         assert_eq!(scale.clock(1.0), "1 d 03:21:49");
         assert_eq!([1.0, 2.0, 400.0].map(|t| scale.span(t)), ["27 hours", "55 hours", "456 days"]);
+        assert_eq!(Scale::of(10.0).span(1.0), "0.0985 ms");
         // c²/r_s = 3,043.3 m/s².
         assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
     }

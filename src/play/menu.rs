@@ -279,7 +279,7 @@ mod tests {
         assert!(hint(&session).contains("hold\u{a0}L"), "{}", hint(&session));
     }
 
-    /// Title and pause are no higher than the lowest window the interface is laid out for.
+    /// The title, the highest of the cards, is no higher than the lowest window the interface is laid out for.
     #[test]
     fn the_title_fits() {
         let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");

@@ -274,6 +274,6 @@ config! {
         fullscreen: bool = false, Switch, "", "fill the screen";
         vsync: bool = true, Switch, "", "wait for the screen";
         fov: f64 = 60.0, number(20.0, 150.0), "degrees", "horizontal field of view";
-        reduced_motion: bool = false, Switch, "", "no camera shake, no flashes";
+        reduced_motion: bool = false, Switch, "", "the camera does not sway or glide";
     }
 }

@@ -32,9 +32,9 @@ use crate::spacetime::matter::{ShipState, gamma, velocity};
 /// Rows of the history that red light waits in, and seconds between two.
 const ROWS: usize = 128;
 const ROW: f64 = 1.0;
-/// Rows that a frame of a watched aurora makes at most: four steps of the motion, some milliseconds.
+/// Rows that a frame of a watched aurora makes at most: four steps of the motion, of some milliseconds each where an oval has thousands of nodes.
 const MOST_ROWS: usize = 2;
-/// Seconds after which the rays' noise is the same again: in them it drifts by 11 and by 7 times its 1024 values (project.wgsl).
+/// Seconds after which the rays' noise is the same again: in them it drifts by whole numbers of times its 512 values (ends.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
 /// Distance between nodes of the curtains, km, and how many they are together: curls are seven nodes round at least.
 const NODE_SPACING: f64 = 6.0;
@@ -61,7 +61,7 @@ const WIDE: f64 = 1.2;
 const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
-const LONGEST: f64 = 400.0;
+const LONGEST: f64 = HEIGHTS[0] - HEIGHTS[1];
 /// Room for strokes: more are not drawn in one order.
 pub const MOST_STROKES: usize = 1 << 20;
 
@@ -375,9 +375,9 @@ impl Show {
             ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).max(row.len().div_ceil(MOST_SEGMENTS)).clamp(1, 64);
         let mut segments = Vec::new();
         let mut first = 0;
-        for (window, curve) in motion.starts().windows(2).zip(&self.plan.curves) {
+        for ((window, curve), &length) in motion.starts().windows(2).zip(&self.plan.curves).zip(motion.lengths()) {
             let pairs = window[1] - window[0] - 1;
-            let length: f64 = length(curve) / pairs as f64;
+            let length = length / pairs as f64;
             let mut k = 0;
             while k < pairs {
                 let span = stride.min(pairs - k);

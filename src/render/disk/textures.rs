@@ -96,8 +96,9 @@ fn halved((width, height, values): &Level) -> Level {
     (width / 2, height / 2, mean.collect())
 }
 
-/// Width of the pictures that hold all levels, in texels: those of the first two, and 16 more, an odd number of lines of 64 bytes. Rows an even
-/// number of them apart get in one another's way in a processor's cache, where streaks are looked up one above the other.
+/// Width of the pictures that hold all levels, in texels: those of the first two, and 16 more. From far a row
+/// is an odd number of lines of 64 bytes then, from near twice one: rows a power of two apart get in one another's way in a processor's cache, where streaks are
+/// looked up one above the other.
 const FAR_WIDTH: u32 = 1552;
 
 /// All levels in one picture, the first on the left, the others one below the other beside it: a level of a texture that is chosen anew in each pixel costs a

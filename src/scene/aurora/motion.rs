@@ -181,6 +181,11 @@ impl Motion {
         &self.nodes
     }
 
+    /// Length of each curve at rest, km.
+    pub fn lengths(&self) -> &[f64] {
+        &self.lengths
+    }
+
     /// First node of each curve, and after the last their number.
     pub fn starts(&self) -> &[usize] {
         &self.starts
@@ -198,13 +203,14 @@ impl Motion {
         self.poisson.solve(&mut self.grid);
         self.near.sort(charges);
         self.time += STEP;
+        let period = self.period();
         for k in 0..self.nodes.len() {
             let home = self.rest[k].2;
             let place = self.nodes[k].place;
             let drift = drift(self.field_at(place)).clamp_length_max(TOP_SPEED);
             let next = place + (1.5 * drift - 0.5 * self.speeds[k]) * STEP;
             if next.is_finite() {
-                self.nodes[k].place = home + (next - home) * (-self.renewed(k) * STEP).exp();
+                self.nodes[k].place = home + (next - home) * (-self.renewed(k, period)).exp();
                 self.speeds[k] = drift;
             } else {
                 self.nodes[k].place = home;
@@ -215,14 +221,23 @@ impl Motion {
         self.shine();
     }
 
-    /// The rate (1/s) at which new electrons take the place of old where a node is.
-    fn renewed(&self, k: usize) -> f64 {
+    /// Time from one surge of new electrons to the next, s.
+    fn period(&self) -> f64 {
         if self.plan.renewal == f64::INFINITY {
-            return 0.0;
+            return f64::INFINITY;
         }
-        let period = self.plan.renewal.max(STEP).min(WOUND_UP * self.thickness() / jump(self.plan.field).abs().max(1e-6));
-        let phase = (self.time / period + self.early[k]).rem_euclid(1.0) / SURGE;
-        if phase < 1.0 { SURGES_TO / (SURGE * period) * (1.0 - (TAU * phase).cos()) } else { 0.0 }
+        self.plan.renewal.max(STEP).min(WOUND_UP * self.thickness() / jump(self.plan.field).abs().max(1e-6))
+    }
+
+    /// How much of new electrons came in the last step where a node is, as an exponent: that of old ones which are left. A surge, 1 − cos over its time, is added up
+    /// in closed form, so that it comes to the same however short it is beside a step.
+    fn renewed(&self, k: usize, period: f64) -> f64 {
+        let come = |time: f64| {
+            let periods = time / period + self.early[k];
+            let phase = (periods.rem_euclid(1.0) / SURGE).min(1.0);
+            periods.floor() + phase - (TAU * phase).sin() / TAU
+        };
+        SURGES_TO * (come(self.time) - come(self.time - STEP))
     }
 
     /// Smooth noise in [0, 1] along the curtains, a value every so many km, without a seam round a ring; it has moved by `gone` values.
@@ -315,7 +330,7 @@ impl Motion {
         for k in 0..self.nodes.len() {
             let (curve, t, _) = self.rest[k];
             let link = self.links[curve];
-            // A curtain that ends fades out over the last tenth of it.
+            // A curtain that ends fades out over an eighth of its last part.
             let end = |joined: bool, t: f64| if joined { 1.0 } else { smooth((t / 0.12).min(1.0)) };
             let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
             let wave = [0, 1].map(|octave: usize| {
