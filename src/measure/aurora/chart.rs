@@ -131,44 +131,34 @@ pub fn draw(sheet: &Sheet) -> Figure {
             ..Lines::default()
         })
     };
+    let points = |view: &&str, column: &str| -> Vec<Point> {
+        let chosen = rows_of(view).into_iter().filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle);
+        let point = |row: &Vec<String>| Point {
+            x: sheet.number(row, "total_ms"),
+            y: sheet.number(row, column),
+            label: sheet.text(row, "method").to_owned(),
+            family: family(&methods, sheet.text(row, "method")),
+            failed: false,
+            chosen: false,
+        };
+        chosen.map(point).collect()
+    };
     let errors = |view: &&str| {
-        let points = rows_of(view)
-            .into_iter()
-            .filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle)
-            .map(|row| Point {
-                x: sheet.number(row, "total_ms"),
-                y: sheet.number(row, "error"),
-                label: sheet.text(row, "method").to_owned(),
-                family: family(&methods, sheet.text(row, "method")),
-                failed: false,
-                chosen: false,
-            })
-            .collect();
         Panel::Scatter(Scatter {
             title: format!("{view}: {most} electrons"),
             x: Axis::log("time of a frame, ms"),
             // Through bent light there is no line integral to judge by.
             y: Axis::linear(if *view == "bent" { "error against many more electrons" } else { "error against the line integral" }),
-            points,
+            points: points(view, "error"),
             pareto: true,
             ..Scatter::default()
         })
     };
     // The particle method itself, on one thread, is no point: it differs by nothing.
     let differences = |view: &&str| {
-        let points = rows_of(view)
-            .into_iter()
-            .filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle)
-            .filter(|row| sheet.number(row, "difference") > 0.0)
-            .map(|row| Point {
-                x: sheet.number(row, "total_ms"),
-                y: sheet.number(row, "difference").max(LEAST_DIFFERENCE),
-                label: sheet.text(row, "method").to_owned(),
-                family: family(&methods, sheet.text(row, "method")),
-                failed: false,
-                chosen: false,
-            })
-            .collect();
+        let mut points = points(view, "difference");
+        points.retain(|point| point.y > 0.0);
+        points.iter_mut().for_each(|point| point.y = point.y.max(LEAST_DIFFERENCE));
         Panel::Scatter(Scatter {
             title: format!("{view}: the same random numbers"),
             x: Axis::log("time of a frame, ms"),
