@@ -13,5 +13,3 @@ const TABLE_ROW: u32 = 1024u;
 @group(0) @binding(2) var sky_slice: texture_2d<f32>;
 /// Linear sRGB of a black body over ln T (functions/colour.wgsl).
 @group(0) @binding(3) var blackbody: texture_2d<f32>;
-/// What the last frame measured and chose: x: exposure, y: mean log luminance, z: 1 once it has been set.
-@group(0) @binding(4) var<storage, read_write> adaptation: vec4<f32>;

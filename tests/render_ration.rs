@@ -46,6 +46,18 @@ fn an_aurora_comes_to_its_share_and_stays_there() {
 }
 
 #[test]
+fn where_frames_wait_for_the_screen_streaks_are_kept() {
+    // All passes in 2 ms, of which the aurora takes three quarters: a screen of 144 Hz waits for 5 more.
+    let mut ration = Ration::default();
+    (0..40).for_each(|number| ration.follow(&times(ration.part(), 0.3, 1.2, 0.5, number), 0.33));
+    assert_eq!(ration.part(), 1.0);
+    // No more than the share of such a frame, though.
+    (0..60).for_each(|number| ration.follow(&times(ration.part(), 0.3, 8.0, 0.5, number), 0.33));
+    let taken = 0.3 + 8.0 * ration.part();
+    assert!((0.6..1.0).contains(&(taken / (0.33 * 1000.0 / 144.0))), "{taken} ms");
+}
+
+#[test]
 fn an_aurora_that_has_become_cheap_has_all_its_streaks_again() {
     let mut ration = Ration::default();
     (0..40).for_each(|number| ration.follow(&times(ration.part(), 0.2, 200.0, 10.0, number), 0.33));

@@ -45,7 +45,8 @@ fn fragment(in: Screen) -> @location(0) vec4<f32> {
 }
 
 fn fragment_colour(in: Screen) -> vec4<f32> {
-    let light = textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb;
+    // Infinite where sums of light were more than halves can hold.
+    let light = min(textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb, vec3<f32>(6e4));
     let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
     let exposed = mix(light, glow, frame.light.w) * (adapted.x * frame.light.x);
     // Half a step of 8-bit noise against banding in the dark.

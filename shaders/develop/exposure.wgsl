@@ -1,6 +1,8 @@
 // Exposure: one workgroup looks at a coarse level of the bloom chain and moves the exposure towards what shows it well.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
+/// What the last frame measured and chose: x: exposure, y: mean log luminance, z: 1 once it has been set.
+@group(2) @binding(1) var<storage, read_write> adaptation: vec4<f32>;
 
 var<workgroup> sums: array<vec2<f32>, 64>;
 

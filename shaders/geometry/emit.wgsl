@@ -150,10 +150,15 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
                 || atomicLoad(&counters.indices) + index_count > most.y {
                 return false;
             }
-            let slot = atomicAdd(&counters.work, 1u);
+            // On a graphics card thousands of threads have looked by now. Vertices are what runs out first: without them nothing else is taken, so that
+            // there are always indices for the triangles of the model.
             let first_vertex = atomicAdd(&counters.vertices, vertex_count);
+            if first_vertex + vertex_count > frame.capacity.x {
+                return false;
+            }
+            let slot = atomicAdd(&counters.work, 1u);
             let first_index = atomicAdd(&counters.indices, index_count);
-            if slot >= frame.capacity.z || first_vertex + vertex_count > frame.capacity.x || first_index + index_count > frame.capacity.y {
+            if slot >= frame.capacity.z || first_index + index_count > frame.capacity.y {
                 // Others took the rest meanwhile. What was taken is left empty, so that nothing stale is drawn.
                 if slot < frame.capacity.z {
                     work[slot].place = vec4<u32>(0u);

@@ -118,12 +118,13 @@ fn slant(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return select(1e12, min(dot(across, across) / (along * along), 1e12), along > 0.0);
 }
 
-/// The body point of barycentric coordinates in a model triangle.
+/// The body point of barycentric coordinates in a model triangle. Products are fused with sums, said so and in this order: a driver that fuses as it
+/// likes makes other bits of an edge's point in one of its triangles than in the other.
 fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
     let first = placement.vertices.x;
-    return model_vertices[first + triangle.vertices.x].position.xyz * corner.x
-        + model_vertices[first + triangle.vertices.y].position.xyz * corner.y
-        + model_vertices[first + triangle.vertices.z].position.xyz * corner.z;
+    let a = model_vertices[first + triangle.vertices.x].position.xyz * corner.x;
+    let b = fma(model_vertices[first + triangle.vertices.y].position.xyz, vec3<f32>(corner.y), a);
+    return fma(model_vertices[first + triangle.vertices.z].position.xyz, vec3<f32>(corner.z), b);
 }
 
 /// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;

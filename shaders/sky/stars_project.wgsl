@@ -36,7 +36,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let order = cluster.z;
     let n = frame.radial.xyz;
     let flags = frame.switches.x;
-    let exposure = adaptation.x;
+    let exposure = frame.fill.z;
     // Speed makes more of one star than of another: over an angle θ the Doppler factor 1/(γ(1 − β cos)) changes by e^{βγθ} at most, and the light by
     // its square.
     let gamma = frame.camera_from_rain[3].w;

@@ -36,12 +36,15 @@ impl SharedRenderer {
     }
 }
 
+/// Nearer than this, in r_s, a camera may soon be inside the horizon: seconds away for who falls, and none who circles is as near.
+const NEAR_THE_HORIZON: f64 = 3.0;
+
 /// What the next frame shows; None draws nothing.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct FrameToDraw(pub Option<FrameInput>);
 
 /// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`; [`SharedRenderer`] is there once the app's
-/// plugins are finished, if the device is large enough.
+/// plugins are finished, if the device is large enough; else the app ends with an error.
 pub struct RelativisticRenderPlugin {
     /// Table, stars, Milky Way.
     pub surroundings: Surroundings,
@@ -58,13 +61,15 @@ impl Plugin for RelativisticRenderPlugin {
         let (Some(device), Some(queue), Some(info)) =
             (world.get_resource::<RenderDevice>(), world.get_resource::<RenderQueue>(), world.get_resource::<RenderAdapterInfo>())
         else {
-            error!("there is no graphics device: nothing is drawn");
+            error!("there is no graphics device to draw with");
+            app.world_mut().write_message(AppExit::error());
             return;
         };
         let gpu =
             Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
         if let Some(needs) = missing_limits(&gpu.device.limits()) {
             error!("the GPU adapter `{}` cannot be used: {needs}", gpu.adapter.name);
+            app.world_mut().write_message(AppExit::error());
             return;
         }
         // The size and the format are the window's from the first frame on.
@@ -93,6 +98,9 @@ fn draw(view: ViewQuery<&ViewTarget>, frame: Res<FrameToDraw>, renderer: Res<Sha
     let mut renderer = renderer.lock();
     renderer.set_output_format(target.main_texture_format());
     renderer.resize([size.width, size.height]);
+    if input.camera.radius() < NEAR_THE_HORIZON {
+        renderer.foresee_the_inside();
+    }
     if renderer.prepare(input) {
         renderer.encode(context.command_encoder(), target.main_texture_view());
     }

@@ -83,7 +83,7 @@ impl Renderer {
             device,
             "frame",
             ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Numbers, Slot::Write],
+            &[Slot::Uniform, Slot::Numbers, Slot::Numbers, Slot::Numbers],
         );
         let frame = buffer(device, "frame", size_of::<types::Frame>() as u64, BufferUsages::UNIFORM);
         let lens_slice = TableTexture::new(device, "lens slice", false);
@@ -94,8 +94,8 @@ impl Renderer {
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut develop = Develop::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
-        develop.resize(gpu, &targets);
-        let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody], &adaptation);
+        develop.resize(gpu, &targets, &adaptation);
+        let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
@@ -179,12 +179,17 @@ impl Renderer {
         self.targets.size
     }
 
+    /// The camera is near the horizon and may fall through it: what is needed inside is compiled meanwhile.
+    pub fn foresee_the_inside(&mut self) {
+        self.geometry.foresee(self.sliced.1, true);
+    }
+
     /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.hidden = size.contains(&0);
         if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
-            self.develop.resize(&self.gpu, &self.targets);
+            self.develop.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
 
@@ -193,7 +198,7 @@ impl Renderer {
         if format != self.format {
             self.format = format;
             self.develop = Develop::new(&self.gpu.device, &self.frame_layout, format);
-            self.develop.resize(&self.gpu, &self.targets);
+            self.develop.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
 
@@ -211,9 +216,8 @@ impl Renderer {
         // The slices depend on radius and method alone.
         let method = input.settings.method;
         if self.sliced != (l, method) {
-            let (was_inside, is_inside) = (self.sliced.0 < 1.0, l < 1.0);
-            if self.sliced.1 != method || was_inside != is_inside {
-                self.geometry.set_method(&self.gpu.device, &self.frame_layout, method, is_inside);
+            self.geometry.set_method(method, l < 1.0);
+            if self.sliced.1 != method {
                 self.aurora.set_method(&self.gpu.device, &self.frame_layout, method);
             }
             self.sliced = (l, method);
@@ -222,7 +226,7 @@ impl Renderer {
             let texels = self.tables.texels(method, l, &slice);
             if self.lens_slice.write(&self.gpu, &texels) {
                 let tables = [&self.lens_slice, &self.sky_slice, &self.blackbody];
-                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, tables, &self.adaptation);
+                self.frame_group = frame_bindings(&self.gpu.device, &self.frame_layout, &self.frame, tables);
             }
             self.sky = if method.bends() { sky_table(l) } else { straight_sky_table() };
             self.sky_slice.write(&self.gpu, &self.sky);
@@ -248,7 +252,7 @@ impl Renderer {
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
         self.timing.begin();
-        // The own ship is lit by what the frame before was exposed for.
+        // The own ship is lit by what the frame before was exposed for, and stars that could not be seen then are left out.
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
         let geometry = &self.geometry;
@@ -260,11 +264,13 @@ impl Renderer {
             pass.set_bind_group(0, group, &[]);
             run(&mut pass);
         };
-        compute(encoder, "vertices", &|pass| geometry.vertices(pass));
-        compute(encoder, "edges", &|pass| geometry.edges(pass));
-        compute(encoder, "triangles", &|pass| geometry.triangles(pass));
-        compute(encoder, "refine", &|pass| geometry.refine(pass));
-        compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        if !geometry.is_empty() {
+            compute(encoder, "vertices", &|pass| geometry.vertices(pass));
+            compute(encoder, "edges", &|pass| geometry.edges(pass));
+            compute(encoder, "triangles", &|pass| geometry.triangles(pass));
+            compute(encoder, "refine", &|pass| geometry.refine(pass));
+            compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        }
         compute(encoder, "sky", &|pass| self.background.cells(pass));
         compute(encoder, "stars", &|pass| self.stars.project(pass));
         if self.aurora.images() > 0 {
@@ -421,7 +427,8 @@ fn draw_disk(
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("disk"),
         color_attachments: &[Some(colour(&targets.picture, false))],
-        depth_stencil_attachment: Some(depth(&targets.depth, false)),
+        // Polygons write it.
+        depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
         timestamp_writes: timing.render("disk"),
         ..Default::default()
     });
@@ -441,7 +448,7 @@ fn draw_thin(
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("thin"),
         color_attachments: &[Some(colour(&targets.thin, true)), Some(colour(&targets.thin_signed, true))],
-        depth_stencil_attachment: Some(depth(&targets.depth, false)),
+        depth_stencil_attachment: Some(tested_depth(&targets.depth)),
         timestamp_writes,
         ..Default::default()
     });
@@ -463,7 +470,7 @@ fn draw_aurora(
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some(label),
                 color_attachments: &[Some(colour(target, fresh))],
-                depth_stencil_attachment: tested.then(|| depth(&targets.depth, false)),
+                depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
                 timestamp_writes: timing.render(label),
                 ..Default::default()
             });
@@ -483,9 +490,8 @@ fn frame_bindings(
     layout: &wgpu::BindGroupLayout,
     frame: &wgpu::Buffer,
     [lens, sky, blackbody]: [&TableTexture; 3],
-    adaptation: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
-    let resources = [frame.as_entire_binding(), lens.binding(), sky.binding(), blackbody.binding(), adaptation.as_entire_binding()];
+    let resources = [frame.as_entire_binding(), lens.binding(), sky.binding(), blackbody.binding()];
     bind(device, "frame", layout, &resources)
 }
 
@@ -499,12 +505,14 @@ fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachm
     }
 }
 
+/// Depth that is written, reversed: infinity is 0.
 fn depth(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    // Reversed depth: infinity is 0.
     let load = if fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
-    wgpu::RenderPassDepthStencilAttachment {
-        view,
-        depth_ops: Some(wgpu::Operations { load, store: wgpu::StoreOp::Store }),
-        stencil_ops: None,
-    }
+    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: Some(ops), stencil_ops: None }
+}
+
+/// Depth that is only tested, so that passes one after the other need not wait for it.
+fn tested_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None }
 }

@@ -2,8 +2,8 @@
 
 use super::Gpu;
 
-/// Passes that can be timed in one frame.
-const PASSES: u32 = 40;
+/// Passes that can be timed in one frame: two images of an aurora have nine each, the disk four, bloom nine, and some twenty more.
+const PASSES: u32 = 96;
 /// Passes whose fragments can be counted in one frame.
 const COUNTED: u32 = 8;
 /// Where counts begin in the buffer, in results: after the timestamps, aligned as the copy of results must be.

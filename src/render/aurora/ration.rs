@@ -10,6 +10,8 @@ const LEAST: f64 = 1.0 / 16.0;
 const STEPS: [f64; 2] = [0.8, 1.1];
 /// What is aimed at, as a part of what it may take: times waver by some per cent, and its share shall stay below.
 const AIM: f64 = 0.9;
+/// What a frame lasts at least, ms, that of a screen that shows 144 in a second: a graphics card that is done sooner waits, and nothing is won by fewer streaks.
+const LEAST_FRAME: f64 = 1000.0 / 144.0;
 /// Below this part of what is aimed at the aurora may have more streaks: between it and the whole nothing changes.
 const CONTENT: f64 = 0.75;
 
@@ -33,8 +35,8 @@ impl Ration {
         self.part
     }
 
-    /// Follows the times (ms) of all passes of a frame: the aurora shall take no more than `share` of them together; of 1 it has all its streaks. The same times again, and times
-    /// without an aurora, change nothing.
+    /// Follows the times (ms) of all passes of a frame: the aurora shall take no more than `share` of them together, or of a 144th of a second if that is more; of 1 it has
+    /// all its streaks. The same times again, and times without an aurora, change nothing.
     pub fn follow(&mut self, passes: &[(&str, f32)], share: f64) {
         let times = shares(passes);
         let [aurora, rest] = times;
@@ -48,7 +50,8 @@ impl Ration {
         }
         let share = AIM * share.max(0.0);
         // What it may take beside the rest as that is, over what it takes. Half as many streaks cost half as much, or less.
-        let wanted = share * rest / ((1.0 - share) * aurora).max(1e-9);
+        let allowed = (share / (1.0 - share) * rest).max(share * LEAST_FRAME);
+        let wanted = allowed / aurora.max(1e-9);
         if wanted < 1.0 || CONTENT * wanted > 1.0 {
             self.part = (self.part * wanted.clamp(STEPS[0], STEPS[1])).clamp(LEAST, 1.0);
         }

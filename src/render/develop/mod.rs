@@ -53,7 +53,7 @@ impl Develop {
         let fragment = ShaderStages::FRAGMENT;
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
         let thin_layout = layout(device, "thin", fragment, &[Slot::Texture, Slot::Texture]);
-        let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture]);
+        let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture, Slot::Write]);
         let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
             let shader = module(device, label, pass);
@@ -92,8 +92,8 @@ impl Develop {
         }
     }
 
-    /// Takes up targets of a new size.
-    pub fn resize(&mut self, gpu: &Gpu, targets: &Targets) {
+    /// Takes up targets of a new size. `adaptation` is what the frame's exposure is kept in.
+    pub fn resize(&mut self, gpu: &Gpu, targets: &Targets, adaptation: &wgpu::Buffer) {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
         let (_, developed) = target(device, "developed", targets.size, self.output);
@@ -103,7 +103,12 @@ impl Develop {
             sampled: views
                 .map(|view| bind(device, "sampled", &self.sampled_layout, &[TextureView(view), Sampler(&self.sampler)]))
                 .collect(),
-            meter: bind(device, "meter", &self.meter_layout, &[TextureView(&targets.bloom[targets.meter_level()])]),
+            meter: bind(
+                device,
+                "meter",
+                &self.meter_layout,
+                &[TextureView(&targets.bloom[targets.meter_level()]), adaptation.as_entire_binding()],
+            ),
             develop: bind(
                 device,
                 "develop",

@@ -155,7 +155,7 @@ impl DiskPasses {
             let radial = storage(gpu, "radial", &self.disk.radial_table());
             let mut polygons = PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial, &self.disk, false);
             // Straight light is the same on both sides of the horizon.
-            polygons.set_method(gpu, frame_layout, input.settings.method, false);
+            polygons.set_method(input.settings.method, false);
             self.straight = Some(Box::new(polygons));
         }
         match &mut self.representation {

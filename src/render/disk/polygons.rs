@@ -98,8 +98,8 @@ impl PolygonPass {
     }
 
     /// Compiles the stages for another method of projection.
-    pub fn set_method(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, method: Method, inside: bool) {
-        self.geometry.set_method(&gpu.device, frame_layout, method, inside);
+    pub fn set_method(&mut self, method: Method, inside: bool) {
+        self.geometry.set_method(method, inside);
     }
 
     /// Uploads what the frame needs, for a picture `width` pixels wide.

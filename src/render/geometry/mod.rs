@@ -3,11 +3,15 @@
 //! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other through
 //! the buffers of group 1; the processor only says which objects there are.
 
+mod stages;
+
 use wgpu::{BufferUsages, ShaderStages};
+
+use stages::{Makings, Shelf};
 
 use super::Gpu;
 use super::frame::Capacity;
-use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, compute_of, layout, module, raster_of};
+use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use super::method::Method;
 use super::models::Models;
 use super::placements::{Placed, THIN};
@@ -34,11 +38,9 @@ fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
 /// The stages of geometry and the buffers between them.
 #[derive(Debug)]
 pub struct Geometry {
-    worldlines: Worldlines,
     group_layout: wgpu::BindGroupLayout,
-    arguments_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
-    stages: Stages,
+    stages: Shelf,
     draws: Draws,
     placements: TableTexture,
     chunks: [Growing; 3],
@@ -62,19 +64,6 @@ pub struct Geometry {
 }
 
 #[derive(Debug)]
-struct Stages {
-    vertices: wgpu::ComputePipeline,
-    edges: wgpu::ComputePipeline,
-    triangles: wgpu::ComputePipeline,
-    refine: wgpu::ComputePipeline,
-    next_pieces: wgpu::ComputePipeline,
-    finish: wgpu::ComputePipeline,
-    finish_thin: wgpu::ComputePipeline,
-    mesh_vertices: wgpu::ComputePipeline,
-    mesh_triangles: wgpu::ComputePipeline,
-}
-
-#[derive(Debug)]
 struct Draws {
     opaque: wgpu::RenderPipeline,
     thin: wgpu::RenderPipeline,
@@ -82,34 +71,6 @@ struct Draws {
     thin_across: [wgpu::RenderPipeline; 4],
     layers: wgpu::RenderPipeline,
     layers_thin: wgpu::RenderPipeline,
-}
-
-impl Stages {
-    fn new(
-        device: &wgpu::Device,
-        frame: &wgpu::BindGroupLayout,
-        geometry: &wgpu::BindGroupLayout,
-        arguments: &wgpu::BindGroupLayout,
-        worldlines: Worldlines,
-        method: Method,
-        inside: bool,
-    ) -> Self {
-        let groups = [Some(frame), Some(geometry)];
-        let stage = |label, pass: Pass, entry| compute_of(device, label, &pass.source_along(worldlines, method, inside), entry, &groups);
-        let with_arguments = [Some(frame), Some(geometry), Some(arguments)];
-        let argument = |entry| compute_of(device, entry, &Pass::Arguments.source_along(worldlines, method, inside), entry, &with_arguments);
-        Stages {
-            vertices: stage("vertices", Pass::Vertices, "main"),
-            edges: stage("edges", Pass::Edges, "main"),
-            triangles: stage("triangles", Pass::Triangles, "main"),
-            refine: stage("refine", Pass::Refine, "main"),
-            next_pieces: argument("next_pieces"),
-            finish: argument("finish"),
-            finish_thin: argument("finish_thin"),
-            mesh_vertices: stage("mesh vertices", Pass::Mesh, "vertices"),
-            mesh_triangles: stage("mesh triangles", Pass::Mesh, "triangles"),
-        }
-    }
 }
 
 /// [`SeenVertex`] as a vertex buffer, `SeenInput` of WGSL.
@@ -136,7 +97,14 @@ impl Geometry {
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout =
             layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
-        let stages = Stages::new(device, frame_layout, &group_layout, &arguments_layout, worldlines, Method::default(), false);
+        let makings = Makings {
+            device: device.clone(),
+            frame: frame_layout.clone(),
+            geometry: group_layout.clone(),
+            arguments: arguments_layout.clone(),
+            worldlines,
+        };
+        let stages = Shelf::new(makings, (Method::default(), false));
         let shader = module(device, "draw", Pass::Draw);
         let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
         let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
@@ -169,9 +137,7 @@ impl Geometry {
             ..Default::default()
         });
         Geometry {
-            worldlines,
             group_layout,
-            arguments_layout,
             draw_layout,
             stages,
             draws,
@@ -195,9 +161,19 @@ impl Geometry {
         }
     }
 
-    /// Compiles the stages for another method of projection, or for a camera on the other side of the horizon.
-    pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method, inside: bool) {
-        self.stages = Stages::new(device, frame_layout, &self.group_layout, &self.arguments_layout, self.worldlines, method, inside);
+    /// Takes the stages of this method of projection, for a camera inside the horizon or outside; compiles them if need be.
+    pub fn set_method(&mut self, method: Method, inside: bool) {
+        self.stages.choose((method, inside));
+    }
+
+    /// The camera will go to the other side of the horizon: its stages are compiled meanwhile.
+    pub fn foresee(&mut self, method: Method, inside: bool) {
+        self.stages.foresee((method, inside));
+    }
+
+    /// Whether nothing is placed in the prepared frame: there is nothing to do or to draw.
+    pub fn is_empty(&self) -> bool {
+        self.dispatch[2][0] == 0
     }
 
     /// Whether any image of the prepared frame is thin: else two passes over the whole screen have nothing to do.
@@ -345,37 +321,41 @@ impl Geometry {
 
     /// Stage 1: model vertices.
     pub fn vertices(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.vertices, 0);
+        self.stage(pass, &self.stages.now().vertices, 0);
     }
 
     /// Stage 2: model edges.
     pub fn edges(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.edges, 1);
+        self.stage(pass, &self.stages.now().edges, 1);
     }
 
     /// Stage 3: the object stage.
     pub fn triangles(&self, pass: &mut wgpu::ComputePass) {
-        self.stage(pass, &self.stages.triangles, 2);
+        self.stage(pass, &self.stages.now().triangles, 2);
     }
 
     /// Stage 4: splitting.
     pub fn refine(&self, pass: &mut wgpu::ComputePass) {
         for _ in 0..REFINE_PASSES {
-            self.single(pass, &self.stages.next_pieces);
-            self.indirect(pass, &self.stages.refine, types::ARGUMENTS_REFINE);
+            self.single(pass, &self.stages.now().next_pieces);
+            self.indirect(pass, &self.stages.now().refine, types::ARGUMENTS_REFINE);
         }
-        self.single(pass, &self.stages.finish);
+        self.single(pass, &self.stages.now().finish);
     }
 
     /// Stage 5: the mesh stage.
     pub fn mesh(&self, pass: &mut wgpu::ComputePass) {
-        self.indirect(pass, &self.stages.mesh_vertices, types::ARGUMENTS_MESH_VERTICES);
-        self.indirect(pass, &self.stages.mesh_triangles, types::ARGUMENTS_MESH);
-        self.single(pass, &self.stages.finish_thin);
+        self.indirect(pass, &self.stages.now().mesh_vertices, types::ARGUMENTS_MESH_VERTICES);
+        self.indirect(pass, &self.stages.now().mesh_triangles, types::ARGUMENTS_MESH);
+        self.single(pass, &self.stages.now().finish_thin);
     }
 
     fn draw(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline, thin: bool) {
         let Some((_, group)) = &self.groups else { return };
+        if self.is_empty() {
+            // What the arguments say is from another frame.
+            return;
+        }
         pass.set_pipeline(pipeline);
         pass.set_bind_group(2, group, &[]);
         if thin {

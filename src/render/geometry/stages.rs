@@ -1,0 +1,117 @@
+//! The stages of geometry, compiled for a method of projection and a side of the horizon. What has been compiled is kept, and the other side of the
+//! horizon can be compiled meanwhile on a thread of its own: drivers take tenths of a second for it, and longer at the first time.
+
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use crate::render::layout::compute_of;
+use crate::render::method::Method;
+use crate::render::shaders::{Pass, Worldlines};
+
+/// A method of projection, and whether the camera is inside the horizon.
+pub(super) type Side = (Method, bool);
+
+/// The pipelines, by the file of `shaders/geometry/` that they are from.
+#[derive(Debug)]
+pub(super) struct Stages {
+    pub vertices: wgpu::ComputePipeline,
+    pub edges: wgpu::ComputePipeline,
+    pub triangles: wgpu::ComputePipeline,
+    pub refine: wgpu::ComputePipeline,
+    pub next_pieces: wgpu::ComputePipeline,
+    pub finish: wgpu::ComputePipeline,
+    pub finish_thin: wgpu::ComputePipeline,
+    pub mesh_vertices: wgpu::ComputePipeline,
+    pub mesh_triangles: wgpu::ComputePipeline,
+}
+
+/// What stages are compiled with.
+#[derive(Clone, Debug)]
+pub(super) struct Makings {
+    pub device: wgpu::Device,
+    /// Layouts of groups 0 to 2.
+    pub frame: wgpu::BindGroupLayout,
+    pub geometry: wgpu::BindGroupLayout,
+    pub arguments: wgpu::BindGroupLayout,
+    pub worldlines: Worldlines,
+}
+
+impl Makings {
+    fn stages(&self, (method, inside): Side) -> Stages {
+        let device = &self.device;
+        let groups = [Some(&self.frame), Some(&self.geometry)];
+        let source = |pass: Pass| pass.source_along(self.worldlines, method, inside);
+        let stage = |label, pass, entry| compute_of(device, label, &source(pass), entry, &groups);
+        let with_arguments = [Some(&self.frame), Some(&self.geometry), Some(&self.arguments)];
+        let argument = |entry| compute_of(device, entry, &source(Pass::Arguments), entry, &with_arguments);
+        Stages {
+            vertices: stage("vertices", Pass::Vertices, "main"),
+            edges: stage("edges", Pass::Edges, "main"),
+            triangles: stage("triangles", Pass::Triangles, "main"),
+            refine: stage("refine", Pass::Refine, "main"),
+            next_pieces: argument("next_pieces"),
+            finish: argument("finish"),
+            finish_thin: argument("finish_thin"),
+            mesh_vertices: stage("mesh vertices", Pass::Mesh, "vertices"),
+            mesh_triangles: stage("mesh triangles", Pass::Mesh, "triangles"),
+        }
+    }
+}
+
+/// All that have been compiled.
+#[derive(Debug)]
+pub(super) struct Shelf {
+    makings: Makings,
+    now: Arc<Stages>,
+    side: Side,
+    kept: Vec<(Side, Arc<Stages>)>,
+    /// What is being compiled meanwhile.
+    ahead: Option<(Side, JoinHandle<Stages>)>,
+}
+
+impl Shelf {
+    /// With the stages of one side.
+    pub fn new(makings: Makings, side: Side) -> Shelf {
+        let now = Arc::new(makings.stages(side));
+        Shelf { makings, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
+    }
+
+    /// The stages in use.
+    pub fn now(&self) -> &Stages {
+        &self.now
+    }
+
+    /// The stages of this side are in use from now on.
+    pub fn choose(&mut self, side: Side) {
+        if side == self.side {
+            return;
+        }
+        self.side = side;
+        let kept = self.kept.iter().find(|kept| kept.0 == side).map(|kept| kept.1.clone());
+        self.now = kept.unwrap_or_else(|| {
+            let ahead = self.ahead.take_if(|ahead| ahead.0 == side).and_then(|(_, thread)| thread.join().ok());
+            let stages = Arc::new(ahead.unwrap_or_else(|| self.makings.stages(side)));
+            self.kept.push((side, stages.clone()));
+            stages
+        });
+    }
+
+    /// This side will be asked for: it is compiled meanwhile, unless it has been or another is.
+    pub fn foresee(&mut self, side: Side) {
+        if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
+            let makings = self.makings.clone();
+            // Without a thread it is compiled when it is chosen.
+            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || makings.stages(side));
+            self.ahead = thread.ok().map(|thread| (side, thread));
+        }
+    }
+}
+
+impl Drop for Shelf {
+    fn drop(&mut self) {
+        // A driver that compiles must not lose its device.
+        if let Some((_, thread)) = self.ahead.take() {
+            let _ = thread.join();
+        }
+    }
+}
