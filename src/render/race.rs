@@ -19,6 +19,10 @@ use super::tables::Tables;
 
 /// Threads of a workgroup.
 const GROUP: usize = 64;
+/// Threads and look-ups of each that are timed on a software driver and on a graphics card. There one look-up takes less time than to write it down, and
+/// a dispatch of a few microseconds cannot be told from none.
+const SOFTWARE: [usize; 2] = [8192, 1];
+const HARDWARE: [usize; 2] = [1 << 18, 64];
 
 /// Look-ups on the GPU.
 #[derive(Debug)]
@@ -57,29 +61,30 @@ impl Race {
     /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in r_s/c,
     /// 1 if there is one; frequency at the camera, radial momentum and frequency at the point, e.
     pub fn look_up(&mut self, method: Method, l: f64, rows: &[[f32; 4]]) -> Result<Vec<[[f32; 4]; 2]>, PictureError> {
-        let (out, _) = self.dispatch(method, 0, l, rows, rows.len())?;
+        let (out, _) = self.dispatch(method, 0, l, rows, [rows.len(), 1])?;
         let bytes = readback::buffer(&self.gpu, &out)?;
         Ok(bytemuck::cast_slice::<u8, [[f32; 4]; 2]>(&bytes)[..rows.len()].to_vec())
     }
 
     /// Seconds for each of many look-ups of `rows`, what a dispatch and its rows cost by themselves taken off.
     pub fn time(&mut self, method: Method, l: f64, rows: &[[f32; 4]]) -> Result<f64, PictureError> {
-        let threads = if self.gpu.adapter.device_type == wgpu::DeviceType::Cpu { 8192 } else { 1 << 18 };
+        let many = if self.gpu.adapter.device_type == wgpu::DeviceType::Cpu { SOFTWARE } else { HARDWARE };
+        let [threads, each] = many;
         let mut times = [0.0; 2];
         for (which, time) in times.iter_mut().enumerate() {
-            *time = self.dispatch(method, which, l, rows, threads)?.1;
+            *time = self.dispatch(method, which, l, rows, many)?.1;
         }
-        Ok((times[0] - times[1]).max(0.0) / threads as f64)
+        Ok((times[0] - times[1]).max(0.0) / (threads * each) as f64)
     }
 
-    /// Runs one pipeline on at least `threads` threads; the buffer it wrote and the seconds it took.
+    /// Runs one pipeline on at least `threads` threads with `each` look-ups; the buffer it wrote and the seconds it took.
     fn dispatch(
         &mut self,
         method: Method,
         which: usize,
         l: f64,
         rows: &[[f32; 4]],
-        threads: usize,
+        [threads, each]: [usize; 2],
     ) -> Result<(wgpu::Buffer, f64), PictureError> {
         let texels = self.texels(method, l);
         let Race { gpu, layout, pipelines, .. } = self;
@@ -93,7 +98,7 @@ impl Race {
         padded.resize(rows.len().next_multiple_of(GROUP).max(GROUP), rows.last().copied().unwrap_or([0.0; 4]));
         let threads = threads.next_multiple_of(GROUP).max(GROUP);
         let frame = buffer(device, "race frame", 16, BufferUsages::UNIFORM);
-        gpu.queue.write_buffer(&frame, 0, bytemuck::bytes_of(&[0.0, 0.0, 0.0, l as f32]));
+        gpu.queue.write_buffer(&frame, 0, bytemuck::bytes_of(&[each as f32, 0.0, 0.0, l as f32]));
         let (slice, rows) = (TableTexture::of(gpu, "race slice", &texels), storage(gpu, "race rows", &padded));
         let out = buffer(device, "race out", 32 * threads as u64, BufferUsages::STORAGE);
         let [frame, rows_in, out_to] = [&frame, &rows, &out].map(|b| b.as_entire_binding());
