@@ -128,6 +128,26 @@ fn a_camera_inside_sees_what_is_inside_twice() {
     }
 }
 
+/// The stages that were compiled meanwhile are those that a crossing compiles, and they are there again after the camera has been outside.
+#[test]
+fn what_was_foreseen_is_seen_inside() {
+    // Of its own: that for all has been inside.
+    let mut foreseeing = Bench::new([64, 36]);
+    foreseeing.renderer.foresee_the_inside();
+    let mut bench = bench();
+    let settings = Settings::default();
+    for radius in [0.45, 1.6, 0.45, 1.4] {
+        let camera = falling(DVec3::new(0.0, 0.05, radius), DVec3::new(0.1, -0.2, 0.05));
+        let motion = Motion::Held { position: DVec3::new(0.05, 0.1, radius + 0.25), attitude: DQuat::IDENTITY };
+        let placed = bench.place(&camera, 0.0, &bench.object(motion, 0.05, 1), &settings);
+        let vertices = placed.len() * bench.points().len();
+        let [seen, want] =
+            [&mut foreseeing, &mut *bench].map(|bench| bench.seen(camera, 0.0, placed.clone(), settings)[..vertices].to_vec());
+        assert!(want.iter().filter(|vertex| vertex.apparent[3] > 0.0).count() > 50, "from {radius}");
+        assert!(bytemuck::cast_slice::<_, u8>(&seen) == bytemuck::cast_slice::<_, u8>(&want), "from {radius}");
+    }
+}
+
 /// The worldline of a ship flown by `command` from `state` at T = 0 to `until`.
 fn flight(state: ShipState, command: Command, until: f64) -> History {
     let mut history = History::new(0.0, &state);
