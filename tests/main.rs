@@ -85,6 +85,7 @@ mod render_trouble;
 mod scene_aurora;
 mod scene_aurora_heights;
 mod scene_aurora_lines;
+mod scene_aurora_nodes;
 mod scene_config;
 mod scene_disk;
 mod scene_files;

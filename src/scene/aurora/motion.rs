@@ -201,7 +201,7 @@ impl Motion {
         let charges: Vec<Charge> = self.charge().collect();
         self.lay_out(&charges);
         self.poisson.solve(&mut self.grid);
-        self.near.sort(charges);
+        self.near.sort(charges, &self.starts);
         self.time += STEP;
         let period = self.period();
         for k in 0..self.nodes.len() {

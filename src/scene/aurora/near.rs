@@ -2,8 +2,8 @@
 //!
 //! A line of charge q/ε₀ (mV/m times km) spread by a Gaussian of standard deviation w has the field q (1 − exp(−r²/2w²))/(2πr) in closed form. The grid
 //! has that of w = σ, about a cell; the charge itself is as thick as the sheet, w = d. Their difference, q (exp(−r²/2σ²) − exp(−r²/2d²))/(2πr), is
-//! nothing beyond a few σ, and is summed over pairs: Ewald's way of splitting the sum, in two dimensions. Charges beside one another are taken together
-//! in sixes where they are seen under a small angle (Barnes and Hut).
+//! nothing beyond a few σ, and is summed over pairs: Ewald's way of splitting the sum, in two dimensions. Charges beside one another on a curve are taken
+//! together in sixes where they are seen under a small angle (Barnes and Hut).
 
 use std::f64::consts::TAU;
 
@@ -37,8 +37,7 @@ struct Cluster {
 }
 
 impl Cluster {
-    fn new(charges: &[Charge], first: usize) -> Self {
-        let last = (first + TOGETHER).min(charges.len());
+    fn new(charges: &[Charge], first: usize, last: usize) -> Self {
         let own = &charges[first..last];
         let amount: f64 = own.iter().map(|charge| charge.amount).sum();
         let mean = own.iter().map(|charge| charge.place).sum::<DVec2>() / own.len() as f64;
@@ -109,10 +108,17 @@ impl Near {
         &self.charges
     }
 
-    /// These are the charges from now on, curve after curve. Those outside of the square count as in its outermost cells.
-    pub fn sort(&mut self, charges: Vec<Charge>) {
+    /// These are the charges from now on, curve after curve; `curves` are the first of each curve and their number after the last. Those outside of the square
+    /// count as in its outermost cells.
+    pub fn sort(&mut self, charges: Vec<Charge>, curves: &[usize]) {
         self.charges = charges;
-        let clusters: Vec<Cluster> = (0..self.charges.len()).step_by(TOGETHER).map(|first| Cluster::new(&self.charges, first)).collect();
+        // Anew with each curve: the middle of a cluster with parts of two is far from both, and in a cell where none of its charges is looked for.
+        let of_curve = |curve: &[usize]| {
+            let last = curve[1];
+            (curve[0]..last).step_by(TOGETHER).map(move |first| (first, (first + TOGETHER).min(last)))
+        };
+        let clusters: Vec<Cluster> =
+            curves.windows(2).flat_map(of_curve).map(|(first, last)| Cluster::new(&self.charges, first, last)).collect();
         let index = |cluster: &Cluster| {
             let (column, row) = self.cell(cluster.all.place);
             row * self.cells + column
