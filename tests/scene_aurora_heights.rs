@@ -49,6 +49,7 @@ fn light(spectrum: &Spectrum) -> Vec<[f64; 4]> {
 fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
     let [[softest, hardest], [coldest, hottest]] = ["energy", "thermal"].map(allowed);
     assert!(softest <= 0.5 && hardest >= 50.0);
+    let mut most_outside = [0.0f64; KINDS];
     for accelerated in [softest, 4.0, hardest] {
         for thermal in [coldest, 1.5, hottest] {
             let spectrum = Spectrum { accelerated, thermal };
@@ -65,7 +66,12 @@ fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
                     };
                     let outside = [above(top) / whole[line], 1.0 - above(foot) / whole[line]];
                     let name = format!("{accelerated} keV + {thermal} keV, row {row}, line {line}, {foot} to {top} km");
-                    assert!(outside.iter().all(|part| *part <= 0.01), "{name}: {outside:.4?} of the light above and below");
+                    let most = &mut most_outside[KIND[line]];
+                    *most = outside.into_iter().fold(*most, f64::max);
+                    assert!(
+                        outside.iter().all(|part| *part <= [0.004, 0.0095][KIND[line]]),
+                        "{name}: {outside:.4?} of the light above and below"
+                    );
                     // And none of it is lost: what is tabulated is all that is made. 3 %: steps of 1 km here, of half a kilometre there.
                     let drawn = f64::from(falls.photons[row * (PARTS + 1) + PARTS][line]);
                     assert!((drawn / whole[line] - 1.0).abs() < 0.03, "{name}: {drawn} photons of {}", whole[line]);
@@ -77,4 +83,5 @@ fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
             }
         }
     }
+    println!("at most {most_outside:.5?} of the light of a kind is above or below");
 }

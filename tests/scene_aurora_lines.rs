@@ -86,7 +86,9 @@ fn a_shifted_aurora_has_the_colour_of_its_spectrum() {
     let mut spectrum = vec![(557.7, green), (650.0, crimson)];
     spectrum.extend(BLUE.map(|(wavelength, part)| (wavelength, part * blue)));
     spectrum.extend(RED.map(|(wavelength, part)| (wavelength, part * red)));
-    for g in [1.0, 0.92, 0.88] {
+    // The fit to the observer, as above: red on the screen is 3.2 X less 1.5 Y and 0.5 Z, so that what it is off by, 2 to 3 % of X at 634 nm (green at 0.88) and
+    // at 445 nm (violet), comes to twice that; measured 0.006, 0.001 and 0.044. At 0.92 only blue is left that is neither cut off nor the brightest.
+    for (g, allowed) in [(1.0, 0.01), (0.92, 0.01), (0.88, 0.055)] {
         let lines = lines::kilorayleigh_xyz(g);
         let sum: [f64; 3] = std::array::from_fn(|c| lines.iter().zip(lines::photons(110.0)).map(|(line, photons)| photons * line[c]).sum());
         // As on the screen: what lies outside sRGB is cut off, and the brightest channel is 1.
@@ -95,6 +97,6 @@ fn a_shifted_aurora_has_the_colour_of_its_spectrum() {
             rgb.map(|channel| channel / rgb.into_iter().fold(0.0, f64::max))
         });
         println!("{g}: {got:?}, integrated {want:?}");
-        assert!((0..3).all(|c| (got[c] - want[c]).abs() < 0.06), "{g}: {got:?}, integrated {want:?}");
+        assert!((0..3).all(|c| (got[c] - want[c]).abs() < allowed), "{g}: {got:?}, integrated {want:?}");
     }
 }
