@@ -31,6 +31,8 @@ mod render_aurora_chords;
 #[cfg(feature = "game")]
 mod render_aurora_pictures;
 #[cfg(feature = "game")]
+mod render_aurora_rows;
+#[cfg(feature = "game")]
 mod render_aurora_sight;
 #[cfg(feature = "game")]
 mod render_branches;

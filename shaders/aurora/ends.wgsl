@@ -51,10 +51,12 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let nodes_along = streak.along * f32(segment.range.w);
     let before = min(u32(nodes_along), segment.range.w - 1u);
     let part = nodes_along - f32(before);
-    let a = node_at(segment.range.y + before, age);
-    let b = node_at(segment.range.y + before + 1u, age);
-    let step = b.xy - a.xy;
-    let place = a.xy + step * part;
+    let first = segment.range.y + before;
+    let a = node_at(first, age);
+    let b = node_at(first + 1u, age);
+    let curtain = between_nodes(node_at(first - 1u, age).xy, a.xy, b.xy, node_at(first + 2u, age).xy, part);
+    let place = curtain.xy;
+    let step = curtain.zw;
     let body = at_height(place, height, streak.south);
     let slot = end_index + select(0u, aurora.counts.y + 1u, streak.kind == RED);
     let reference = references[first_reference(streak.segment, streak.south, id.y) + slot];
@@ -71,8 +73,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let along = mix(a.w, b.w, part);
     let whole = night(place);
     let waited = whole * mix(a.z, b.z, part) * mix(1.0, rays(along, aurora.clock.z - wait, apart), aurora.clock.w);
-    let now_a = node_at(segment.range.y + before, aurora.clock.y).z;
-    let now_b = node_at(segment.range.y + before + 1u, aurora.clock.y).z;
+    let now_a = node_at(first, aurora.clock.y).z;
+    let now_b = node_at(first + 1u, aurora.clock.y).z;
     let prompt = whole * mix(now_a, now_b, part) * mix(1.0, rays(along, aurora.clock.z, apart), aurora.clock.w);
     end.along = vec4<f32>(reference.east.xyz * turn.x + reference.north.xyz * turn.y, waited);
     end.across = vec4<f32>(reference.north.xyz * turn.x - reference.east.xyz * turn.y, prompt);

@@ -4,7 +4,7 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: rows of the history, y: segments, z: room for strokes of one placement in the two finest levels (see room_of), w: AURORA_*.
+    /// x: which row of the history is the newest, y: segments, z: room for strokes of one placement in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
@@ -49,7 +49,8 @@ struct ChordEnd {
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
 @group(1) @binding(1) var<storage, read> aurora_placements: array<Placement>;
-/// Rows of nodes, newest first: x, y: place in the plane across the field in km, z: energy flux over its mean, w: place along the curtain at rest in km.
+/// A ring of HISTORY_ROWS rows of nodes, each older than the one before it, but for the newest: x, y: place in the plane across the field in km, z: energy flux over its mean,
+/// w: place along the curtain at rest in km. Each curve has a node more at either end (between_nodes).
 @group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
 @group(1) @binding(3) var<storage, read> segments: array<Segment>;
 /// Photons (ROWS × (PARTS + 1) × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
@@ -63,6 +64,8 @@ struct ChordEnd {
 /// x: least, y: greatest depth of what is drawn, in depth tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;
 
+/// Rows of the history; as ROWS in src/render/aurora/rows.rs.
+const HISTORY_ROWS: u32 = 128u;
 const ROWS: u32 = 32u;
 const LEAST_FLUX: f32 = 0.05;
 const MOST_FLUX: f32 = 4.0;
@@ -257,14 +260,32 @@ fn across_field(body: vec3<f32>) -> mat3x3<f32> {
 
 /// A node's place and flux `age` seconds ago; before the oldest row it stays there.
 fn node_at(node: u32, age: f32) -> vec4<f32> {
-    let x = clamp(age / aurora.clock.x, 0.0, f32(aurora.history.x - 1u));
-    let row = min(u32(x), aurora.history.x - 2u);
-    let newer = nodes[row * aurora.counts.w + node];
-    let older = nodes[(row + 1u) * aurora.counts.w + node];
+    let x = clamp(age / aurora.clock.x, 0.0, f32(HISTORY_ROWS - 1u));
+    let row = min(u32(x), HISTORY_ROWS - 2u);
+    let newer = nodes[((aurora.history.x + row) % HISTORY_ROWS) * aurora.counts.w + node];
+    let older = nodes[((aurora.history.x + row + 1u) % HISTORY_ROWS) * aurora.counts.w + node];
     return mix(newer, older, x - f32(row));
 }
 
-/// The place amid a part of a curtain `age` seconds ago.
+/// As long as `long` in the direction of `v`; nothing where that has none.
+fn as_long(v: vec2<f32>, long: f32) -> vec2<f32> {
+    return v * (long / max(length(v), 1e-6));
+}
+
+/// Between two nodes of a curtain, beside the one before them and the one after: the place at `t` of the way (xy) and its derivative by t (zw);
+/// twin of scene::aurora::curve::between_nodes.
+fn between_nodes(before: vec2<f32>, a: vec2<f32>, b: vec2<f32>, after: vec2<f32>, t: f32) -> vec4<f32> {
+    let chord = b - a;
+    let at_a = as_long(b - before, length(chord));
+    let at_b = as_long(after - a, length(chord));
+    let place = a + chord * (t * t * (3.0 - 2.0 * t)) + (at_a * (1.0 - t) - at_b * t) * (t * (1.0 - t));
+    let step = chord * (6.0 * t * (1.0 - t)) + at_a * ((1.0 - t) * (1.0 - 3.0 * t)) + at_b * (t * (3.0 * t - 2.0));
+    return vec4<f32>(place, step);
+}
+
+/// The place amid a part of a curtain `age` seconds ago; twin of `middle_of` in src/render/aurora/rows.rs.
 fn middle_of(segment: Segment, age: f32) -> vec2<f32> {
-    return 0.5 * (node_at(segment.range.y, age).xy + node_at(segment.range.y + segment.range.w, age).xy);
+    let node = segment.range.y + (segment.range.w - 1u) / 2u;
+    let t = select(1.0, 0.5, segment.range.w % 2u == 1u);
+    return between_nodes(node_at(node - 1u, age).xy, node_at(node, age).xy, node_at(node + 1u, age).xy, node_at(node + 2u, age).xy, t).xy;
 }

@@ -11,6 +11,7 @@ mod pass;
 pub mod race;
 pub mod ration;
 pub mod rooms;
+pub mod rows;
 pub mod shift;
 mod show;
 pub mod sight;

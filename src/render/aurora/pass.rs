@@ -7,6 +7,7 @@ use wgpu::{BufferUsages, ShaderStages};
 use super::colours::Colours;
 use super::levels::{Levels, PYRAMID, Ranges, light_format};
 use super::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
+use super::rows::{ROWS, Rows};
 use super::show::AuroraFrame;
 use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
@@ -76,7 +77,7 @@ pub struct Aurora {
     /// Of the prepared frame.
     rooms: Rooms,
     /// What is on the GPU.
-    uploaded_nodes: Option<Arc<Vec<[f32; 4]>>>,
+    uploaded_rows: Rows,
     uploaded_falls: Option<Arc<Vec<f32>>>,
 }
 
@@ -155,7 +156,7 @@ impl Aurora {
             drawn: [0; 3],
             projected: 0,
             rooms: Rooms::default(),
-            uploaded_nodes: None,
+            uploaded_rows: Rows::default(),
             uploaded_falls: None,
             walk_layout,
             draw_layout,
@@ -188,11 +189,8 @@ impl Aurora {
         let rooms = Rooms { finest: u64::from(settings.history[2]), levels: in_use };
         let mut replaced = self.groups.is_none() || in_use != self.rooms.levels;
         self.rooms = rooms;
-        // The history changes only when the curtains have moved a step, and falls with the keys of the spectrum.
-        if self.uploaded_nodes.as_ref().is_none_or(|nodes| !Arc::ptr_eq(nodes, &frame.nodes)) {
-            replaced |= self.nodes.write(gpu, &frame.nodes);
-            self.uploaded_nodes = Some(frame.nodes.clone());
-        }
+        replaced |= self.write_rows(gpu, &frame.rows);
+        // They change only with the keys of the spectrum.
         if self.uploaded_falls.as_ref().is_none_or(|falls| !Arc::ptr_eq(falls, &frame.falls)) {
             replaced |= self.falls.write(gpu, &frame.falls);
             self.uploaded_falls = Some(frame.falls.clone());
@@ -225,6 +223,20 @@ impl Aurora {
         }
         self.images = frame.parts.iter().map(|part| pixels(*part, targets.size)).zip(frame.behind.iter().copied()).take(orders).collect();
         self.drawn = [streaks, chords, orders as u32];
+    }
+
+    /// Writes the rows that are not on the GPU yet, one of a step. True if the buffer was replaced.
+    fn write_rows(&mut self, gpu: &Gpu, rows: &Rows) -> bool {
+        let bytes = size_of_val(rows.ago(0)) as u64;
+        let replaced = self.nodes.reserve(&gpu.device, bytes * ROWS as u64);
+        if replaced {
+            self.uploaded_rows = Rows::default();
+        }
+        for (slot, row) in rows.changed(&self.uploaded_rows) {
+            gpu.queue.write_buffer(&self.nodes.buffer, bytes * slot as u64, bytemuck::cast_slice(row));
+        }
+        self.uploaded_rows = rows.clone();
+        replaced
     }
 
     fn make_groups(&self, device: &wgpu::Device) -> Option<Groups> {

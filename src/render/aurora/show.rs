@@ -1,6 +1,5 @@
 //! What the aurora looks like now: the simulation of its curtains, and how many streaks are drawn where.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
@@ -9,6 +8,7 @@ use super::chords::Bend;
 use super::colours::Colours;
 use super::levels::PYRAMID;
 use super::ration::Ration;
+use super::rows::{ROW, ROWS, Rows, place as node_place};
 use super::shift::Shift;
 use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
 use crate::render::frame::Camera;
@@ -29,9 +29,6 @@ use crate::sim::flight::Command;
 use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};
 
-/// Rows of the history that red light waits in, and seconds between two.
-const ROWS: usize = 128;
-const ROW: f64 = 1.0;
 /// Rows that a frame of a watched aurora makes at most: four steps of the motion, of some milliseconds each where an oval has thousands of nodes.
 const MOST_ROWS: usize = 2;
 /// Seconds after which the rays' noise is the same again: in them it drifts by whole numbers of times its 512 values (ends.wgsl).
@@ -83,8 +80,8 @@ pub struct AuroraFrame {
     pub colours: Vec<Colours>,
     /// Parts of the curtains with their streaks.
     pub segments: Vec<Segment>,
-    /// Rows of nodes, newest first.
-    pub nodes: Arc<Vec<[f32; 4]>>,
+    /// The curtains' history.
+    pub rows: Rows,
     /// [`Quantiles`] of the curtains' electrons.
     pub falls: Arc<Vec<f32>>,
 }
@@ -99,11 +96,9 @@ pub struct Show {
     falls: Falls,
     plan: Plan,
     motion: Option<Motion>,
-    /// Rows of nodes, newest first, and when the newest was.
-    rows: VecDeque<Vec<[f32; 4]>>,
+    /// The curtains' history, and when its newest row was (s).
+    rows: Rows,
     newest: f64,
-    /// The rows laid out for the GPU, until they change.
-    laid_out: Option<Arc<Vec<[f32; 4]>>>,
     /// Whether it is watched as it goes: then no frame makes more than [`MOST_ROWS`], and what was missed out of sight is not made up for. Else each
     /// frame is what its time says, whatever came before.
     watched: bool,
@@ -153,9 +148,8 @@ impl Show {
             config,
             plan,
             motion: None,
-            rows: VecDeque::new(),
+            rows: Rows::default(),
             newest: 0.0,
-            laid_out: None,
             watched: false,
             ration: Ration::default(),
             offset: 0.0,
@@ -244,8 +238,6 @@ impl Show {
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2 } else { 1 };
         let streaks = segments.last().map_or(0, |segment| segment.range[0] + segment.range[2]);
-        frame.nodes = self.laid_out.get_or_insert_with(|| Arc::new(self.rows.iter().flatten().copied().collect())).clone();
-        let row = self.rows.front().map_or(0, Vec::len);
         let mut flags = if self.config.walk == "linear" { LINEAR } else { 0 };
         if both {
             flags |= BOTH_POLES;
@@ -253,7 +245,7 @@ impl Show {
         let orders: Vec<Order> = frame.placements.iter().filter_map(|placement| Order::new(placement.ids[0] as u8)).collect();
         let bend =
             Bend { view, time, history: &history, scale, tops: self.falls.tops, heights: self.falls.ends.map(|ends| ends.map(f64::from)) };
-        let chords = bend.chords(&segments, |segment, wait| self.middle(segment, wait + ahead), &orders, flags);
+        let chords = bend.chords(&segments, |segment, wait| self.rows.middle_of(segment, wait + ahead), &orders, flags);
         let drawn_out = magnification(view, now.position, self.planet.radius);
         // As if seen from the side; of a planet far away the whole streak is a pixel or two.
         let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * drawn_out;
@@ -268,39 +260,27 @@ impl Show {
         let away = (now.attitude.inverse() * now.position).normalize_or_zero().truncate();
         let midnight = if both { MIDNIGHT * away } else { DVec2::ZERO };
         frame.settings = AuroraSettings {
-            counts: [streaks, chords, parts, row as u32],
-            history: [self.rows.len() as u32, segments.len() as u32, room as u32, flags],
+            counts: [streaks, chords, parts, self.rows.ago(0).len() as u32],
+            history: [self.rows.newest() as u32, segments.len() as u32, room as u32, flags],
             clock: [ROW as f32, ahead as f32, (time * self.config.pace).rem_euclid(RAYS_PERIOD) as f32, self.config.contrast as f32],
             strokes: [self.config.radius as f32, levels as f32, midnight.x as f32, midnight.y as f32],
             heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
         };
+        frame.rows = self.rows.clone();
         frame.segments = segments;
         frame.falls = self.falls.table.clone();
-        (streaks > 0 && self.rows.len() > 1).then_some(frame)
+        (streaks > 0).then_some(frame)
     }
 
-    /// Where the middle of a part of a curtain was `age` seconds before the newest row; as in streaks.wgsl.
-    fn middle(&self, segment: &Segment, age: f64) -> DVec2 {
-        let [_, first, _, span] = segment.range.map(|number| number as usize);
-        let x = (age / ROW).clamp(0.0, self.rows.len().saturating_sub(1) as f64);
-        let at = |row: usize| {
-            let middle = |row: &Vec<[f32; 4]>| 0.5 * (node_place(row, first) + node_place(row, first + span));
-            self.rows.get(row).or(self.rows.back()).map_or(DVec2::ZERO, middle)
-        };
-        at(x as usize).lerp(at(x as usize + 1), x.fract())
-    }
-
-    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing moved; when it comes into sight again it
+    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing changed (light that travelled along the
+    /// curtains would take 128 rows in one frame, 60 to 70 ms for an oval); when it comes into sight again it
     /// goes on where it was, and where the clock runs away from it, it stays behind.
     fn go_on(&mut self, now: f64) -> f64 {
         let now = now + self.offset;
         if self.motion.is_none() {
-            let mut motion = Motion::new(self.plan.clone(), ((now / ROW).floor() - ROWS as f64) * ROW);
-            self.rows.clear();
-            for _ in 0..ROWS {
-                motion.pass(ROW);
-                self.keep(&motion);
-            }
+            let motion = Motion::new(self.plan.clone(), (now / ROW).floor() * ROW);
+            self.rows = Rows::still(motion.row());
+            self.newest = motion.time();
             self.motion = Some(motion);
         }
         if let Some(mut motion) = self.motion.take() {
@@ -320,11 +300,8 @@ impl Show {
 
     /// The curtains as they are now become the newest row.
     fn keep(&mut self, motion: &Motion) {
-        let row = motion.nodes().iter().map(|node| [node.place.x, node.place.y, node.flux, node.along].map(|x| x as f32)).collect();
         self.newest = motion.time();
-        self.rows.push_front(row);
-        self.rows.truncate(ROWS);
-        self.laid_out = None;
+        self.rows.push(motion.row());
     }
 
     /// Brings the curtains to the time `now` (s); returns by how much the newest row is ahead of it.
@@ -332,14 +309,14 @@ impl Show {
         let warm_up = ROWS as f64 * ROW;
         let stale = self.motion.as_ref().is_none_or(|motion| !(motion.time() - warm_up..=motion.time() + warm_up).contains(&now));
         if stale {
-            self.rows.clear();
-            self.motion = Some(Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW));
+            let motion = Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW);
+            self.rows = Rows::still(motion.row());
+            self.newest = motion.time();
+            self.motion = Some(motion);
         }
         let Some(mut motion) = self.motion.take() else { return 0.0 };
-        while self.rows.is_empty() || self.newest < now {
-            if !self.rows.is_empty() {
-                move_on(&mut motion);
-            }
+        while self.newest < now {
+            move_on(&mut motion);
             self.keep(&motion);
         }
         self.motion = Some(motion);
@@ -349,15 +326,18 @@ impl Show {
     /// Parts of the curtains, each with as many streaks as its length on the screen asks for.
     fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, pixels: f64) -> Vec<Segment> {
         let scale = self.planet.radius / PLANET_RADIUS;
-        let Some((motion, row)) = self.motion.as_ref().zip(self.rows.front()) else { return Vec::new() };
+        let Some(motion) = &self.motion else { return Vec::new() };
+        let row = self.rows.ago(0);
+        // In a row each curve has a node more at either end.
+        let curves =
+            motion.starts().windows(2).enumerate().map(|(curve, window)| [window[0], window[1] - 1].map(|node| node + 2 * curve + 1));
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2.0 } else { 1.0 };
         // Length on the screen of each pair of nodes, in pixels, as if space were flat, less where strokes are wide; no nearer than the top of the aurora.
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
-        for window in motion.starts().windows(2) {
-            let last = window[1].saturating_sub(1);
-            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(window[0]) {
+        for [first, last] in curves.clone() {
+            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(first) {
                 let here = centre + attitude * (on_field_line(node_place(row, k), REFERENCE_HEIGHT) * scale);
                 let length = node_place(row, k).distance(node_place(row, k + 1)) * scale;
                 let per_pixel = (here - view.camera.position).length().max(100.0 * scale) * view.pixel;
@@ -375,13 +355,13 @@ impl Show {
             ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).max(row.len().div_ceil(MOST_SEGMENTS)).clamp(1, 64);
         let mut segments = Vec::new();
         let mut first = 0;
-        for ((window, curve), &length) in motion.starts().windows(2).zip(&self.plan.curves).zip(motion.lengths()) {
-            let pairs = window[1] - window[0] - 1;
+        for (([first_of_curve, last], curve), &length) in curves.zip(&self.plan.curves).zip(motion.lengths()) {
+            let pairs = last - first_of_curve;
             let length = length / pairs as f64;
             let mut k = 0;
             while k < pairs {
                 let span = stride.min(pairs - k);
-                let first_node = window[0] + k;
+                let first_node = first_of_curve + k;
                 let weight: f64 = weights[first_node..first_node + span].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
                 let kilometres: f64 = (first_node..first_node + span).map(|k| node_place(row, k).distance(node_place(row, k + 1))).sum();
@@ -418,11 +398,6 @@ fn spread(segment: &Segment, poles: u32) -> f64 {
     let [_, width, length, _] = segment.light.map(f64::from);
     let apart = length * f64::from(TURN * poles) / f64::from(segment.range[2].max(1));
     (width / 12f64.sqrt()).max(apart / SMOOTH)
-}
-
-/// Where a node of a row of the history is, km in the plane across the field.
-fn node_place(row: &[[f32; 4]], node: usize) -> DVec2 {
-    DVec2::new(f64::from(row[node][0]), f64::from(row[node][1]))
 }
 
 /// Falls of electrons with the energies that the keys ask for.

@@ -13,8 +13,8 @@ pub struct Link {
     pub total: f64,
     /// Whether the chain ends where it began.
     pub closed: bool,
-    /// Whether another curve (or its own other end) is joined to its start, and to its end.
-    pub joined: [bool; 2],
+    /// The curves (or itself) that end where it starts, and start where it ends.
+    pub joined: [Option<usize>; 2],
 }
 
 /// Ends nearer than this to one another are one, km.
@@ -23,10 +23,10 @@ const JOINT: f64 = 1.0;
 /// The links of all curves, with their lengths in km.
 pub fn links(curves: &[Curve], lengths: &[f64]) -> Vec<Link> {
     let next = |k: usize| curves.iter().position(|curve| curve.point(0.0).distance(curves[k].point(1.0)) < JOINT);
-    let before = |k: usize| (0..curves.len()).any(|other| next(other) == Some(k));
+    let before = |k: usize| (0..curves.len()).find(|&other| next(other) == Some(k));
     let mut links: Vec<Option<Link>> = vec![None; curves.len()];
     // Open chains from their beginnings, then what is left: rings, from any of their curves.
-    let starts = (0..curves.len()).filter(|&k| !before(k)).chain((0..curves.len()).filter(|&k| before(k)));
+    let starts = (0..curves.len()).filter(|&k| before(k).is_none()).chain((0..curves.len()).filter(|&k| before(k).is_some()));
     for chain in starts {
         let mut own = Vec::new();
         let mut at = Some(chain);
@@ -36,7 +36,7 @@ pub fn links(curves: &[Curve], lengths: &[f64]) -> Vec<Link> {
                 start: own.iter().map(|&k: &usize| lengths[k]).sum(),
                 total: 0.0,
                 closed: false,
-                joined: [before(k), false],
+                joined: [before(k), next(k)],
             });
             own.push(k);
             at = next(k);
@@ -44,7 +44,7 @@ pub fn links(curves: &[Curve], lengths: &[f64]) -> Vec<Link> {
         let total = own.iter().map(|&k| lengths[k]).sum();
         for &k in &own {
             if let Some(link) = &mut links[k] {
-                (link.total, link.closed, link.joined[1]) = (total, at == Some(chain), next(k).is_some());
+                (link.total, link.closed) = (total, at == Some(chain));
             }
         }
     }

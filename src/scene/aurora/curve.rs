@@ -49,3 +49,17 @@ impl Curve {
         along.perp().try_normalize().or((d - a).perp().try_normalize()).unwrap_or(DVec2::Y)
     }
 }
+
+/// Between two nodes of a curtain, beside the one before them and the one after: the place at `t` of the way and its derivative by t. A cubic with Catmull and
+/// Rom's directions: at a node it goes as from the node before that to the one after. It is everywhere about as fast as the two are apart, so that nodes at
+/// uneven distances make no loops, light that is spread evenly over t lies evenly, and seven nodes round a circle make one to half a per cent.
+/// Twin: `between_nodes` in shaders/aurora/streaks.wgsl.
+pub fn between_nodes([before, a, b, after]: [DVec2; 4], t: f64) -> [DVec2; 2] {
+    let chord = b - a;
+    let apart = chord.length();
+    let at_a = (b - before).normalize_or_zero() * apart;
+    let at_b = (after - a).normalize_or_zero() * apart;
+    let place = a + chord * (t * t * (3.0 - 2.0 * t)) + (at_a * (1.0 - t) - at_b * t) * (t * (1.0 - t));
+    let step = chord * (6.0 * t * (1.0 - t)) + at_a * ((1.0 - t) * (1.0 - 3.0 * t)) + at_b * (t * (3.0 * t - 2.0));
+    [place, step]
+}

@@ -152,12 +152,6 @@ impl Motion {
         motion
     }
 
-    /// Time goes by (s) and brightness travels on, but nothing moves: an aurora that nobody has watched begins so, with a past.
-    pub fn pass(&mut self, seconds: f64) {
-        self.time += seconds;
-        self.shine();
-    }
-
     /// Strength of the field, renewal time and contrast as in [`Plan`], from now on.
     pub fn change(&mut self, field: f64, renewal: f64, contrast: f64) {
         (self.plan.field, self.plan.renewal, self.plan.contrast) = (field, renewal, contrast);
@@ -189,6 +183,27 @@ impl Motion {
     /// First node of each curve, and after the last their number.
     pub fn starts(&self) -> &[usize] {
         &self.starts
+    }
+
+    /// The nodes as they are drawn: before the first of each curve one more, and one after its last, by which its ends have their direction
+    /// ([`super::curve::between_nodes`]). Where curves are joined they are nodes of the neighbours; else they lie as far beyond the end as its own neighbour before it.
+    pub fn row(&self) -> impl Iterator<Item = Node> {
+        let at = |curve: usize, from_start: bool, number: usize| {
+            let (first, last) = (self.starts[curve], self.starts[curve + 1] - 1);
+            self.nodes[if from_start { first + number } else { last - number }]
+        };
+        self.links.iter().enumerate().flat_map(move |(curve, link)| {
+            let beyond = |start: bool| {
+                let (end, inner) = (at(curve, start, 0), at(curve, start, 1));
+                let place = match link.joined[usize::from(!start)] {
+                    Some(other) => at(other, !start, 1).place,
+                    None => 2.0 * end.place - inner.place,
+                };
+                Node { place, ..end }
+            };
+            let own = self.starts[curve]..self.starts[curve + 1];
+            [beyond(true)].into_iter().chain(self.nodes[own].iter().copied()).chain([beyond(false)])
+        })
     }
 
     /// Nodes whose speed was not finite, and that were put back to where they rest, so far.
@@ -331,7 +346,7 @@ impl Motion {
             let (curve, t, _) = self.rest[k];
             let link = self.links[curve];
             // A curtain that ends fades out over an eighth of its last part.
-            let end = |joined: bool, t: f64| if joined { 1.0 } else { smooth((t / 0.12).min(1.0)) };
+            let end = |joined: Option<usize>, t: f64| if joined.is_some() { 1.0 } else { smooth((t / 0.12).min(1.0)) };
             let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
             let wave = [0, 1].map(|octave: usize| {
                 let (long, passing) = WAVES[octave];

@@ -1,0 +1,86 @@
+//! The history of the curtains: rows of nodes in a ring of slots, so that a step writes no more than its own row.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::Segment;
+use crate::scene::aurora::curve::between_nodes;
+use crate::scene::aurora::motion::Node;
+
+/// Rows that red light waits in; HISTORY_ROWS in shaders/aurora/streaks.wgsl.
+pub const ROWS: usize = 128;
+/// Seconds between two of them.
+pub const ROW: f64 = 1.0;
+
+/// Nodes of all curtains at one time, as the shaders read them.
+pub type Row = Arc<Vec<[f32; 4]>>;
+
+/// The rows of a history. One that is cloned has the same rows.
+#[derive(Clone, Debug, Default)]
+pub struct Rows {
+    /// By slot: from the newest on each is older than the one before, round the ring.
+    slots: Vec<Row>,
+    newest: usize,
+}
+
+impl Rows {
+    /// A past in which nothing happened: all rows are this one.
+    pub fn still(nodes: impl Iterator<Item = Node>) -> Rows {
+        Rows { slots: vec![row(nodes); ROWS], newest: 0 }
+    }
+
+    /// Another row, in place of the oldest.
+    pub fn push(&mut self, nodes: impl Iterator<Item = Node>) {
+        self.newest = (self.newest + ROWS - 1) % ROWS;
+        if let Some(slot) = self.slots.get_mut(self.newest) {
+            *slot = row(nodes);
+        }
+    }
+
+    /// The rows by their slots; none if there is no history.
+    pub fn slots(&self) -> &[Row] {
+        &self.slots
+    }
+
+    /// The slot of the newest.
+    pub fn newest(&self) -> usize {
+        self.newest
+    }
+
+    /// The nodes so many rows ago, from 0; none if there is no history.
+    pub fn ago(&self, rows: usize) -> &[[f32; 4]] {
+        self.slots.get((self.newest + rows) % ROWS).map_or(&[], |row| row)
+    }
+
+    /// Slots whose rows are others than in an earlier history.
+    pub fn changed<'a>(&'a self, before: &'a Rows) -> impl Iterator<Item = (usize, &'a Row)> {
+        let same = |&(slot, row): &(usize, &Row)| before.slots.get(slot).is_some_and(|old| Arc::ptr_eq(old, row));
+        self.slots.iter().enumerate().filter(move |row| !same(row))
+    }
+
+    /// Where a node was `age` seconds before the newest row, km in the plane across the field; before the oldest it stays there. Twin: `node_at` in
+    /// shaders/aurora/streaks.wgsl.
+    pub fn node_at(&self, node: usize, age: f64) -> DVec2 {
+        let x = (age / ROW).clamp(0.0, (ROWS - 1) as f64);
+        let row = (x as usize).min(ROWS - 2);
+        place(self.ago(row), node).lerp(place(self.ago(row + 1), node), x - row as f64)
+    }
+
+    /// The place amid a part of a curtain so many seconds before the newest row; twin of `middle_of` in shaders/aurora/streaks.wgsl.
+    pub fn middle_of(&self, segment: &Segment, age: f64) -> DVec2 {
+        let [_, first, _, span] = segment.range.map(|number| number as usize);
+        let node = first + (span - 1) / 2;
+        let t = if span % 2 == 1 { 0.5 } else { 1.0 };
+        between_nodes([0, 1, 2, 3].map(|k| self.node_at(node + k - 1, age)), t)[0]
+    }
+}
+
+fn row(nodes: impl Iterator<Item = Node>) -> Row {
+    Arc::new(nodes.map(|node| [node.place.x, node.place.y, node.flux, node.along].map(|x| x as f32)).collect())
+}
+
+/// Where a node of a row is, km in the plane across the field.
+pub fn place(row: &[[f32; 4]], node: usize) -> DVec2 {
+    row.get(node).map_or(DVec2::ZERO, |node| DVec2::new(f64::from(node[0]), f64::from(node[1])))
+}
