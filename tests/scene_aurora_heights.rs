@@ -3,7 +3,7 @@
 use lensrunner::scene::aurora::air::overhead;
 use lensrunner::scene::aurora::fall::{Spectrum, range, sane_energy, share_left, slope};
 use lensrunner::scene::aurora::lines;
-use lensrunner::scene::aurora::quantiles::{KINDS, PARTS, Quantiles, ROWS, flux};
+use lensrunner::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles, ROWS, flux};
 use lensrunner::scene::config::{Allowed, settings};
 
 /// Kinds of light by line: green, blue and crimson are drawn together.
@@ -49,7 +49,6 @@ fn light(spectrum: &Spectrum) -> Vec<[f64; 4]> {
 fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
     let [[softest, hardest], [coldest, hottest]] = ["energy", "thermal"].map(allowed);
     assert!(softest <= 0.5 && hardest >= 50.0);
-    let mut most_outside = [0.0f64; KINDS];
     for accelerated in [softest, 4.0, hardest] {
         for thermal in [coldest, 1.5, hottest] {
             let spectrum = Spectrum { accelerated, thermal };
@@ -66,12 +65,13 @@ fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
                     };
                     let outside = [above(top) / whole[line], 1.0 - above(foot) / whole[line]];
                     let name = format!("{accelerated} keV + {thermal} keV, row {row}, line {line}, {foot} to {top} km");
-                    let most = &mut most_outside[KIND[line]];
-                    *most = outside.into_iter().fold(*most, f64::max);
-                    assert!(
-                        outside.iter().all(|part| *part <= [0.004, 0.0095][KIND[line]]),
-                        "{name}: {outside:.4?} of the light above and below"
-                    );
+                    // A five hundredth of a line and 1/125 of red are meant to be, and a tenth of that for the steps of both integrals. Where the hardest
+                    // electrons end within kilometres, half a step of the tables more; above, what the softest make higher than any light is drawn, 0.33 % of green and
+                    // 0.89 % of red where the curtain is faintest.
+                    let allowed = 1.1 * [0.002, 0.008][KIND[line]];
+                    let below = 1.0 - above(foot - 0.25) / whole[line];
+                    let beyond = above(HEIGHTS[0]) / whole[line];
+                    assert!(outside[0] <= allowed + beyond && below <= allowed, "{name}: {outside:.5?} of the light above and below");
                     // And none of it is lost: what is tabulated is all that is made. 3 %: steps of 1 km here, of half a kilometre there.
                     let drawn = f64::from(falls.photons[row * (PARTS + 1) + PARTS][line]);
                     assert!((drawn / whole[line] - 1.0).abs() < 0.03, "{name}: {drawn} photons of {}", whole[line]);
@@ -83,5 +83,4 @@ fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
             }
         }
     }
-    println!("at most {most_outside:.5?} of the light of a kind is above or below");
 }
