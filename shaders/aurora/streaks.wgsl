@@ -193,9 +193,14 @@ fn mean_wait(kind: u32, height: f32) -> f32 {
     return mix(falls[column + 2u * k], falls[column + 2u * k + 2u], x - f32(k));
 }
 
-/// The same for one streak: exponentially distributed over the streaks.
+/// No streak waits longer than so many lives of its light: the last fiftieth of all would stand one by one where the curtain long was.
+const LATEST: f32 = 4.0;
+/// Lives in that time of the decay that has the same mean when it ends there: 1/x − 1/(eˣ − 1) = 1/4.
+const DECAY: f32 = 3.5934;
+
+/// The same for one streak: over all of them as light decays.
 fn waits(streak: Streak, height: f32) -> f32 {
-    return -log(max(1.0 - streak.wait, 1e-6)) * mean_wait(streak.kind, height);
+    return -LATEST / DECAY * log(1.0 - streak.wait * (1.0 - exp(-DECAY))) * mean_wait(streak.kind, height);
 }
 
 /// Row of the table of falls where the energy flux is so many times its mean.
