@@ -37,7 +37,7 @@ struct Straight {
 /// From far: what is left of the light's error by [`straighten`] is less than half. A third of `across` takes half as many circles more, and pictures from 80° and
 /// lower are no nearer to the truth.
 const FROM_FAR: Straight = Straight { across: 0.15, height: true, along: 4.0, light: 0.02, stopped: 0.03 };
-/// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
+/// Within [`CLOSE`], where a ring may fill the picture.
 const FROM_NEAR: Straight = Straight { across: 0.4, height: false, along: 8.0, light: 0.015, stopped: 0.01 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/types.wgsl has it.
@@ -140,7 +140,7 @@ impl DiskView {
                     circle.place[2] = disk.config.gap as f32;
                     circle.place[3] = if closed < end { 2.0 } else { 1.0 };
                 }
-            } else if order > close {
+            } else {
                 straighten(disk, &rows, &mut own);
             }
             circles.extend(own);
