@@ -7,6 +7,7 @@ use lensrunner::measure::disk;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::arcs::ArcPass;
+use lensrunner::render::disk::sigma::{bearing, sigma};
 use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::readback;
@@ -47,7 +48,7 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera) -> Drawn {
     let mut grid = Vec::new();
     for (row, circle) in view.circles.iter().enumerate() {
         for column in (0..columns).step_by(2) {
-            let azimuth = f64::from(view.cuts[column / 2]) + origin;
+            let azimuth = bearing(f64::from(view.cuts[column / 2]), f64::from(view.frame.upwards[3]))[0] + origin;
             grid.push((all[row * columns + column], f64::from(circle.gas[0]), azimuth, circle.rows[0]));
         }
     }
@@ -526,5 +527,63 @@ fn cold_gas_has_the_colour_of_its_streaks() {
             off[0],
             off[1]
         );
+    }
+}
+
+/// The inverse of σ is that in both languages, at any height over the plane; and next to the plane the angle round the axis that follows from it is right where the
+/// disk passes behind the hole, though θ hardly moves there.
+#[test]
+fn bearings_are_the_inverse_of_sigma_in_both_languages() {
+    let body = "let there = bearing(row.x, row.y);
+        twin_out[id.x] = vec4<f32>(there.theta, there.cosine, there.sine, atan2(there.sine, row.y * there.cosine));";
+    let mut rows = Vec::new();
+    for height in [1e-5f32, 1e-3, 0.1, 1.0] {
+        rows.extend((0..500).map(|k| [-3.0 + 12.3 * k as f32 / 499.0, height, 0.0, 0.0]));
+    }
+    // What drivers' own arctangents are off by.
+    let rounding = 1e-5;
+    for (row, got) in rows.iter().zip(run(Pass::DiskVertices, body, [&[], &[]], &rows, 1)) {
+        let [wanted, height] = [f64::from(row[0]), f64::from(row[1])];
+        let [theta, cosine, sine] = bearing(wanted, height);
+        assert!((sigma(theta, height) - wanted).abs() < 1e-9, "{row:?}: σ is {}", sigma(theta, height));
+        let around = sine.atan2(height * cosine);
+        for (got, want) in got.into_iter().zip([theta, cosine, sine, around]) {
+            let off = (f64::from(got) - want + PI).rem_euclid(TAU) - PI;
+            assert!(off.abs() < rounding, "{row:?}: {got} on the GPU, {want} in Rust");
+        }
+    }
+}
+
+/// From within its plane the disk is what light from behind the hole makes of it on its way round: a ring as round as from elsewhere, whose upper half
+/// is of the first order. Its chords are as near to it as the budget asks for.
+#[test]
+fn from_within_its_plane_the_disk_is_a_round_ring() {
+    let disk = a_disk();
+    let mut renderer = renderer([512, 512]);
+    for (l, field_of_view) in [(20.0, 40f64), (8.0, 100.0)] {
+        let camera = camera(l, 90.0, field_of_view.to_radians());
+        let drawn = drawn(&mut renderer, &disk, camera);
+        let [_, outer] = disk.gas.extent();
+        let ray = light::connect(1.0 / outer, PI, 1.0 / l, Branch::Plus).unwrap();
+        let psi = light::rain_angle(ray.slope, ray.energy, 1.0 / l);
+        let axis = camera.position / l;
+        let radius = camera.seen_direction(axis * psi.cos() + DVec3::Z * psi.sin()).angle_between(DVec3::NEG_Z);
+        let (mut around, mut worst) = (0.0, 0.0f64);
+        for triangle in &drawn.triangles {
+            for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+                let [a, b] = [i, j].map(|k: usize| direction(&drawn.all[triangle[k] as usize]));
+                let on_it = |v: DVec3| (v.angle_between(DVec3::NEG_Z) - radius).abs() < 1e-4;
+                if !on_it(a) || !on_it(b) {
+                    continue;
+                }
+                worst = worst.max(radius - (a + b).angle_between(DVec3::NEG_Z));
+                around += a.truncate().angle_to(b.truncate()).abs();
+            }
+        }
+        println!("L = {l}: chords go round {:.4} times, worst {worst:.2e} rad aside", around / TAU);
+        // The other half is of the second order; next to the plane a circle leaves the ring.
+        assert!((0.45..0.5).contains(&(around / TAU)), "chords go round {:.4} times", around / TAU);
+        // A half ring in n segments sags by π²/8 over n² of its radius.
+        assert!(worst < 1.3 * disk.config.error_budget, "{worst} rad aside");
     }
 }

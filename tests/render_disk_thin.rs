@@ -85,7 +85,8 @@ fn thin_images_have_their_light() {
         let [second, third] = light_over_exact(&place, Some(0.0), &[TIME]);
         println!("{name}: {second:.3} of the second image's light, {third:.3} of the third's");
         // From near, depth and light of the falling gas, which thins out within a tenth of r_s, go straight between circles, and so does what the second image stops of the third's light.
-        let [less, more] = if name == "at the inner edge" { [0.06, 0.09] } else { [0.03, 0.06] };
+        // They are off by 0.035 and 0.083; the second by 0.052 where circles have their own heat and all is too dark between them.
+        let [less, more] = if name == "at the inner edge" { [0.045, 0.09] } else { [0.03, 0.06] };
         assert!((second - 1.0).abs() < less, "{name}: {second:.3} of the second image's light");
         assert!((third - 1.0).abs() < more, "{name}: {third:.3} of the third image's light");
     }
@@ -157,23 +158,40 @@ fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     assert!((colour / neither - 1.0).abs() < 0.25 && (brightness / both - 1.0).abs() < 0.25, "{colour}, {neither}, {brightness}, {both}");
 }
 
-/// Gaps between rings too narrow to be seen are closed, in rows of pixels that hit them or not they were moiré: the picture is that of a disk without gaps
-/// which stops as much less of the light from behind.
+/// Gaps between rings too narrow to be seen are closed, and rings narrower than a pixel are no dashes: a small picture is what is left of one eight times as large, in which
+/// gaps are open, and nothing goes missing where they open. So it is at the rim too, beyond which there is no ring.
 #[test]
 fn gaps_too_narrow_to_be_seen_are_closed() {
-    let size = [320, 180];
-    let mut renderer = renderer(size);
-    let [gaps, thinner] = [(0.5, 0.9), (0.0, 0.45)].map(|(gap, opacity)| {
+    let [small, large] = [[160u32, 90], [1280, 720]];
+    // Gaps, arcs, their width in r_s, from where and how far the light and the picture may be off.
+    // Two rings beside a gap differ by up to 0.3 in width, and so do what each has grown by and what it is thinned by.
+    for (gap, arcs, width, degrees, less, off) in [(0.5, 4200, 0.4, 40.0, 0.02, 0.12), (0.9, 60, 2.0, 70.0, 0.06, 0.2)] {
         let mut config = GameConfig::default();
-        (config.disk.gap, config.disk.opacity, config.disk.turbulence) = (gap, opacity, 0.0);
-        renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
-        let camera = camera(27.0, 60.0, 60f64.to_radians());
-        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
-        renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
-    });
-    let square = |picture: &mut dyn Iterator<Item = f64>| picture.map(|v| v * v).sum::<f64>();
-    let off = (square(&mut gaps.iter().zip(&thinner).map(|(a, b)| a - b)) / square(&mut thinner.iter().copied())).sqrt();
-    println!("gaps that are closed change {off:.3} of the picture");
-    // Straight through both stop the same; aslant a share of an opaque ring stops less than thin gas.
-    assert!(off < 0.05, "{off}");
+        (config.disk.gap, config.disk.arcs, config.disk.width, config.disk.turbulence) = (gap, arcs, width, 0.0);
+        let disk = Disk::new(config.disk.clone(), &config);
+        let picture = |size: [u32; 2]| {
+            let mut renderer = renderer(size);
+            renderer.set_disk(Some(disk.clone()));
+            // The first order alone, for the others are closed at any size.
+            let settings = Settings { orders: 1, pixel_error: 100.0, ..settings() };
+            let camera = camera(27.0, degrees, 60f64.to_radians());
+            let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings };
+            renderer.picture(&input, false).unwrap().linear.iter().map(|p| f64::from(p[1])).collect::<Vec<f64>>()
+        };
+        // In blocks of 4 × 4 pixels of the small one: where a line falls within a pixel is chance.
+        let blocks = |picture: &[f64], size: [u32; 2]| {
+            let side = size[0] / 40;
+            let mut blocks = vec![0.0; (40 * (size[1] / side + 1)) as usize];
+            for (k, light) in (0..).zip(picture) {
+                blocks[((k / size[0] / side) * 40 + k % size[0] / side) as usize] += light / f64::from(side * side);
+            }
+            blocks
+        };
+        let [got, want] = [small, large].map(|size| blocks(&picture(size), size));
+        let light = got.iter().sum::<f64>() / want.iter().sum::<f64>();
+        let square = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
+        let apart = square(&mut got.iter().zip(&want).map(|(a, b)| a - b)) / square(&mut want.iter().copied());
+        println!("gap {gap}: {light:.3} of the light, off by {apart:.3}");
+        assert!((light - 1.0).abs() < less && apart < off, "gap {gap}: {light:.3} of the light, off by {apart:.3}");
+    }
 }

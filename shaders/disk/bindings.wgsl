@@ -2,7 +2,7 @@
 
 @group(1) @binding(0) var<uniform> disk: DiskFrame;
 @group(1) @binding(1) var<storage, read> circles: array<Circle>;
-/// θ of each cut.
+/// σ of each cut, in rad.
 @group(1) @binding(2) var<storage, read> cuts: array<f32>;
 /// Rows on either side of each ring; z: order.
 @group(1) @binding(3) var<storage, read> rings: array<vec4<u32>>;

@@ -5,6 +5,10 @@ const SOFT: f32 = 0.25;
 
 /// Widths in pixels between which a gap between two rings opens. Narrower, it is closed from both sides: in rows of pixels that hit it or not it would be moiré.
 const SEEN_GAP: vec2<f32> = vec2<f32>(2.0, 4.0);
+/// A ring between gaps is drawn this many pixels wide at least: what is narrower than a pixel would be dashes.
+const LEAST_RING: f32 = 1.5;
+/// The step, in rad at the hole, by which the way of a circle on the screen is told.
+const ALONG_STEP: f32 = 0.01;
 
 /// Circles whose mean a thin image shows, for each of so many azimuths; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
@@ -57,8 +61,8 @@ fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
 /// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
 /// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
-/// `count` are taken. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
-fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, before: vec2<f32>) -> vec3<f32> {
+/// `count` are taken, of whose place gas has `share`. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
+fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32, before: vec2<f32>) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
@@ -89,12 +93,12 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         let through = nearer.x / max(slanted, LEAST_COSINE);
         // In the mean over streaks, by three places of a normal distribution.
         let denser = exp(4.0 * sqrt(3.0 * v));
-        let passed = (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0;
+        let passed = 1.0 - share * (1.0 - (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0);
         let drawn = 1.0 - before.x - before.y * (1.0 - passed);
-        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
+        let shown = share * (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
         light += shown;
         shifted += shown * log(ratio);
-        stopped += 1.0 - exp(-depth);
+        stopped += share * (1.0 - exp(-depth));
     }
     let own = max(stopped, 1e-6);
     let x = -log(clamp(light / own, 1e-37, 0.999));
@@ -131,14 +135,15 @@ fn between_rays(a: LensRay, b: LensRay, t: f32) -> LensRay {
     return ray;
 }
 
-/// The vertex of `row` at θ.
-fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
+/// The vertex of `row` there.
+fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let circle = circles[row];
     let order = circle.rows.x;
     let n = frame.radial.xyz;
-    let s = sin(theta);
-    let c = cos(theta);
-    let half_sine = sin(0.5 * theta);
+    let s = at.sine;
+    let c = at.cosine;
+    // sin² and cos² of θ/2, free of cancellation.
+    let halves = select(vec2<f32>(0.5 - 0.5 * c, 0.5 * s * s / (1.0 - c)), vec2<f32>(0.5 * s * s / (1.0 + c), 0.5 + 0.5 * c), c > 0.0);
     let turn = select(1.0, -1.0, order == 2u);
 
     // The same for all radii: the half plane, bounded by the axis, that holds the ray.
@@ -155,15 +160,20 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     // Where the second image begins and ends beside the third: the same ray has crossed the plane on the other side of the hole.
     var second = vec2<f32>(0.0);
     var behind_second = order == 3u;
-    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. The lookup is called from this one place.
-    for (var k = 0u; k < select(select(3u, select(1u, 2u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
+    // Away from the axis, where the circle is near it.
+    let step = select(-ALONG_STEP, ALONG_STEP, c > 0.0);
+    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. A gap has another side, and needs to know how aslant it is seen: the
+    // third place is a little aside. The lookup is called from this one place.
+    for (var k = 0u; k < select(select(3u, select(1u, 3u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
         let beside = k == 1u && order == 1u;
-        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u || beside);
+        let aside = select(0.0, step, k == 2u && order == 1u);
+        let which = select(select(circle.rows.z, circle.rows.y, k == 1u || k == 3u), row, k == 0u || order == 1u);
         let opposite = k > 2u;
         let there = circles[which];
         let r = select(there.gas.x, there.place.y, beside);
-        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(half_sine * half_sine, 1.0 - half_sine * half_sine, opposite);
-        let found = lens_lookup_at(along, r * reach, r * select(c, -c, opposite) * disk.sideways.w, select(order, 2u, opposite));
+        let ahead = select(c, -c, opposite) * disk.sideways.w;
+        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(halves.x, halves.y, opposite);
+        let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach), select(order, 2u, opposite));
         let seen = found.valid && found.delay > 0.0;
         valid = valid && (seen || opposite);
         behind_second = behind_second && (seen || !opposite);
@@ -183,12 +193,16 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
         }
     }
 
-    // Gas of a ring is thinner by as much as it has grown over its gaps.
+    // What of the place that a ring takes has gas: less by as much as it has grown over its gaps.
     var share = 1.0 - gap;
     if gap > 0.0 && order == 1u {
         let pixel = frame.size.z * pixel_of(n * ray.cos_psi + side * ray.sin_psi, side * ray.cos_psi - n * ray.sin_psi);
-        let open = smoothstep(SEEN_GAP.x, SEEN_GAP.y, 2.0 * abs(psi.x - psi.y) / pixel);
-        share = mix(share, 1.0, open);
+        // Across the circle, which goes so far towards the axis and round it for each radian of θ.
+        let way = vec2<f32>((psi.z - psi.x) / step * disk.sideways.w * s / max(reach, 1e-12), ray.sin_psi * disk.upwards.w / max(reach * reach, 1e-12));
+        let dark = circle.place.w * abs(psi.x - psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
+        let ring = dark * share / gap;
+        let open = min(smoothstep(SEEN_GAP.x, SEEN_GAP.y, dark), 1.0 - clamp((LEAST_RING - ring) / max(dark, 1e-6), 0.0, 1.0));
+        share /= 1.0 - open * gap;
         ray = between_rays(in_gap, ray, open);
     }
 
@@ -236,9 +250,11 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
     var ln_g = log(g);
-    let turns = (theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
+    let turns = (at.theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
-    var shown = vec2<f32>(circle.gas.z + ln_g, -log(1.0 - share * (1.0 - exp(-circle.gas.w))));
+    // Gaps are as wide at any slant.
+    let behind_gaps = -log(max(1.0 - share * (1.0 - exp(-circle.gas.w * slant)), 1e-6)) / max(slant, 1e-6);
+    var shown = vec2<f32>(circle.gas.z + ln_g, select(behind_gaps, circle.gas.w, gap == 0.0));
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let azimuth = atan2(abs(s), c);
@@ -247,9 +263,9 @@ fn disk_vertex(row: u32, theta: f32) -> DiskVertex {
     // A loop over nothing is all that software drivers skip: a branch is run through by all.
     let is_behind = behind_second && own_share(nearer.y) < 1.0;
     let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, order == 3u);
-    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, vec2<f32>(0.0, 1.0)).y;
+    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
     let before = select(vec2<f32>(0.0, 1.0), second_before(nearer.x, nearer.y, hiding), is_behind);
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), azimuth, coming, ray.frequency, seen_as, before);
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), azimuth, coming, ray.frequency, seen_as, share, before);
     if own < 1.0 {
         let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
         shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));

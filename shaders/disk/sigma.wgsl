@@ -1,44 +1,26 @@
-// The parameter in which an image of the disk is smooth all round.
+// The parameter in which an image of the disk is smooth all round: σ, the mean of the azimuth θ from the camera's and of the angle α round the axis of hole
+// and camera at which the point is seen, tan α = tan θ/h. Where the disk passes behind the hole the one hardly moves while the other takes half a turn; in σ
+// the image is smooth everywhere. The twin of src/render/disk/sigma.rs.
 
-/// σ = θ + δ(θ)/2, the mean of θ and of the angle round the axis at which the point is seen. Where the disk passes behind the hole
-/// the one hardly moves while the other takes half a turn; in σ the image is smooth everywhere.
-fn sigma(theta: f32) -> f32 {
-    let h = disk.upwards.w;
-    let s = sin(theta);
-    let c = cos(theta);
-    return theta + 0.5 * atan2((1.0 - h) * s * c, h * c * c + s * s);
+/// Where on its circle a point is: θ in rad, its cosine and its sine.
+struct Bearing {
+    theta: f32,
+    cosine: f32,
+    sine: f32,
 }
 
-/// dσ/dθ.
-fn sigma_slope(theta: f32) -> f32 {
-    let h = disk.upwards.w;
-    let s = sin(theta);
-    let c = cos(theta);
-    return 0.5 + 0.5 * h / max(h * h * c * c + s * s, 1e-12);
-}
-
-/// θ between a and b at the fraction t of σ between them: Newton, held in the bracket.
-fn theta_between(a: f32, b: f32, t: f32) -> f32 {
-    // The ends are known.
-    return theta_of(mix(sigma(a), sigma(b), t), a, b, mix(a, b, t), t > 0.0 && t < 1.0);
-}
-
-/// θ of a σ, between a and b and near a guess, which it stays if it is not `sought`.
-fn theta_of(wanted: f32, a: f32, b: f32, guess: f32, sought: bool) -> f32 {
-    var low = a;
-    var high = b;
-    var theta = guess;
-    // No constant: compilers unroll loops of a known length.
-    let steps = select(0u, 16u, sought);
-    for (var i = 0u; i < steps; i++) {
-        let miss = sigma(theta) - wanted;
-        // What rounding leaves of a sum near π.
-        if abs(miss) < 3e-7 {
-            break;
-        }
-        if miss > 0.0 { high = theta; } else { low = theta; }
-        let next = theta - miss / sigma_slope(theta);
-        theta = select(0.5 * (low + high), next, next > low && next < high);
-    }
-    return theta;
+/// That at σ, for a camera whose height over the plane has the sine h > 0: tan 2σ = tan(θ + α) is a quadratic equation for tan θ. Cosine and sine come of it and not of θ: from next to the plane θ, rounded, has only some
+/// forty values near half a turn while α takes half a turn, and what should be a ring were chords.
+fn bearing(sigma: f32, h: f32) -> Bearing {
+    // θ, α and σ are the same at each quarter turn.
+    let half_turns = round(sigma / HALF_TURN);
+    let rest = sigma - half_turns * HALF_TURN;
+    let c = cos(2.0 * rest);
+    let s = abs(sin(2.0 * rest));
+    let middle = (1.0 + h) * abs(c);
+    let sum = middle + sqrt(middle * middle + 4.0 * h * s * s);
+    let sense = select(-1.0, 1.0, rest > 0.0);
+    let way = normalize(select(vec2<f32>(2.0 * s, sum), vec2<f32>(sum, 2.0 * h * s), c > 0.0)) * vec2<f32>(1.0, sense);
+    let turned = way * select(1.0, -1.0, (i32(half_turns) & 1) != 0);
+    return Bearing(half_turns * HALF_TURN + atan2(way.y, way.x), turned.x, turned.y);
 }

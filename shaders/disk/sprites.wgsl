@@ -45,9 +45,10 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     if gas.a.y < 1e-3 {
         return nothing;
     }
-    let theta = theta_at(sprite.sigma);
+    let here = bearing(sprite.sigma, disk.upwards.w);
     // Not by the slope there: near the axis behind the hole that would lead to the other side of the image.
-    let step = theta_at(sprite.sigma + sprite.step) - theta;
+    let next = bearing(sprite.sigma + sprite.step, disk.upwards.w);
+    let step = next.theta - here.theta;
     let turn = select(1.0, -1.0, order == 2u);
     let apart = select(RINGS_APART, 1.0, order == 1u);
     var ray: LensRay;
@@ -59,9 +60,8 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     // The lookup is called from this one place: the neighbours first.
     for (var k = 0u; k < 3u; k++) {
         let there = r + select(0.0, apart * image.ring_width, k == 0u);
-        let at = theta + select(0.0, step, k == 1u);
-        let s = sin(at);
-        let c = cos(at);
+        let s = select(here.sine, next.sine, k == 1u);
+        let c = select(here.cosine, next.cosine, k == 1u);
         let up = -disk.towards.w * c;
         let reach = sqrt(up * up + s * s);
         let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
@@ -102,7 +102,7 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
 
     let ratio = gas_ratio(apparent, r, ray.emission_slope > 0.0, gas);
     let depth = gas.a.y * disk_slant(ratio.y, ray.delay, gas.b.y);
-    let turns = (theta + atan2(disk.towards.y, disk.towards.x) - gas.b.x) / (2.0 * HALF_TURN);
+    let turns = (here.theta + atan2(disk.towards.y, disk.towards.x) - gas.b.x) / (2.0 * HALF_TURN);
     let there = gas_at(vec4<f32>(0.0), turns, gas.b.z, ray.delay, depth, gas_light(gas.a.x, log(ratio.x)), vec2<f32>(0.0, 1e6), ratio.y);
     // What the spot has of the pattern: as much as lies between two rings, and between two spots or as long as a pixel.
     let outer = radial_gas(r + image.ring_width);
@@ -112,12 +112,6 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     let colour = gas_colour(there.light.rgb, there.slope.xyz, there.light.w, cooling);
     let beyond = round((image.end - r) / image.ring_width - 0.5);
     return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0), vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
-}
-
-/// θ at σ: both are the same at every quarter of a turn.
-fn theta_at(sigma: f32) -> f32 {
-    let before = floor(sigma / (0.5 * HALF_TURN)) * (0.5 * HALF_TURN);
-    return theta_of(sigma, before, before + 0.5 * HALF_TURN, sigma, true);
 }
 
 /// Where in the pattern the gas `there` is, `height` up, and how much of it a spot covers that has these sides where it is not sheared.

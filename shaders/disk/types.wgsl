@@ -31,7 +31,7 @@ struct Circle {
     gas: vec4<f32>,
     /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
     motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, differenced in f64; y: radius of the middle of the gap beside it; z: the gap over the whole ring; w unused. Of the circles behind the rows: the gas of the second image that light of the third
+    /// x: radius·√(1 − h²) − L, differenced in f64; y: radius of the middle of the gap beside it, of the outermost its end; z: the gap over the whole ring; w: its width over the way there. Of the circles behind the rows: the gas of the second image that light of the third
     /// from there comes through: optical depth straight through (0 in the second image itself), rain-frame momentum per mass outward and along the
     /// rotation, radius in r_s.
     place: vec4<f32>,

@@ -21,5 +21,6 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         job = vec3<u32>(job.x - 1u, 2u, 2u);
     }
     let cut = job.x % arcs;
-    disk_vertices[slot] = disk_vertex(job.x / arcs, theta_between(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z)));
+    let sigma = mix(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z));
+    disk_vertices[slot] = disk_vertex(job.x / arcs, bearing(sigma, disk.upwards.w));
 }

@@ -11,10 +11,14 @@ use crate::scene::disk::radial::{LAST_ORBIT, smoothstep};
 use crate::scene::disk::{DISK_UNIT, LEAST_COSINE, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use super::Disk;
+use super::sigma::sigma;
 use super::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
+/// Sine of the height below which the image of a circle has corners: between a line in the plane and the half ring that light from behind the hole makes of the
+/// rest, over a part of σ of the root of that, as long as a segment or shorter.
+const CORNERED: f64 = 0.03;
 /// How far off what goes straight between two circles may be; rings are drawn together as long as it is off by no more.
 #[derive(Clone, Copy, Debug)]
 struct Straight {
@@ -33,7 +37,7 @@ struct Straight {
 /// From far: what is left of the light's error by [`straighten`] is less than half. A third of `across` takes half as many circles more, and pictures from 80° and
 /// lower are no nearer to the truth.
 const FROM_FAR: Straight = Straight { across: 0.15, height: true, along: 4.0, light: 0.02, stopped: 0.03 };
-/// Within [`CLOSE`], where a ring may fill the picture and circles keep their own heat: its light does not go straight over the radius there.
+/// Within [`CLOSE`], where a ring may fill the picture.
 const FROM_NEAR: Straight = Straight { across: 0.4, height: false, along: 8.0, light: 0.015, stopped: 0.01 };
 /// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
 /// shaders/disk/types.wgsl has it.
@@ -74,7 +78,7 @@ pub struct DiskView {
     pub circles: Vec<Circle>,
     /// Behind them in the same buffer: circles whose mean a thin image shows.
     pub samples: Vec<Circle>,
-    /// θ of the cuts, in rad.
+    /// σ of the cuts, in rad.
     pub cuts: Vec<f32>,
     /// Rows on either side of each ring, and its order.
     pub rings: Vec<[u32; 4]>,
@@ -131,11 +135,12 @@ impl DiskView {
             }
             let mut own: Vec<Circle> = rows.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
             if gaps {
-                for (circle, middle) in own.iter_mut().zip(gap_middles(disk)) {
-                    circle.place[1] = middle as f32;
+                for (circle, closed) in own.iter_mut().zip(gap_middles(disk)) {
+                    circle.place[1] = closed as f32;
                     circle.place[2] = disk.config.gap as f32;
+                    circle.place[3] = if closed < end { 2.0 } else { 1.0 };
                 }
-            } else if order > close {
+            } else {
                 straighten(disk, &rows, &mut own);
             }
             circles.extend(own);
@@ -149,7 +154,7 @@ impl DiskView {
         let nearest = (l - end).max(0.0);
         let base = ((input.time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
         let [x, y] = disk.gas.offset(base as i64);
-        let cuts = chosen_cuts(disk, camera, width);
+        let cuts = sigmas(&chosen_cuts(disk, camera, width), origin, height.abs());
         let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
         DiskView {
             frame: DiskFrame {
@@ -166,7 +171,7 @@ impl DiskView {
             },
             circles,
             samples,
-            cuts: cuts.iter().map(|azimuth| (azimuth - origin) as f32).collect(),
+            cuts,
             rings,
             close,
         }
@@ -212,7 +217,8 @@ fn rows(camera: &Camera, seen: &[SeenCircle], width: u32, own: [f64; AZIMUTHS], 
     (chosen.into_iter().map(|k| seen[k].radius).collect(), pairs)
 }
 
-/// For each circle of a disk that has gaps between its rings the middle of the gap that it bounds, in r_s: there it lies where the gap is too narrow to be seen.
+/// For each circle of a disk that has gaps between its rings the middle of the gap that it bounds, in r_s: there it lies where the gap is too narrow to be seen. Beyond
+/// the outermost there is no ring to meet, so it goes all the way.
 fn gap_middles(disk: &Disk) -> Vec<f64> {
     let mut radii = disk.arcs.circles.clone();
     for pair in disk.arcs.rings.windows(2) {
@@ -220,12 +226,10 @@ fn gap_middles(disk: &Disk) -> Vec<f64> {
         let middle = 0.5 * (radii[a] + radii[b]);
         (radii[a], radii[b]) = (middle, middle);
     }
+    if let Some(last) = radii.last_mut() {
+        *last = last.max(disk.gas.extent()[1]);
+    }
     radii
-}
-
-/// The optical depth that stops `share` of what `depth` stops.
-fn share_of_depth(depth: f32, share: f32) -> f32 {
-    -(share * (-depth).exp_m1()).ln_1p()
 }
 
 /// Sets heat and depth of circles at `radii` so that what goes straight between them is off by as little as can be in the mean, and not by nothing on
@@ -457,16 +461,26 @@ fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
 }
 
+/// σ of the cuts, for a camera at the azimuth `origin` and at a height with this sine over the plane. Next to the plane there is a cut at each corner too, where
+/// θ + α is a quarter turn: segments on either side of it are even, as their number is told by the middle of an arc alone.
+fn sigmas(cuts: &[f64], origin: f64, height: f64) -> Vec<f32> {
+    let mut all: Vec<f32> = cuts.iter().map(|azimuth| sigma(azimuth - origin, height) as f32).collect();
+    if height < CORNERED {
+        let [first, last] = [all[0], all[all.len() - 1]];
+        let corners = (-4..12).map(|k| (PI * (0.5 * f64::from(k) + 0.25)) as f32);
+        all.extend(corners.filter(|corner| (first..last).contains(corner)));
+        all.sort_by(f32::total_cmp);
+    }
+    all
+}
+
 /// A circle whose gas takes part in the mean of a thin image; light of the third comes `through` this radius of the second.
 fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
     let radial = &disk.gas.radial;
     let nearer = through.unwrap_or(r);
     let [outward, along] = radial.momentum(nearer);
-    // A thin image has no gaps, but as much less gas.
-    let gas = |depth: f64| share_of_depth(depth as f32, (1.0 - disk.config.gap) as f32);
-    let behind = through.map_or(0.0, |r| gas(radial.depth(r)));
+    let behind = through.map_or(0.0, |r| radial.depth(r) as f32);
     let mut circle = circle(disk, r, 0.0, 0.0, [0; 4]);
-    circle.gas[3] = gas(radial.depth(r));
     circle.place = [behind, outward as f32, along as f32, nearer as f32];
     circle
 }
