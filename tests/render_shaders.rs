@@ -36,6 +36,21 @@ fn every_pass_compiles_by_every_method() {
     }
 }
 
+/// The shaders' own sine, cosine and angle are the library's to the last places, whatever the driver's are.
+#[test]
+fn sine_cosine_and_angle_are_the_librarys() {
+    let body = "let both = sine_cosine(row.x);
+    twin_out[id.x] = vec4<f32>(both, angle(abs(both.x), both.y, 1.0), 0.0);";
+    let rows: Vec<[f32; 4]> = (0..=8000).map(|i| [(f64::from(i) * 0.001 - 4.0) as f32, 0.0, 0.0, 0.0]).collect();
+    for (row, got) in rows.iter().zip(run(Pass::DiskVertices, body, [&[], &[]], &rows, 1)) {
+        let x = f64::from(row[0]);
+        // Three roundings of numbers up to 1, and of one up to π.
+        for (got, want, rounded) in [(got[0], x.sin(), 3e-7), (got[1], x.cos(), 3e-7), (got[2], x.sin().abs().atan2(x.cos()), 6e-7)] {
+            assert!((f64::from(got) - want).abs() < rounded, "{x}: {got:?}, not {want}");
+        }
+    }
+}
+
 #[test]
 fn the_lookup_is_the_same_in_both_languages() {
     let body = "

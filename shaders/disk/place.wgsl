@@ -177,7 +177,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         let seen = found.valid && found.delay > 0.0;
         valid = valid && (seen || opposite);
         behind_second = behind_second && (seen || !opposite);
-        let angle_seen = atan2(found.sin_psi, found.cos_psi);
+        let angle_seen = angle(found.sin_psi, found.cos_psi, 1.0);
         if k == 0u {
             ray = found;
             psi.x = angle_seen;
@@ -221,8 +221,10 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         thin = vec2<f32>(d, half);
         nearer = vec2<f32>(middle - 0.5 * (second.x + second.y), 0.5 * abs(second.y - second.x)) / pixel;
         let moved = middle + d * pixel;
-        seen_at = n * cos(moved) + side * (turn * sin(moved));
-        all_at = n * cos(middle) + side * (turn * sin(middle));
+        let seen_turn = sine_cosine(moved);
+        let all_turn = sine_cosine(middle);
+        seen_at = n * seen_turn.y + side * (turn * seen_turn.x);
+        all_at = n * all_turn.y + side * (turn * all_turn.x);
     }
 
     var vertex: DiskVertex;
@@ -257,7 +259,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     var shown = vec2<f32>(circle.gas.z + ln_g, select(behind_gaps, circle.gas.w, gap == 0.0));
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
-    let azimuth = atan2(abs(s), c);
+    let azimuth = angle(abs(s), c, 1.0);
     let coming = -all_at * ray.frequency;
     let seen_as = camera_doppler_of(all_at) * ray.frequency;
     // A loop over nothing is all that software drivers skip: a branch is run through by all.

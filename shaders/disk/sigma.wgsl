@@ -15,12 +15,13 @@ fn bearing(sigma: f32, h: f32) -> Bearing {
     // θ, α and σ are the same at each quarter turn.
     let half_turns = round(sigma / HALF_TURN);
     let rest = sigma - half_turns * HALF_TURN;
-    let c = cos(2.0 * rest);
-    let s = abs(sin(2.0 * rest));
+    let twice = sine_cosine(2.0 * rest);
+    let s = abs(twice.x);
+    let c = twice.y;
     let middle = (1.0 + h) * abs(c);
     let sum = middle + sqrt(middle * middle + 4.0 * h * s * s);
     let sense = select(-1.0, 1.0, rest > 0.0);
     let way = normalize(select(vec2<f32>(2.0 * s, sum), vec2<f32>(sum, 2.0 * h * s), c > 0.0)) * vec2<f32>(1.0, sense);
     let turned = way * select(1.0, -1.0, (i32(half_turns) & 1) != 0);
-    return Bearing(half_turns * HALF_TURN + atan2(way.y, way.x), turned.x, turned.y);
+    return Bearing(half_turns * HALF_TURN + sense * angle(abs(way.y), way.x, 1.0), turned.x, turned.y);
 }

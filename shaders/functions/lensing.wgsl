@@ -101,6 +101,13 @@ fn stumpff(x: f32) -> vec2<f32> {
     return stumpffs(vec2<f32>(x, x)).xy;
 }
 
+/// Sine and cosine of an angle up to 4.2 rad, by those of half of it. Drivers' own may be off by 2⁻¹¹, half a pixel.
+fn sine_cosine(x: f32) -> vec2<f32> {
+    let half = stumpff(0.25 * x * x);
+    let s = 0.5 * x * half.x;
+    return vec2<f32>(2.0 * s * half.y, 1.0 - 2.0 * s * s);
+}
+
 const SWEEP_LENGTH: f32 = 17.0;
 
 fn bent_sweep(sweep: f32) -> f32 {
