@@ -44,8 +44,8 @@ fn sine_cosine_and_angle_are_the_librarys() {
     let rows: Vec<[f32; 4]> = (0..=8000).map(|i| [(f64::from(i) * 0.001 - 4.0) as f32, 0.0, 0.0, 0.0]).collect();
     for (row, got) in rows.iter().zip(run(Pass::DiskVertices, body, [&[], &[]], &rows, 1)) {
         let x = f64::from(row[0]);
-        // Three roundings of numbers up to 1, and of one up to π.
-        for (got, want, rounded) in [(got[0], x.sin(), 3e-7), (got[1], x.cos(), 3e-7), (got[2], x.sin().abs().atan2(x.cos()), 6e-7)] {
+        // 1 − 2s² with s rounded by 6e-8 is off by four times that, and by its own rounding; the angle by that of π as well.
+        for (got, want, rounded) in [(got[0], x.sin(), 4e-7), (got[1], x.cos(), 4e-7), (got[2], x.sin().abs().atan2(x.cos()), 8e-7)] {
             assert!((f64::from(got) - want).abs() < rounded, "{x}: {got:?}, not {want}");
         }
     }
