@@ -24,7 +24,7 @@ struct Frame {
     exposure: vec4<f32>,
     /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
     switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to; standard deviation of a
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to, with the disk if there is one; standard deviation of a
     /// star's spot in pixels; least flux of a star.
     sky_x: vec4<f32>,
     sky_y: vec4<f32>,
@@ -35,7 +35,10 @@ struct Frame {
     /// x, y: least and greatest light of middle grey on the own ship; z: exposure of the frame before, w: 1 once that is known.
     fill: vec4<f32>,
     /// What the meter leaves out, the own ship's circle: x, y: its middle, in widths of the picture from its middle, y down; z: its radius, 0 for none.
+    /// w: the light that the picture is brought to while no disk is in it.
     unmetered: vec4<f32>,
+    /// Indices of the disk's triangles in the picture, as DiskCounters has them; some number if it is not drawn from arcs.
+    disk: vec4<u32>,
 }
 
 const FLAG_DOPPLER: u32 = 1u;

@@ -217,3 +217,22 @@ fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
     let [coarse, fine] = [mean([320, 180]), mean([1280, 720])];
     assert!((fine / coarse - 1.0).abs() < 0.1, "mean squares {coarse:.1} and {fine:.1}");
 }
+
+/// The light that a disk is brought to is asked for while it is in the picture: with the back to it stars are exposed as where there is none, and are no field of snow.
+#[test]
+fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
+    let size = [160, 90];
+    let mut renderer = crate::render_support::renderer_under(&lensrunner::render::shot::surroundings(), size);
+    let config = GameConfig::default();
+    let disk = || lensrunner::render::disk::Disk::new(config.disk.clone(), &config);
+    let mut light = |ahead: DVec3, with: bool| {
+        renderer.set_disk(with.then(disk));
+        let camera = static_camera(DVec3::new(0.0, -16.0, 1.0), ahead, DVec3::Z, 1.0);
+        let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings: Settings::default() };
+        renderer.picture(&frame, false).unwrap().developed.iter().map(|&byte| f64::from(byte)).sum::<f64>()
+    };
+    let [away, alone] = [true, false].map(|with| light(DVec3::NEG_Y, with));
+    println!("{away} with the back to a disk, {alone} without one");
+    // Stars that the exposure before could not show are not metered, which is next to nothing.
+    assert!((away / alone - 1.0).abs() < 0.01, "{away} with the back to a disk, {alone} without one");
+}

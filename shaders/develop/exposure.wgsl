@@ -33,7 +33,9 @@ fn main(@builtin(local_invocation_index) lane: u32) {
             total += sums[k];
         }
         let metered = total.x / max(total.y, 1e-9);
-        let wanted = clamp(frame.sky_x.w / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
+        // Stars alone, brought to the light of a disk, would be a field of snow.
+        let key = select(frame.unmetered.w, frame.sky_x.w, any(frame.disk != vec4<u32>(0u)));
+        let wanted = clamp(key / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
         // In stops, as the eye does it; the first frame starts where it should be.
         let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.exposure.z, 1.0, adaptation.z == 0.0)));
         let exposure = select(nearer, adaptation.x, (frame.switches.x & FLAG_HOLD_EXPOSURE) != 0u);

@@ -23,16 +23,16 @@ fn gas_of(seen: DiskVertex) -> Gas {
     return gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
 }
 
-/// From far: the slant is in the vertices. Order 1 is wide.
+/// From far: the slant is in the vertices. Order 1 is wide; where gaps are closed gas has a part of its place.
 @fragment
 fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return far_colour(in);
+    return far_colour(in) * in.seen.x;
 }
 
 /// Orders 2 and 3, from far.
 @fragment
 fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return far_colour(in) * coverage(in.seen.x, in.seen.y);
+    return far_colour(in) * (coverage(in.seen.x, in.seen.y) * disk.gas.y);
 }
 
 /// What the orbits have turned the gas by does not go straight: each pixel follows them.
@@ -98,6 +98,9 @@ fn near_along(at: Streaks, taps: u32) -> Cooling {
     return Cooling(power + mean, unseen_of(at, unseen_variance(level)) + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
+/// Order 1 says that it is wider than this, in pixels.
+const WIDE: f32 = 1e5;
+
 /// From near: the slant in each pixel, streaks without a grain.
 @fragment
 fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
@@ -109,14 +112,15 @@ fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
     let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
-    return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * coverage(in.seen.x, in.seen.y);
+    let part = select(coverage(in.seen.x, in.seen.y) * disk.gas.y, in.seen.x, in.seen.y > WIDE);
+    return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * part;
 }
 
 /// What of order 1 is farther away than a close look reaches, of a disk that is seen from near: the slant in each pixel, streaks as from far.
 @fragment
 fn beyond_fragment(in: Gas) -> @location(0) vec4<f32> {
     let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
-    return gas_colour(in.light.rgb, in.slope.xyz, depth, two_looks(streaks_of(in, 2.0 * STEP)));
+    return gas_colour(in.light.rgb, in.slope.xyz, depth, two_looks(streaks_of(in, 2.0 * STEP))) * in.seen.x;
 }
 
 /// Half height of the disk at a radius of the pattern: thickness times that.

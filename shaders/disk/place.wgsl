@@ -61,7 +61,7 @@ fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
 /// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
 /// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
-/// `count` are taken, of whose place gas has `share`. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
+/// `count` are taken. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
 fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32, before: vec2<f32>) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
@@ -93,12 +93,13 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         let through = nearer.x / max(slanted, LEAST_COSINE);
         // In the mean over streaks, by three places of a normal distribution.
         let denser = exp(4.0 * sqrt(3.0 * v));
+        // Of the second image gas has `share` of the place.
         let passed = 1.0 - share * (1.0 - (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0);
         let drawn = 1.0 - before.x - before.y * (1.0 - passed);
-        let shown = share * (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
+        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
         light += shown;
         shifted += shown * log(ratio);
-        stopped += share * (1.0 - exp(-depth));
+        stopped += 1.0 - exp(-depth);
     }
     let own = max(stopped, 1e-6);
     let x = -log(clamp(light / own, 1e-37, 0.999));
@@ -205,9 +206,10 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         share /= 1.0 - open * gap;
         ray = between_rays(in_gap, ray, open);
     }
+    // Of order 1 that is all that there is to tell; of the others, whose gaps are closed, it is the same everywhere.
 
     var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
-    var thin = vec2<f32>(0.0, 1e6);
+    var thin = vec2<f32>(share, 1e6);
     // Where all of a thin image is seen.
     var all_at = seen_at;
     // The same of the second image behind which the third is: from the middle of the one to that of the other, and half its width, in pixels.
@@ -254,9 +256,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     var ln_g = log(g);
     let turns = (at.theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
-    // Gaps are as wide at any slant.
-    let behind_gaps = -log(max(1.0 - share * (1.0 - exp(-circle.gas.w * slant)), 1e-6)) / max(slant, 1e-6);
-    var shown = vec2<f32>(circle.gas.z + ln_g, select(behind_gaps, circle.gas.w, gap == 0.0));
+    var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
     let own = own_share(thin.y);
     let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let azimuth = angle(abs(s), c, 1.0);
@@ -266,7 +266,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let is_behind = behind_second && own_share(nearer.y) < 1.0;
     let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, order == 3u);
     let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
-    let before = select(vec2<f32>(0.0, 1.0), second_before(nearer.x, nearer.y, hiding), is_behind);
+    let before = select(vec2<f32>(0.0, 1.0), second_before(nearer.x, nearer.y, hiding) * vec2<f32>(share, 1.0), is_behind);
     let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), azimuth, coming, ray.frequency, seen_as, share, before);
     if own < 1.0 {
         let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);

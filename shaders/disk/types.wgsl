@@ -10,7 +10,7 @@ struct DiskFrame {
     upwards: vec4<f32>,
     /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of a new-born.
     renewal: vec4<f32>,
-    /// x: deviation of ln density; y: unused; z: error budget of an arc in rad;
+    /// x: deviation of ln density; y: the part of its place that gas has in rings whose gaps are closed; z: error budget of an arc in rad;
     /// w: least width of thin images in pixels.
     gas: vec4<f32>,
     /// x: columns of a row; y: arcs round the hole; z: rows; w: rings over all orders.
@@ -31,7 +31,8 @@ struct Circle {
     gas: vec4<f32>,
     /// Rain-frame momentum per mass outward and along the rotation, half height in r_s, ln of the pattern's radius over its height.
     motion: vec4<f32>,
-    /// x: radius·√(1 − h²) − L, differenced in f64; y: radius of the middle of the gap beside it, of the outermost its end; z: the gap over the whole ring; w: its width over the way there. Of the circles behind the rows: the gas of the second image that light of the third
+    /// x: radius·√(1 − h²) − L, differenced in f64; y: radius of the middle of the gap beside it, of the outermost its end; z: the gap over the whole ring; w: the whole gap's
+    /// width over the way from this circle to y: 2, of the outermost 1. Of the circles behind the rows: the gas of the second image that light of the third
     /// from there comes through: optical depth straight through (0 in the second image itself), rain-frame momentum per mass outward and along the
     /// rotation, radius in r_s.
     place: vec4<f32>,
@@ -46,7 +47,8 @@ struct DiskVertex {
     /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the ray
     /// (close look: straight through).
     gas: vec4<f32>,
-    /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in pixels.
+    /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in pixels; of order 1, z: the part of its
+    /// place that gas has, w: 10⁶.
     more: vec4<f32>,
 }
 

@@ -150,8 +150,8 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
                 || atomicLoad(&counters.indices) + index_count > most.y {
                 return false;
             }
-            // On a graphics card thousands of threads have looked by now. Vertices are what runs out first: without them nothing else is taken, so that
-            // there are always indices for the triangles of the model.
+            // On a graphics card thousands of threads have looked by now. Without vertices nothing else is taken, so that there are always indices for the
+            // triangles of the model.
             let first_vertex = atomicAdd(&counters.vertices, vertex_count);
             if first_vertex + vertex_count > frame.capacity.x {
                 return false;

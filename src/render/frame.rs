@@ -252,7 +252,8 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         capacity: [capacity.vertices, capacity.indices, capacity.work, capacity.thin],
         // The exposure of the frame before is copied in on the device.
         fill: [settings.fill[0], settings.fill[1], 1.0, 0.0],
-        unmetered: [settings.unmetered[0], settings.unmetered[1], settings.unmetered[2], 0.0],
+        unmetered: [settings.unmetered[0], settings.unmetered[1], settings.unmetered[2], settings.exposure_key],
+        disk: [0; 4],
     }
 }
 

@@ -239,6 +239,7 @@ impl Renderer {
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
+            uniform.disk = [1; 4];
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
@@ -255,6 +256,7 @@ impl Renderer {
         // The own ship is lit by what the frame before was exposed for, and stars that could not be seen then are left out.
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
+        let disk = self.disk.as_ref().filter(|_| self.has_disk);
         let geometry = &self.geometry;
         let timing = &mut self.timing;
         let group = &self.frame_group;
@@ -277,10 +279,14 @@ impl Renderer {
             compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
             compute(encoder, "aurora ends", &|pass| self.aurora.ends(pass));
         }
-        let disk = self.disk.as_ref().filter(|_| self.has_disk);
         if let Some(disk) = disk {
             compute(encoder, "disk arcs", &|pass| disk.compute(pass));
             compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
+            if disk.is_of_arcs() {
+                // Whether any of it is in the picture.
+                let [from, to] = [offset_of!(DiskCounters, indices), offset_of!(types::Frame, disk)].map(|offset| offset as u64);
+                encoder.copy_buffer_to_buffer(disk.arcs().counters(), from, &self.frame, to, 16);
+            }
         }
 
         {

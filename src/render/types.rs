@@ -23,6 +23,7 @@ pub struct Frame {
     pub capacity: [u32; 4],
     pub fill: [f32; 4],
     pub unmetered: [f32; 4],
+    pub disk: [u32; 4],
 }
 
 /// Bits of `Frame::switches[0]`, the `FLAG_*` of WGSL.

@@ -191,6 +191,11 @@ impl DiskPasses {
         }
     }
 
+    /// Whether it is drawn from arcs, whose stages count what is in the picture.
+    pub fn is_of_arcs(&self) -> bool {
+        !self.is_straight && matches!(self.representation, Representation::Arcs)
+    }
+
     /// Whether its orders are laid over what is behind them one by one, and nothing of it stays in the depth.
     pub fn is_laid_over(&self) -> bool {
         !self.is_straight && !matches!(self.representation, Representation::Polygons(_))

@@ -162,7 +162,7 @@ impl DiskView {
                 sideways: row(sideways, level),
                 upwards: row(upwards, height.abs()),
                 renewal: [(input.time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-                gas: [disk.gas.contrast as f32, 0.0, disk.config.error_budget as f32, disk.min_width as f32],
+                gas: [disk.gas.contrast as f32, 1.0 - disk.config.gap as f32, disk.config.error_budget as f32, disk.min_width as f32],
                 sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
                 regions: [0; 4],
                 room: [0, close, (disk.gas.thickness as f32).to_bits(), 0],
@@ -246,6 +246,10 @@ fn straighten(disk: &Disk, radii: &[f64], circles: &mut [Circle]) {
             circle.gas[2] = (-1.0 / heat).ln() as f32;
         }
         circle.gas[3] = depth.max(0.0) as f32;
+    }
+    // Where gas ends it ends: between few circles the first and the last would be a rim.
+    for (circle, &r) in [0, radii.len() - 1].map(|k| (k, &radii[k])) {
+        circles[circle].gas[3] = disk.gas.radial.depth(r) as f32;
     }
 }
 

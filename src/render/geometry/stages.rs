@@ -98,6 +98,12 @@ impl Shelf {
 
     /// This side will be asked for: it is compiled meanwhile, unless it has been or another is.
     pub fn foresee(&mut self, side: Side) {
+        // What was foreseen and not asked for is kept as well.
+        if let Some((other, thread)) = self.ahead.take_if(|ahead| ahead.1.is_finished())
+            && let Ok(stages) = thread.join()
+        {
+            self.kept.push((other, Arc::new(stages)));
+        }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
             let makings = self.makings.clone();
             // Without a thread it is compiled when it is chosen.
