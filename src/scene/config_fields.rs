@@ -185,7 +185,7 @@ config! {
         width: f64 = 0.16, number(0.005, 2.0), "r_s", "width of an arc across its orbit; with arcs it sets how many there are round the hole";
         gap: f64 = 0.0, number(0.0, 0.9), "", "share of an arc left dark";
         thickness: f64 = 0.02, number(0.0, 0.5), "", "half height over radius, seen from within the disk";
-        exposure_key: f64 = 1.1, number(0.01, 8.0), "", "light that what shines is brought to where there is a disk; 1 is white";
+        exposure_key: f64 = 1.1, number(0.01, 8.0), "", "light that what shines is brought to with the disk in the picture; 1 is white";
         opacity: f64 = 0.95, number(0.0, 1.0), "", "how much light from behind the disk stops, face on";
         turbulence: f64 = 0.6, number(0.0, 1.0), "", "contrast of streaks and knots";
         seed: u32 = 1u32, integer(0, u32::MAX), "", "which disk";
