@@ -206,9 +206,9 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         share /= 1.0 - open * gap;
         ray = between_rays(in_gap, ray, open);
     }
-    // Of order 1 that is all that there is to tell; of the others, whose gaps are closed, it is the same everywhere.
 
     var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
+    // Of order 1, which is wide, the place that gas has is told; in the others, whose gaps are closed, it is the same everywhere.
     var thin = vec2<f32>(share, 1e6);
     // Where all of a thin image is seen.
     var all_at = seen_at;
