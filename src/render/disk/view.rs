@@ -247,10 +247,6 @@ fn straighten(disk: &Disk, radii: &[f64], circles: &mut [Circle]) {
         }
         circle.gas[3] = depth.max(0.0) as f32;
     }
-    // Where gas ends it ends: between few circles the first and the last would be a rim.
-    for (circle, &r) in [0, radii.len() - 1].map(|k| (k, &radii[k])) {
-        circles[circle].gas[3] = disk.gas.radial.depth(r) as f32;
-    }
 }
 
 /// The values at the places `at`, which grow, between which straight lines come closest to `wanted`: least squares by `weight`.
