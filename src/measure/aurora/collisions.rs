@@ -29,7 +29,7 @@ pub(super) static ORDERS: [[u32; LANES]; 256] = {
 };
 
 /// The levels of one electron that have collisions, from the top down, each in its own column. What lies behind `length` has no meaning, but
-/// every number there is a level.
+/// every number there is a level. Heights and ways astray are dealt with the levels, as to look them up for each level afterwards takes longer.
 #[derive(Clone, Debug)]
 pub struct Collisions {
     /// How many levels there are.
@@ -38,11 +38,15 @@ pub struct Collisions {
     pub level: [u32; ROOM],
     /// Collisions.
     pub count: [f32; ROOM],
+    /// Heights of the levels, km.
+    pub height: [f32; ROOM],
+    /// How far astray the electron is there, km.
+    pub sway: [f32; ROOM],
 }
 
 impl Default for Collisions {
     fn default() -> Self {
-        Collisions { length: 0, level: [0; ROOM], count: [0.0; ROOM] }
+        Collisions { length: 0, level: [0; ROOM], count: [0.0; ROOM], height: [0.0; ROOM], sway: [0.0; ROOM] }
     }
 }
 
@@ -64,7 +68,7 @@ impl Collisions {
                 #[allow(unsafe_code)]
                 // SAFETY: the caller says that the processor has AVX2.
                 unsafe {
-                    self.deal_avx(spent, first, collisions, u, &mut length)
+                    self.deal_avx(falls, spent, first, collisions, u, &mut length)
                 };
                 continue;
             }
@@ -74,8 +78,9 @@ impl Collisions {
             // Every lane is written, and those without a collision are written over: which have one cannot be foretold.
             for level in first..first + LANES {
                 let count = dealt(level + 1) - dealt(level);
-                self.level[length & (ROOM - 1)] = level as u32;
-                self.count[length & (ROOM - 1)] = count;
+                let at = length & (ROOM - 1);
+                (self.level[at], self.count[at], self.height[at], self.sway[at]) =
+                    (level as u32, count, falls.heights[level], falls.sway[level]);
                 length += usize::from(count > 0.0);
             }
         }
@@ -86,7 +91,7 @@ impl Collisions {
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2,popcnt")]
     #[inline]
-    fn deal_avx(&mut self, spent: &[f32; LEVELS + 1], first: usize, collisions: f32, u: f32, length: &mut usize) {
+    fn deal_avx(&mut self, falls: &Falls, spent: &[f32; LEVELS + 1], first: usize, collisions: f32, u: f32, length: &mut usize) {
         use std::arch::x86_64::*;
         let (all, more) = (_mm256_set1_ps(collisions), _mm256_set1_ps(u));
         let [above, below]: [__m256; 2] = [cast(eight(spent, first)), cast(eight(spent, first + 1))];
@@ -99,7 +104,14 @@ impl Collisions {
         let room = self.level.len() - LANES;
         let at = (*length).min(room);
         self.level[at..at + LANES].copy_from_slice(&cast::<__m256i, [u32; LANES]>(levels));
-        self.count[at..at + LANES].copy_from_slice(&cast::<__m256, [f32; LANES]>(_mm256_permutevar8x32_ps(counts, order)));
+        let columns = [
+            (&mut self.count, counts),
+            (&mut self.height, cast(eight(&falls.heights, first))),
+            (&mut self.sway, cast(eight(&falls.sway, first))),
+        ];
+        for (column, numbers) in columns {
+            column[at..at + LANES].copy_from_slice(&cast::<__m256, [f32; LANES]>(_mm256_permutevar8x32_ps(numbers, order)));
+        }
         *length += found.count_ones() as usize;
     }
 
@@ -107,6 +119,12 @@ impl Collisions {
     #[inline(always)]
     pub fn level_of(&self, first: usize) -> [u32; LANES] {
         eight(&self.level, first)
+    }
+
+    /// The heights of eight of the levels, and how far astray the electron is there, km.
+    #[inline(always)]
+    pub fn places_of(&self, first: usize) -> [[f32; LANES]; 2] {
+        [eight(&self.height, first), eight(&self.sway, first)]
     }
 
     /// The collisions at eight of the levels.

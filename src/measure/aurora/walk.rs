@@ -60,17 +60,6 @@ fn astray(key: u32, level: u32) -> [f32; 2] {
     [bits >> 16, bits & 65_535].map(|half| half as i32 as f32 * (1.0 / 32_768.0) - 1.0)
 }
 
-/// Heights of eight levels, and how far astray an electron is there, km.
-#[inline(always)]
-fn places(falls: &Falls, levels: &[u32; LANES]) -> [[f32; LANES]; 2] {
-    let mut places = [[0.0; LANES]; 2];
-    for (k, level) in levels.iter().enumerate() {
-        places[0][k] = falls.heights[*level as usize];
-        places[1][k] = falls.sway[*level as usize];
-    }
-    places
-}
-
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt")]
 fn walk_avx(walker: &Walker, method: Method, streaks: &[Streak], out: &mut Points) {
@@ -172,9 +161,9 @@ impl<'a> Walker<'a> {
         let along = (streak.end - streak.top) / (TOP as f32 - streak.end_height);
         let [e1, e2] = across();
         let (key, _) = key(streak, self.seed);
-        for (level, count) in steps.level[..steps.length].iter().zip(&steps.count) {
+        for (k, (level, count)) in steps.level[..steps.length].iter().zip(&steps.count).enumerate() {
             let [a, b] = astray(key, *level);
-            let (height, sway) = (self.falls.heights[*level as usize], self.falls.sway[*level as usize]);
+            let (height, sway) = (steps.height[k], steps.sway[k]);
             self.luminous(streak.top + along * (TOP as f32 - height) + (e1 * a + e2 * b) * sway, *count, *level, out);
         }
     }
@@ -193,7 +182,7 @@ impl<'a> Walker<'a> {
         let (key, _) = key(streak, self.seed);
         for first in (0..steps.length).step_by(LANES) {
             let mut points = Eight { count: steps.count_of(first), level: steps.level_of(first), ..Eight::default() };
-            let [heights, sways] = places(self.falls, &points.level);
+            let [heights, sways] = steps.places_of(first);
             for k in 0..LANES {
                 let [ja, jb] = astray(key, points.level[k]);
                 let (s, away) = ((TOP as f32 - heights[k]) * per_km, sways[k] * sway);
@@ -227,8 +216,8 @@ impl<'a> Walker<'a> {
             let stop = lattice.end(top, k + 1);
             let ends = [high - length * k as f32, high - length * (k + 1) as f32];
             // Steps fall: those of this chord follow one another, and the last chord takes the rest.
-            let rest = &steps.level[first..steps.length];
-            let above = |level: &u32| self.falls.heights[*level as usize] >= ends[1];
+            let rest = &steps.height[first..steps.length];
+            let above = |height: &f32| *height >= ends[1];
             let count = if k + 1 == lattice.chords() { rest.len() } else { rest.partition_point(above) };
             self.chord(key, steps, first..first + count, (start, stop), ends, out);
             first += count;
@@ -253,7 +242,7 @@ impl<'a> Walker<'a> {
         let down = (stop - start) / (ends[0] - ends[1]);
         for first in range.clone().step_by(LANES) {
             let mut points = Eight { count: steps.count_of(first), level: steps.level_of(first), ..Eight::default() };
-            let [heights, sways] = places(self.falls, &points.level);
+            let [heights, sways] = steps.places_of(first);
             let mut depths = [0.0; LANES];
             // Columns of numbers without a branch, so that the compiler takes eight together.
             for k in 0..LANES {
