@@ -24,11 +24,6 @@ const FIRST: usize = MARGIN - 2;
 #[repr(C, align(32))]
 pub(super) struct Pair([f32; 2 * 4]);
 
-/// Four pixels: the same for a processor with AVX-512.
-#[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
-#[repr(C, align(64))]
-pub(super) struct Quad([f32; 4 * 4]);
-
 /// Tiles in a row of a layer of a picture of `width` pixels.
 #[inline(always)]
 pub(super) fn across(width: i32, layer: i32) -> i32 {
@@ -42,7 +37,7 @@ pub(super) struct Layer {
     rows: usize,
     across: usize,
     /// Nothing before light falls on the layer for the first time. Where no tile has been cleared, what is here has no meaning.
-    pub(super) quads: Vec<Quad>,
+    pub(super) pairs: Vec<Pair>,
     /// Of each tile, row by row, whether splats that begin there have all the room that they need…
     pub(super) ready: Vec<bool>,
     /// … and whether it has been cleared.
@@ -55,7 +50,7 @@ impl Layer {
         let across = across(width as i32, number as i32) as usize;
         let rows = (height.div_ceil(1 << number) + 2 * MARGIN).div_ceil(1 << TILE);
         let tiles = vec![false; rows * across];
-        Layer { rows, across, quads: Vec::new(), ready: tiles.clone(), clear: tiles }
+        Layer { rows, across, pairs: Vec::new(), ready: tiles.clone(), clear: tiles }
     }
 
     /// All is black, at no cost.
@@ -69,18 +64,18 @@ impl Layer {
         !self.clear.contains(&true)
     }
 
-    /// Quads from one row to the next.
+    /// Pairs from one row to the next.
     #[inline(always)]
     pub(super) fn stride(&self) -> usize {
-        self.across << (TILE - 2)
+        self.across << (TILE - 1)
     }
 
     /// Clears what splats need that begin in a tile.
     #[cold]
     pub(super) fn make_ready(&mut self, tile: usize) {
         let stride = self.stride();
-        if self.quads.is_empty() {
-            self.quads = vec![Quad::default(); stride * (self.rows << TILE)];
+        if self.pairs.is_empty() {
+            self.pairs = vec![Pair::default(); stride * (self.rows << TILE)];
         }
         self.ready[tile] = true;
         let (row, column) = (tile / self.across, tile % self.across);
@@ -88,25 +83,31 @@ impl Layer {
             for column in column..(column + 2).min(self.across) {
                 let tile = row * self.across + column;
                 if !std::mem::replace(&mut self.clear[tile], true) {
-                    let first = (row << TILE) * stride + (column << (TILE - 2));
+                    let first = (row << TILE) * stride + (column << (TILE - 1));
                     for line in 0..1 << TILE {
-                        self.quads[first + line * stride..][..1 << (TILE - 2)].fill(Quad::default());
+                        self.pairs[first + line * stride..][..1 << (TILE - 1)].fill(Pair::default());
                     }
                 }
             }
         }
     }
 
-    /// Adds the light of row `y` to `row`, of which the first pixel is [`FIRST`].
-    fn add_row(&self, y: usize, row: &mut [f32x4]) {
+    /// Adds the light of row `y` to `row`, whose first pixel is the layer's pixel `first`.
+    #[inline(always)]
+    fn add_row(&self, y: usize, first: usize, row: &mut [[f32; 4]]) {
         let start = (y >> TILE) * self.across;
-        let pixels: &[f32x4] = bytemuck::cast_slice(&self.quads);
-        let end = FIRST + row.len();
-        for (column, _) in self.clear[start..start + self.across].iter().enumerate().filter(|(_, clear)| **clear) {
-            let [low, high] = [column, column + 1].map(|column| (column << TILE).clamp(FIRST, end));
-            let light = &pixels[y * 4 * self.stride() + low..][..high - low];
-            for (pixel, more) in row[low - FIRST..high - FIRST].iter_mut().zip(light) {
-                *pixel += *more;
+        let pixels: &[[f32; 4]] = bytemuck::cast_slice(&self.pairs);
+        let end = first + row.len();
+        for column in 0..self.across {
+            if !self.clear[start + column] {
+                continue;
+            }
+            let [low, high] = [column, column + 1].map(|column| (column << TILE).clamp(first, end));
+            let light = &pixels[y * 2 * self.stride() + low..][..high - low];
+            // Number by number, of which the compiler takes as many together as the processor can.
+            let (row, light) = (row[low - first..high - first].as_flattened_mut(), light.as_flattened());
+            for (number, more) in row.iter_mut().zip(light) {
+                *number += *more;
             }
         }
     }
@@ -140,6 +141,23 @@ fn enlarge_avx(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut
     enlarge(rows, upper, column, row);
 }
 
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn add_row_avx(layer: &Layer, y: usize, first: usize, row: &mut [[f32; 4]]) {
+    layer.add_row(y, first, row);
+}
+
+/// [`Layer::add_row`] with the widest instructions there are: the same bits.
+fn add_row(layer: &Layer, y: usize, first: usize, row: &mut [[f32; 4]]) {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") {
+        #[allow(unsafe_code)]
+        // SAFETY: the instructions were detected.
+        return unsafe { add_row_avx(layer, y, first, row) };
+    }
+    layer.add_row(y, first, row);
+}
+
 /// [`enlarge`] with the widest instructions there are: the same bits.
 fn enlarged(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
     #[cfg(target_arch = "x86_64")]
@@ -163,27 +181,29 @@ struct Made {
     column: Vec<f32x4>,
 }
 
-/// Makes row `y` of the first of `made`, whose number is `number`; the others are the coarser layers. Rows must be asked for in order.
-fn make(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize) {
+/// Enlarges what the coarser layers, all of `made` but the first, have for row `y` of the first, whose number is `number`. Rows must be asked for in order. What is
+/// black for want of coarser layers is not written.
+fn enlarge_coarser(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize) {
     let Some((own, coarser)) = made.split_first_mut() else { return };
-    let row = &mut own.rows[y % 4];
     let middle = (y + MARGIN) / 2;
-    if !coarser.is_empty() {
-        for y in coarser[0].next.unwrap_or(middle - 1)..middle + 2 {
-            make(coarser, pyramids, number + 1, y);
+    let coarsest = coarser.len() == 1;
+    if coarser.is_empty() {
+        return;
+    }
+    for y in coarser[0].next.unwrap_or(middle - 1)..middle + 2 {
+        enlarge_coarser(coarser, pyramids, number + 1, y);
+        let row = &mut coarser[0].rows[y % 4];
+        if coarsest {
+            row.fill(f32x4::ZERO);
         }
-    }
-    match coarser.first() {
-        Some(coarse) => {
-            let rows = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
-            enlarged(rows, y.is_multiple_of(2), &mut own.column, row);
+        for layers in pyramids {
+            add_row(&layers[number + 1], y, FIRST, bytemuck::cast_slice_mut(row));
         }
-        None => row.fill(f32x4::ZERO),
+        coarser[0].next = Some(y + 1);
     }
-    for layers in pyramids {
-        layers[number].add_row(y, row);
-    }
-    own.next = Some(y + 1);
+    let coarse = &coarser[0];
+    let rows = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
+    enlarged(rows, y.is_multiple_of(2), &mut own.column, &mut own.rows[y % 4]);
 }
 
 /// The light of several pyramids of a picture of this size, in some of its rows; `out` has their pixels.
@@ -199,7 +219,10 @@ pub(super) fn sum(pyramids: &[&[Layer; LAYERS]], size: [usize; 2], rows: Range<u
         .collect();
     for (y, out) in rows.zip(out.chunks_exact_mut(size[0].max(1))) {
         let y = y + MARGIN;
-        make(&mut made, pyramids, 0, y);
+        enlarge_coarser(&mut made, pyramids, 0, y);
         out.copy_from_slice(bytemuck::cast_slice(&made[0].rows[y % 4][MARGIN - FIRST..][..size[0]]));
+        for layers in pyramids {
+            add_row(&layers[0], y, MARGIN, out);
+        }
     }
 }

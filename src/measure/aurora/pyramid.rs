@@ -13,9 +13,9 @@ use wide::f32x4;
 
 #[cfg(target_arch = "x86_64")]
 use super::collisions::ORDERS;
-use super::layers::{LAYERS, Layer, MARGIN, Pair, Quad, TILE, across, sum};
+use super::layers::{LAYERS, Layer, MARGIN, Pair, TILE, across, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
-use super::shares::{MIDDLE, PLACES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
+use super::shares::{MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
@@ -29,6 +29,9 @@ const FINENESS: f32 = 1.0 / (0.9 * 0.9);
 const NEAR: f32 = 2.1;
 const ASLANT: f32 = 0.4;
 const ALIKE: f32 = 0.6;
+/// Times eight splats whose places are found before the first of them is added: taken in turns, eight would wait for their roots while a processor's room for
+/// instructions to come is full of the additions of the eight before.
+const BATCH: usize = 8;
 
 /// The layers of a picture, each with a margin.
 #[derive(Debug)]
@@ -40,7 +43,8 @@ pub struct Pyramid {
 /// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
 /// next there are `stride` pairs.
 #[inline(always)]
-fn add_plain<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
+fn add_plain<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [u32; 2], columns: &[f32], lines: &[f32], light: f32x4) {
+    let [start, stride] = [start as usize, stride as usize];
     let mut row = [[f32x4::ZERO; 2]; PAIRS];
     for (pair, columns) in row.iter_mut().zip(columns.chunks_exact(2)) {
         *pair = [light * f32x4::splat(columns[0]), light * f32x4::splat(columns[1])];
@@ -59,7 +63,7 @@ fn add_plain<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 #[inline]
-fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
+fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [u32; 2], columns: &[f32], lines: &[f32], light: f32x4) {
     use std::arch::x86_64::*;
     let light = _mm256_set_m128(cast(light), cast(light));
     // The first of two numbers four times, and the second four times.
@@ -70,9 +74,10 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
         let two = _mm256_castpd_ps(_mm256_set1_pd(cast([columns[2 * k], columns[2 * k + 1]])));
         *pair = _mm256_mul_ps(light, _mm256_permutevar_ps(two, order));
     }
-    // Asked once and not for every row.
-    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(PAIRS);
-    assert!(start.saturating_add(rows) <= pixels.len());
+    // Asked once and not for every row. Both numbers are below 2³², so that this does not overflow.
+    let rows = (lines.len() as u64 - 1) * stride as u64 + PAIRS as u64;
+    assert!(start as u64 + rows <= pixels.len() as u64);
+    let [start, stride] = [start as usize, stride as usize];
     for (k, share) in lines.iter().enumerate() {
         let share = _mm256_set1_ps(*share);
         for (n, light) in row.iter().enumerate() {
@@ -86,76 +91,43 @@ fn add_wide<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [usize; 2]
     }
 }
 
-/// The same, four pixels at once, `QUADS` quads in each row.
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
-#[inline]
-fn add_widest<const QUADS: usize>(pixels: &mut [Quad], [start, stride]: [usize; 2], columns: &[f32], lines: &[f32], light: f32x4) {
-    use std::arch::x86_64::*;
-    let light = _mm512_broadcast_f32x4(cast(light));
-    // Each of four numbers four times.
-    let order = _mm512_setr_epi32(0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
-    let mut row = [_mm512_setzero_ps(); QUADS];
-    for (k, quad) in row.iter_mut().enumerate() {
-        let four = cast([columns[4 * k], columns[4 * k + 1], columns[4 * k + 2], columns[4 * k + 3]]);
-        *quad = _mm512_mul_ps(light, _mm512_permutexvar_ps(order, _mm512_castps128_ps512(four)));
-    }
-    // Asked once and not for every row.
-    let rows = (lines.len() - 1).saturating_mul(stride).saturating_add(QUADS);
-    assert!(start.saturating_add(rows) <= pixels.len());
-    for (k, share) in lines.iter().enumerate() {
-        let share = _mm512_set1_ps(*share);
-        for (n, light) in row.iter().enumerate() {
-            #[allow(unsafe_code)]
-            // SAFETY: the last quad of the last row is within, as was asserted, and quads are aligned as the processor asks for.
-            unsafe {
-                let pixel = pixels.as_mut_ptr().add(start + k * stride + n).cast::<f32>();
-                _mm512_store_ps(pixel, _mm512_add_ps(_mm512_load_ps(pixel), _mm512_mul_ps(*light, share)));
-            }
-        }
-    }
-}
-
 /// The light of each line of `collisions` at a level.
 #[inline(always)]
 fn light(falls: &Falls, level: u32, collisions: f32) -> f32x4 {
     f32x4::new(falls.light[level as usize]) * f32x4::splat(collisions)
 }
 
+/// The shares of a side, from one of them on.
+#[inline(always)]
+fn side_of(shares: &[f32; SHARES], start: i32) -> &[f32] {
+    let start = start as u32 as usize;
+    &shares[start..start + SIDE]
+}
+
 /// Where splats are added. No closure: one is not always compiled into [`add_avx`], and then it lacks its instructions.
 struct Target<'a> {
     layers: &'a mut [Layer; LAYERS],
-    shares: &'a [f32],
+    shares: &'a [f32; SHARES],
 }
 
 impl Target<'_> {
-    /// Adds the `k`-th of eight splats. `BITS` as for [`Pyramid::add_all`].
+    /// Adds the `k`-th of eight splats. `AVX` as for [`Pyramid::add_all`].
     #[inline(always)]
-    fn add<const BITS: usize>(&mut self, splats: &Splats, k: usize, light: f32x4) {
+    fn add<const AVX: bool>(&mut self, splats: &Splats, k: usize, light: f32x4) {
         let layer = &mut self.layers[splats.layer[k] as usize];
         let tile = splats.tile[k] as usize;
         if !layer.ready[tile] {
             layer.make_ready(tile);
         }
-        let (start, stride) = (splats.quad[k] as usize, layer.stride());
-        let pixels = &mut layer.quads[..];
-        let (columns, lines) = (&self.shares[splats.columns[k] as usize..], &self.shares[splats.lines[k] as usize..]);
+        let start = [splats.pair[k] as u32, layer.stride() as u32];
+        let pixels = &mut layer.pairs[..];
+        let (columns, lines) = (side_of(self.shares, splats.columns[k]), side_of(self.shares, splats.lines[k]));
         // A known width lets the compiler write the loop out.
         macro_rules! add {
             ($half:literal) => {{
-                let lines = &lines[..2 * $half + 1];
-                // From the first pixel of a quad or of a pair on, three or one before the splat's at most.
-                const QUADS: usize = (2 * $half + 1_usize + 3).div_ceil(4);
+                let (columns, lines) = (&columns[..2 * $half + 2], &lines[..2 * $half + 1]);
                 #[cfg(target_arch = "x86_64")]
-                if BITS == 512 {
-                    #[allow(unsafe_code)]
-                    // SAFETY: the caller says that the processor has AVX-512.
-                    return unsafe { add_widest::<QUADS>(pixels, [start, stride], &columns[..4 * QUADS], lines, light) };
-                }
-                let pixels: &mut [Pair] = bytemuck::cast_slice_mut(pixels);
-                let (start, columns) = ([2 * start + splats.odd[k] as usize, 2 * stride], &columns[..2 * $half + 2]);
-                #[cfg(target_arch = "x86_64")]
-                if BITS == 256 {
+                if AVX {
                     #[allow(unsafe_code)]
                     // SAFETY: the caller says that the processor has AVX2.
                     return unsafe { add_wide::<{ $half + 1 }>(pixels, start, columns, lines, light) };
@@ -177,13 +149,7 @@ impl Target<'_> {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,popcnt")]
 fn add_avx(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-    pyramid.add_all::<256>(points, falls, radius, shares);
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,popcnt,avx512f")]
-fn add_avx512(pyramid: &mut Pyramid, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-    pyramid.add_all::<512>(points, falls, radius, shares);
+    pyramid.add_all::<true>(points, falls, radius, shares);
 }
 
 impl Pyramid {
@@ -204,48 +170,55 @@ impl Pyramid {
 
     /// Adds points with blobs of standard deviation `radius` km.
     pub fn add(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        self.add_with(512, points, falls, radius, shares);
-    }
-
-    /// The same with instructions that take `width` bits at once, or less if the processor has none: the same picture, bit for bit.
-    pub fn add_with(&mut self, width: usize, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
         #[cfg(target_arch = "x86_64")]
-        if width >= 256 && std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
-            if width >= 512 && std::arch::is_x86_feature_detected!("avx512f") {
-                #[allow(unsafe_code)]
-                // SAFETY: the instructions were detected.
-                return unsafe { add_avx512(self, points, falls, radius, shares) };
-            }
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
             #[allow(unsafe_code)]
             // SAFETY: the instructions were detected.
             return unsafe { add_avx(self, points, falls, radius, shares) };
         }
-        self.add_all::<128>(points, falls, radius, shares);
+        self.add_plainly(points, falls, radius, shares);
     }
 
-    /// `BITS` that are added at once: 256 may be said only where the processor has AVX2 and counts bits, 512 only where it has AVX-512 too.
+    /// The same without instructions that only some processors have: the same picture, bit for bit.
+    pub fn add_plainly(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+        self.add_all::<false>(points, falls, radius, shares);
+    }
+
+    /// `AVX` may be said only where the processor has AVX2 and counts bits.
     #[inline(always)]
-    fn add_all<const BITS: usize>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
-        let mut target = Target { layers: &mut self.layers, shares: &shares.0 };
+    fn add_all<const AVX: bool>(&mut self, points: &Points, falls: &Falls, radius: f32, shares: &Shares) {
+        // There are always that many; said here, a side is looked for once and not at both of its ends.
+        let Some(shares) = shares.0.first_chunk() else { return };
+        let mut target = Target { layers: &mut self.layers, shares };
         let mut lone = Lone::default();
         let mut first = 0;
-        // One loop for pairs and for lone points, as what is called in one place alone is compiled into it.
+        let mut batch: [Splats; BATCH] = Default::default();
         loop {
-            let blobs = if lone.length >= LANES || (first >= points.len() && lone.length > 0) {
-                lone.take()
-            } else if first < points.len() {
-                first += 2 * LANES;
-                Blobs::of::<BITS>(&points.pairs(first - 2 * LANES), radius, &mut lone)
-            } else {
+            let mut length = 0;
+            // One loop for pairs and for lone points, as what is called in one place alone is compiled into it.
+            while length < BATCH {
+                let blobs = if lone.length >= LANES || (first >= points.len() && lone.length > 0) {
+                    lone.take()
+                } else if first < points.len() {
+                    first += 2 * LANES;
+                    Blobs::of::<AVX>(&points.pairs(first - 2 * LANES), radius, &mut lone)
+                } else {
+                    break;
+                };
+                Splats::of(&blobs, self.size, &mut batch[length]);
+                length += 1;
+            }
+            if length == 0 {
                 break;
-            };
-            let splats = Splats::of::<BITS>(&blobs, self.size);
-            let mut left = splats.inside;
-            while left != 0 {
-                let k = left.trailing_zeros() as usize % LANES;
-                left &= left - 1;
-                let other = light(falls, blobs.other_level[k], splats.other[k]);
-                target.add::<BITS>(&splats, k, light(falls, blobs.level[k], splats.weight[k]) + other);
+            }
+            for splats in &batch[..length] {
+                let mut left = splats.inside;
+                while left != 0 {
+                    let k = left.trailing_zeros() as usize % LANES;
+                    left &= left - 1;
+                    let other = light(falls, splats.other_level[k], splats.other[k]);
+                    target.add::<AVX>(splats, k, light(falls, splats.level[k], splats.weight[k]) + other);
+                }
             }
         }
     }
@@ -285,10 +258,10 @@ struct Blobs {
 impl Blobs {
     /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
     /// is put to the `lone` ones.
-    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `BITS` as for
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX` as for
     // `Pyramid::add_all`.
     #[inline(always)]
-    fn of<const BITS: usize>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
+    fn of<const AVX: bool>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
         let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
         let (mut variances, mut weights) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
@@ -318,7 +291,7 @@ impl Blobs {
             weights[k] = if near { 0.0 } else { second_weight };
         }
         #[cfg(target_arch = "x86_64")]
-        if BITS >= 256 {
+        if AVX {
             #[allow(unsafe_code)]
             // SAFETY: the caller says that the processor has AVX2 and counts bits.
             unsafe {
@@ -402,9 +375,8 @@ struct Splats {
     layer: [i32; LANES],
     /// Pixels that it covers on each side of the one in its middle.
     half: [i32; LANES],
-    /// The quad in the layer in which it begins, 1 if in its second pair, and the tile in which that is.
-    quad: [i32; LANES],
-    odd: [i32; LANES],
+    /// The pair in the layer in which it begins, and the tile in which that is.
+    pair: [i32; LANES],
     tile: [i32; LANES],
     /// Where its shares start in the table.
     columns: [i32; LANES],
@@ -412,6 +384,9 @@ struct Splats {
     /// What the light of a collision is multiplied by, for both points of the blob.
     weight: [f32; LANES],
     other: [f32; LANES],
+    /// The levels of height of both.
+    level: [u32; LANES],
+    other_level: [u32; LANES],
 }
 
 /// One side of a splat: pixels on each side of its middle one, the middle one's number, and the middle of its shares in the table.
@@ -433,8 +408,10 @@ impl Splats {
     /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions, which
     /// took longer than to add it.
     #[inline(always)]
-    fn of<const BITS: usize>(blobs: &Blobs, size: [usize; 2]) -> Splats {
-        let mut splats = Splats::default();
+    fn of(blobs: &Blobs, size: [usize; 2], splats: &mut Splats) {
+        splats.inside = 0;
+        splats.level = blobs.level;
+        splats.other_level = blobs.other_level;
         for k in 0..LANES {
             // Layer l has the variances from 4ˡ to 4ˡ⁺¹ times the least: half the number's exponent says which.
             let exponent = ((lesser(blobs.wide[k], blobs.tall[k]) * FINENESS).to_bits() >> 23) as i32 - 127;
@@ -451,13 +428,12 @@ impl Splats {
             let light = blobs.weight[k] + blobs.other[k];
             // Greater than nothing and less than infinite.
             splats.seen[k] = u32::from(within & (light > 0.0) & (light < f32::INFINITY));
-            // Pairs begin at even pixels, quads at each fourth: from another on, with the shares of pixels before the first.
+            // Pairs begin at even pixels: from an odd one on, with the share of the pixel before it.
             let (left, top) = (integer(column - half), integer(row - half));
-            splats.columns[k] = integer(columns - half).wrapping_sub(left & if BITS == 512 { 3 } else { 1 });
+            splats.columns[k] = integer(columns - half).wrapping_sub(left & 1);
             splats.lines[k] = integer(lines - half);
             let across = across(size[0] as i32, layer);
-            splats.quad[k] = top.wrapping_mul(across << (TILE - 2)).wrapping_add(left >> 2);
-            splats.odd[k] = left >> 1 & 1;
+            splats.pair[k] = top.wrapping_mul(across << (TILE - 1)).wrapping_add(left >> 1);
             splats.tile[k] = (top >> TILE).wrapping_mul(across).wrapping_add(left >> TILE);
             splats.layer[k] = layer;
             splats.half[k] = integer(half);
@@ -467,6 +443,5 @@ impl Splats {
         for k in 0..LANES {
             splats.inside |= splats.seen[k] << k;
         }
-        splats
     }
 }

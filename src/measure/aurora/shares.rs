@@ -14,10 +14,13 @@ pub(super) const WIDTHS_PER_PIXEL: f32 = 40.0;
 pub(super) const PLACES: usize = 32;
 
 /// Shares of a side in the table: that of the pixel in the middle of the splat is the one numbered `MIDDLE`, those beyond the splat's reach are
-/// nothing, as are those at the ends of the rows before and after. So pairs and quads may begin before the splat does, and both sides take as many
+/// nothing, as are those at the ends of the rows before and after. So pairs may begin before the splat does, and both sides take as many
 /// pixels as the longer one. A power of two, so that no row lies across two of a cache's lines.
 pub(super) const SIDE: usize = 16;
 pub(super) const MIDDLE: usize = WIDTH / 2 + 1;
+
+/// All of them, and what is read behind the last row.
+pub(super) const SHARES: usize = (WIDTHS + 1) * (PLACES + 1) * SIDE + SIDE;
 
 /// Each pixel's share of a splat along one side, by width and place; the shares' sum is 1, so that no light is lost.
 #[derive(Clone, Debug)]
@@ -25,7 +28,7 @@ pub struct Shares(pub(super) Vec<f32>);
 
 impl Default for Shares {
     fn default() -> Self {
-        let mut shares = Vec::with_capacity((WIDTHS + 1) * (PLACES + 1) * SIDE);
+        let mut shares = Vec::with_capacity(SHARES);
         for row in 0..=WIDTHS {
             let sigma = row as f32 / WIDTHS_PER_PIXEL + 0.5;
             let half = half_of(sigma);
@@ -40,7 +43,6 @@ impl Default for Shares {
                 shares.extend(side.map(|share| share / sum));
             }
         }
-        // What a quad reads behind the last row.
         shares.extend([0.0; SIDE]);
         Shares(shares)
     }
