@@ -3,7 +3,7 @@
 
 use std::hint::black_box;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
 
 use glam::DVec3;
@@ -190,28 +190,14 @@ impl Canvas {
             Canvas::Layers(pyramid) => pyramid.add(points, job.falls, job.splat.radius, &tables.shares),
         }
     }
-}
 
-/// The sum of the threads' canvases; those of layers are summed and enlarged by as many threads, each a band of the picture.
-fn picture(canvases: Vec<Canvas>, size: [usize; 2], tables: &Tables) -> Picture {
-    let threads = canvases.len().max(1);
-    let (mut whole, mut pyramids) = (None::<Picture>, Vec::new());
-    for canvas in canvases {
-        match (canvas, &mut whole) {
-            (Canvas::Layers(pyramid), _) => pyramids.push(pyramid),
-            (Canvas::Direct(picture), Some(whole)) => whole.merge(&picture),
-            (Canvas::Direct(picture), whole) => *whole = Some(picture),
+    /// The pyramid, if it is one.
+    fn layers(&self) -> Option<&Pyramid> {
+        match self {
+            Canvas::Direct(_) => None,
+            Canvas::Layers(pyramid) => Some(pyramid),
         }
     }
-    let mut picture = whole.unwrap_or_else(|| Picture::new(size));
-    if !pyramids.is_empty() {
-        let layers: Vec<&Pyramid> = pyramids.iter().collect();
-        let height = size[1].div_ceil(threads).max(1);
-        let bands = picture.pixels.chunks_mut((size[0] * height).max(1)).enumerate();
-        on_threads(bands, |(band, out)| Pyramid::sum(&layers, band * height..((band + 1) * height).min(size[1]), out));
-        tables.spare().extend(pyramids);
-    }
-    picture
 }
 
 /// Does `work` for each of `parts` on a thread of its own. This thread takes the first itself: the others alone have to be woken.
@@ -227,8 +213,21 @@ fn on_threads<T: Send>(mut parts: impl Iterator<Item = T>, work: impl Fn(T) + Sy
     });
 }
 
+/// Tasks that a thread has taken. They count as done when this is dropped, if only by a panic, so that no other thread waits for ever.
+struct Taken<'a> {
+    done: &'a AtomicUsize,
+    tasks: usize,
+}
+
+impl Drop for Taken<'_> {
+    fn drop(&mut self) {
+        self.done.fetch_add(self.tasks, Ordering::Release);
+    }
+}
+
 /// Draws `job` in the given way: some electrons are walked, their points drawn, then the next. With threads, the time from start to end is
-/// divided between walk and splats as the threads' own times are.
+/// divided between walk and splats as the threads' own times are. Threads are woken once for a picture: before they sum its layers they wait for one another
+/// awake, as to be woken again takes as long as the sum.
 pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let start = Instant::now();
     // In flat space each streak is one chord, of its own.
@@ -237,31 +236,63 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let before = start.elapsed().as_secs_f64();
     let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
     // Each thread's canvas, and seconds of walk and of splats.
-    let mut parts: Vec<Option<(Canvas, [f64; 2])>> = std::iter::repeat_with(|| None).take(threads).collect();
+    let parts: Vec<OnceLock<(Canvas, [f64; 2])>> = std::iter::repeat_with(OnceLock::new).take(threads).collect();
     // Threads take electrons until there are none left, as none is woken at once and none is as fast as the other.
-    let next = AtomicUsize::new(0);
-    on_threads(parts.iter_mut(), |part| {
-        let start = Instant::now();
-        let mut canvas = Canvas::new(variant.splats, job.eye.size, tables);
-        let mut times = [0.0, start.elapsed().as_secs_f64()];
+    let (next, done, tasks) = (AtomicUsize::new(0), AtomicUsize::new(0), job.streaks.len().div_ceil(TASK));
+    let [width, height] = job.eye.size;
+    let mut picture = Picture::new([width, height]);
+    // Rows that a thread sums at once: there are more bands than threads, as no two are ready at once.
+    let band = height.div_ceil(if threads > 1 { 2 * threads } else { 1 }).max(1);
+    let bands = Mutex::new(picture.pixels.chunks_mut((width * band).max(1)).zip((0..height).step_by(band)));
+    let (ready, drawn) = (start.elapsed().as_secs_f64(), OnceLock::new());
+    on_threads(parts.iter(), |part| {
+        let mut taken = Taken { done: &done, tasks: 0 };
+        let mut canvas = None;
+        let mut times = [0.0; 2];
         let mut points = Points::default();
         while let Some(some) = job.streaks.chunks(TASK).nth(next.fetch_add(1, Ordering::Relaxed)) {
+            taken.tasks += 1;
             let start = Instant::now();
             points.clear();
             walker.walk(variant.method, some, &mut points);
             let walked = start.elapsed().as_secs_f64();
+            let canvas = canvas.get_or_insert_with(|| Canvas::new(variant.splats, job.eye.size, tables));
             canvas.add(&points, job, variant.splats, tables);
             times[0] += walked;
             times[1] += start.elapsed().as_secs_f64() - walked;
         }
-        *part = Some((canvas, times));
+        if let Some(canvas) = canvas {
+            // The thread's own place, in which nothing was before.
+            let _ = part.set((canvas, times));
+        }
+        drop(taken);
+        // Only for those that have electrons, not for a thread that comes late.
+        while done.load(Ordering::Acquire) < tasks {
+            std::thread::yield_now();
+        }
+        drawn.get_or_init(|| start.elapsed().as_secs_f64());
+        let pyramids: Vec<&Pyramid> = parts.iter().filter_map(|part| part.get()?.0.layers()).collect();
+        if pyramids.is_empty() {
+            return;
+        }
+        loop {
+            let next = bands.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((out, first)) = next else { break };
+            Pyramid::sum(&pyramids, first..(first + band).min(height), out);
+        }
     });
-    let drawn = start.elapsed().as_secs_f64();
-    let times = parts.iter().flatten().fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
-    let canvases = parts.into_iter().flatten().map(|(canvas, _)| canvas).collect();
-    let picture = picture(canvases, job.eye.size, tables);
+    let drawn = drawn.get().copied().unwrap_or(ready);
+    let times = parts.iter().filter_map(OnceLock::get).fold([0.0, 0.0], |sum, (_, times)| [sum[0] + times[0], sum[1] + times[1]]);
+    let mut direct = false;
+    for (canvas, _) in parts.into_iter().filter_map(OnceLock::into_inner) {
+        match canvas {
+            Canvas::Direct(part) if direct => picture.merge(&part),
+            Canvas::Direct(part) => (picture, direct) = (part, true),
+            Canvas::Layers(pyramid) => tables.spare().push(pyramid),
+        }
+    }
     let total = start.elapsed().as_secs_f64();
-    let walk = before + (drawn - before) * times[0] / (times[0] + times[1]).max(1e-12);
+    let walk = before + (drawn - ready) * times[0] / (times[0] + times[1]).max(1e-12);
     Timed { picture: black_box(picture), walk: walk * 1e3, splat: (total - walk) * 1e3 }
 }
 
