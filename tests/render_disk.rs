@@ -587,3 +587,34 @@ fn from_within_its_plane_the_disk_is_a_round_ring() {
         assert!(worst < 1.3 * disk.config.error_budget, "{worst} rad aside");
     }
 }
+
+/// What the rows of an order are chosen by, the light of a circle at azimuths on both sides, is that of the exact ray to there: ln of it is −26,160 K/gT.
+#[test]
+fn the_light_of_circles_is_that_of_exact_rays() {
+    use lensrunner::render::disk::rows::{Look, azimuth};
+    let disk = a_disk();
+    let renderer = renderer([64, 36]);
+    for (l, degrees) in [(22.0, 80.0), (22.0, 40.0), (7.0, 95.0)] {
+        let camera = camera(l, degrees, 60f64.to_radians());
+        let slice = lensrunner::lensing::Slice::new(renderer.table(), l);
+        let origin = camera.position.y.atan2(camera.position.x);
+        for order in 1..=3 {
+            let look = Look { disk: &disk, camera: &camera, slice: &slice, order, width: 1280, beaming: true };
+            for r in [2.5, 4.0, 9.0] {
+                let circle = look.circle(r);
+                for (k, sides) in circle.log_light.iter().enumerate() {
+                    for (side, got) in [1.0, -1.0].into_iter().zip(sides) {
+                        let Some((_, g)) = exact(&disk.gas, &camera, r, origin + side * azimuth(k), Order::ALL[order as usize - 1]) else {
+                            continue;
+                        };
+                        let want = -26_160.0 / (g * disk.gas.radial.temperature(r));
+                        assert!(
+                            (got / want - 1.0).abs() < 1e-3,
+                            "L = {l}, {degrees}°, order {order}, r = {r}, azimuth {k}, side {side}: {got}, must be {want}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}

@@ -2,45 +2,68 @@
 
 @group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
 
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> Gas {
-    return gas_of(disk_vertices[index]);
+/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing.
+struct ArcGas {
+    @builtin(position) position: vec4<f32>,
+    @location(0) even: vec4<f32>,
+    @location(1) odd: vec4<f32>,
+    @location(2) light: vec4<f32>,
+    @location(3) slope: vec4<f32>,
+    @location(4) seen: vec4<f32>,
+    @location(5) across: f32,
+    @location(6) @interpolate(flat) bend: vec3<f32>,
 }
 
-/// From far rings are so narrow on the screen that the height in the pattern goes straight over a triangle (src/render/disk/view.rs sees to that), and the
-/// places of both generations have it.
+/// Where in its ring a pixel is.
+struct AcrossRing {
+    /// 0 on one of the ring's circles and 1 on the other.
+    @location(5) across: f32,
+    /// By how much the ring's middle is beyond the straight line between its circles: height in the pattern, log₂ of light over its slope, optical depth. An arc's
+    /// triangles begin with a vertex of the inner circle, which has it.
+    @location(6) @interpolate(flat) bend: vec3<f32>,
+}
+
 @vertex
-fn far_vertex(@builtin(vertex_index) index: u32) -> Gas {
+fn vertex(@builtin(vertex_index) index: u32) -> ArcGas {
     let seen = disk_vertices[index];
-    var gas = gas_of(seen);
-    gas.even.y += seen.gas.y;
-    gas.odd.y += seen.gas.y;
-    return gas;
+    let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
+    let gas = gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
+    let bend = seen.bend.xyz * vec3<f32>(1.0, 1.44269504, 1.0);
+    return ArcGas(gas.position, gas.even, gas.odd, gas.light, vec4<f32>(gas.slope.xyz, seen.gas.y), gas.seen, seen.bend.w, bend);
 }
 
-fn gas_of(seen: DiskVertex) -> Gas {
-    let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    return gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
+/// What of a ring's gas a pixel has.
+struct OfRing {
+    /// Height in the pattern.
+    height: f32,
+    /// log₂ of its light beyond what the vertices say, over its slope.
+    brighter: f32,
+    /// Optical depth: along the ray, close by straight through.
+    depth: f32,
+}
+
+/// Between a ring's two circles gas goes as parabolas that are right on both and in the middle.
+fn of_ring(in: Gas, ring: AcrossRing) -> OfRing {
+    let bent = 4.0 * (ring.across - ring.across * ring.across) * ring.bend;
+    return OfRing(in.slope.w + bent.x, bent.y, max(in.light.w + bent.z, 0.0));
 }
 
 /// From far: the slant is in the vertices. Order 1 is wide; where gaps are closed gas has a part of its place.
 @fragment
-fn far_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return far_colour(in) * in.seen.x;
+fn far_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
+    return far_colour(in, ring) * in.seen.x;
 }
 
 /// Orders 2 and 3, from far.
 @fragment
-fn thin_fragment(in: Gas) -> @location(0) vec4<f32> {
-    return far_colour(in) * (coverage(in.seen.x, in.seen.y) * disk.gas.y);
+fn thin_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
+    return far_colour(in, ring) * (coverage(in.seen.x, in.seen.y) * disk.gas.y);
 }
 
 /// What the orbits have turned the gas by does not go straight: each pixel follows them.
-fn far_colour(in: Gas) -> vec4<f32> {
-    let rate = disk_rate_at(max(in.slope.w, 1.0));
-    let even = vec2<f32>(in.even.x - rate * in.even.z, in.even.y);
-    let odd = vec2<f32>(in.odd.x - rate * in.odd.z, in.odd.y);
-    return gas_colour(in.light.rgb, in.slope.xyz, in.light.w, two_looks(streaks_at(in, even, odd, 2.0 * STEP)));
+fn far_colour(in: Gas, ring: AcrossRing) -> vec4<f32> {
+    let here = of_ring(in, ring);
+    return bent_colour(in.light.rgb, in.slope.xyz, here.depth, two_looks(streaks_of(in, here.height, 2.0 * STEP)), here.brighter);
 }
 
 /// Columns and rows of the finest level of the pattern without its finest octaves: powers of two, so that a place is brought back into it by a mask.
@@ -103,27 +126,29 @@ const WIDE: f32 = 1e5;
 
 /// From near: the slant in each pixel, streaks without a grain.
 @fragment
-fn near_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let at = streaks_of(in, STEP * f32(CLOSE_TAPS));
+fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
+    let here = of_ring(in, ring);
+    let at = streaks_of(in, here.height, STEP * f32(CLOSE_TAPS));
     let long = sqrt(at.long);
     let share = smoothstep(LONG.x, LONG.y, long);
     // Places that do not count are not looked at.
     let far = far_along(at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
     let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
-    let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
+    let depth = here.depth * disk_slant(in.seen.w, in.seen.z, near_half_height(here.height));
     let part = select(coverage(in.seen.x, in.seen.y) * disk.gas.y, in.seen.x, in.seen.y > WIDE);
-    return gas_colour(in.light.rgb, in.slope.xyz, depth, cooling) * part;
+    return bent_colour(in.light.rgb, in.slope.xyz, depth, cooling, here.brighter) * part;
 }
 
 /// What of order 1 is farther away than a close look reaches, of a disk that is seen from near: the slant in each pixel, streaks as from far.
 @fragment
-fn beyond_fragment(in: Gas) -> @location(0) vec4<f32> {
-    let depth = in.light.w * disk_slant(in.seen.w, in.seen.z, near_half_height(in.slope.w));
-    return gas_colour(in.light.rgb, in.slope.xyz, depth, two_looks(streaks_of(in, 2.0 * STEP))) * in.seen.x;
+fn beyond_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
+    let here = of_ring(in, ring);
+    let depth = here.depth * disk_slant(in.seen.w, in.seen.z, near_half_height(here.height));
+    return bent_colour(in.light.rgb, in.slope.xyz, depth, two_looks(streaks_of(in, here.height, 2.0 * STEP)), here.brighter) * in.seen.x;
 }
 
-/// Half height of the disk at a radius of the pattern: thickness times that.
-fn near_half_height(radius: f32) -> f32 {
-    return max(bitcast<f32>(disk.room.z) * radius, 1e-3);
+/// Half height of the disk at a height in the pattern: thickness times the radius there.
+fn near_half_height(height: f32) -> f32 {
+    return max(bitcast<f32>(disk.room.z) * exp2(4.0 * height), 1e-3);
 }

@@ -24,7 +24,7 @@ struct Gas {
     @location(1) odd: vec4<f32>,
     /// log₂ of the light of gas of mean density; w: its optical depth.
     @location(2) light: vec4<f32>,
-    /// d ln light/d ln T; w: radius in the pattern in r_s.
+    /// d ln light/d ln T; w: radius in the pattern in r_s; of arcs the height there.
     @location(3) slope: vec4<f32>,
     /// Distance from the middle of a thin image and its half width, both in pixels; light path; |cos| to the normal.
     @location(4) seen: vec4<f32>,
@@ -78,9 +78,8 @@ fn place_in(generation: vec4<f32>, height: f32) -> vec2<f32> {
     return generation.xy + vec2<f32>(-disk_rate(height) * generation.z, height);
 }
 
-/// Of a pixel that follows height and orbits in the pattern by its radius.
-fn streaks_of(in: Gas, most: f32) -> Streaks {
-    let height = 0.25 * log2(max(in.slope.w, 1.0));
+/// Of a pixel that is `height` up in the pattern.
+fn streaks_of(in: Gas, height: f32, most: f32) -> Streaks {
     return streaks_at(in, place_in(in.even, height), place_in(in.odd, height), most);
 }
 
@@ -201,6 +200,11 @@ fn two_looks(at: Streaks) -> Cooling {
 /// exp(slope·(1 − 1/t)) over the temperature's factor t: Wien's law, with the slope of Planck's. Light is steep in t, so what streaks too fine to be
 /// seen add in the mean counts: exp(½v(s² − s)/(1 + sv)) for a variance v of ln t, and with the opacity, a(t), s² − s + 2s·a'/a + a''/a.
 fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling) -> vec4<f32> {
+    return bent_colour(light, slope, depth, cooling, 0.0);
+}
+
+/// The same where the light is brighter, by that much in log₂ over its slope.
+fn bent_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling, brighter: f32) -> vec4<f32> {
     let cooler = exp2(-cooling.power);
     let square = cooler * cooler;
     let q = depth / (square * square);
@@ -210,5 +214,5 @@ fn gas_colour(light: vec3<f32>, slope: vec3<f32>, depth: f32, cooling: Cooling) 
     let s = slope * cooler;
     let added = s * (s + (2.0 * steep - 1.0)) + steep * (4.0 - 4.0 * q);
     let mean = 0.72134752 * cooling.unseen * added / (1.0 + cooling.unseen * s);
-    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler)) + min(mean, vec3<f32>(8.0))) * alpha, alpha);
+    return vec4<f32>(exp2(light + slope * (1.44269504 * (1.0 - cooler) + brighter) + min(mean, vec3<f32>(8.0))) * alpha, alpha);
 }

@@ -58,6 +58,14 @@ fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
     return vec2<f32>(log(GREEN / max(all, 1e-3)), -log(1.0 - min(stopped, 0.999)));
 }
 
+/// Between which of THIN_AZIMUTHS azimuths one is, in rad from the camera's: the one before (x), and how far it is to the next (y). They are closest where the disk
+/// comes closest to the camera.
+fn among_azimuths(azimuth: f32) -> vec2<f32> {
+    let place = clamp(f32(THIN_AZIMUTHS) * sqrt(azimuth / HALF_TURN) - 0.5, 0.0, f32(THIN_AZIMUTHS) - 1.0);
+    let before = min(floor(place), f32(THIN_AZIMUTHS - 2u));
+    return vec2<f32>(before, place - before);
+}
+
 /// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
 /// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
 /// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
@@ -71,10 +79,9 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
     var light = 0.0;
     var stopped = 0.0;
     var shifted = 0.0;
-    // Azimuths are closest where the disk comes closest to the camera.
-    let place = clamp(f32(THIN_AZIMUTHS) * sqrt(azimuth / HALF_TURN) - 0.5, 0.0, f32(THIN_AZIMUTHS) - 1.0);
-    let here = first + THIN_SAMPLES * min(u32(place), THIN_AZIMUTHS - 2u);
-    let t = vec4<f32>(place - f32(min(u32(place), THIN_AZIMUTHS - 2u)));
+    let place = among_azimuths(azimuth);
+    let here = first + THIN_SAMPLES * u32(place.x);
+    let t = vec4<f32>(place.y);
     for (var k = here; k < min(here + count, arrayLength(&circles) - THIN_SAMPLES); k++) {
         var there = circles[k];
         let next = circles[k + THIN_SAMPLES];
@@ -274,8 +281,14 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         ln_g = mix(mean.z, ln_g, own);
     }
     // Close by, the slant is worked out in each pixel.
-    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * select(slant, 1.0, order <= disk.room.y));
+    let along_ray = select(slant, 1.0, order <= disk.room.y);
+    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * along_ray);
     vertex.more = vec4<f32>(ln_g, cosine, thin);
+    let place = among_azimuths(azimuth);
+    let first_bend = row * THIN_AZIMUTHS + u32(place.x);
+    // What a thin image shows of all of its gas is the same everywhere in it.
+    let bend = mix(bends[first_bend], bends[first_bend + 1u], vec4<f32>(place.y));
+    vertex.bend = vec4<f32>(bend.x, own * select(bend.y, bend.w, s < 0.0), own * along_ray * bend.z, f32((row - circle.rows.y) & 1u));
     return vertex;
 }
 

@@ -24,5 +24,6 @@ fn vertex(@builtin(vertex_index) index: u32) -> Gas {
 
 @fragment
 fn fragment(in: Gas) -> @location(0) vec4<f32> {
-    return vec4<f32>(gas_colour(in.light.rgb, in.slope.xyz, in.light.w, two_looks(streaks_of(in, 2.0 * STEP))).rgb, 1.0);
+    let height = 0.25 * log2(max(in.slope.w, 1.0));
+    return vec4<f32>(gas_colour(in.light.rgb, in.slope.xyz, in.light.w, two_looks(streaks_of(in, height, 2.0 * STEP))).rgb, 1.0);
 }

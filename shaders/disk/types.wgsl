@@ -50,6 +50,10 @@ struct DiskVertex {
     /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in pixels; of order 1, z: the part of its
     /// place that gas has, w: 10⁶.
     more: vec4<f32>,
+    /// Of the ring that begins here, by how much its middle is beyond the straight line between its circles: x: height in the pattern; y: logarithm of light, over itself with
+    /// its sign turned; z: optical depth along the ray (close look: straight through). w: 0 and 1 by turns from row to row, so that over a ring it is the share of its
+    /// width, from one side or the other.
+    bend: vec4<f32>,
 }
 
 struct Counters {

@@ -34,6 +34,7 @@ pub struct ArcPass {
     circles: Growing,
     cuts: Growing,
     rings: Growing,
+    bends: Growing,
     seen: Growing,
     segment_buffer: Growing,
     jobs: wgpu::Buffer,
@@ -55,7 +56,7 @@ impl ArcPass {
         use Slot::{Read, Write};
         let device = &gpu.device;
         let group_layout =
-            layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Write, Write, Write, Write, Write]);
+            layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Write]);
         let draw_layout = layout(device, "disk draw", ShaderStages::VERTEX, &[Read]);
         let arguments_layout = layout(device, "disk arguments", ShaderStages::COMPUTE, &[Write]);
         let stage = |label, pass| compute(device, label, pass, "main", &[Some(frame_layout), Some(&group_layout)]);
@@ -78,13 +79,14 @@ impl ArcPass {
             strips: stage("disk strips", Pass::DiskStrips),
             before_mesh: argument("before_mesh"),
             before_draw: argument("before_draw"),
-            far: draw("disk far", "far_vertex", "far_fragment"),
-            thin: draw("disk thin", "far_vertex", "thin_fragment"),
+            far: draw("disk far", "vertex", "far_fragment"),
+            thin: draw("disk thin", "vertex", "thin_fragment"),
             near: draw("disk near", "vertex", "near_fragment"),
             beyond: draw("disk beyond", "vertex", "beyond_fragment"),
             circles: Growing::new(device, "disk circles", storage),
             cuts: Growing::new(device, "disk cuts", storage),
             rings: Growing::new(device, "disk rings", storage),
+            bends: Growing::new(device, "disk bends", storage),
             seen: Growing::new(device, "disk vertices", storage),
             segment_buffer: Growing::new(device, "disk segments", storage),
             jobs: buffer(device, "disk jobs", 16 * u64::from(EXTRA), storage),
@@ -113,6 +115,7 @@ impl ArcPass {
         let mut replaced = self.circles.write(gpu, &[&view.circles[..], &view.samples[..]].concat());
         replaced |= self.cuts.write(gpu, &view.cuts);
         replaced |= self.rings.write(gpu, &view.rings);
+        replaced |= self.bends.write(gpu, &view.bends);
         replaced |= self.seen.reserve(device, u64::from(view.frame.room[0]) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
@@ -127,6 +130,7 @@ impl ArcPass {
             &self.circles.buffer,
             &self.cuts.buffer,
             &self.rings.buffer,
+            &self.bends.buffer,
             &self.seen.buffer,
             &self.segment_buffer.buffer,
             &self.jobs,

@@ -6,6 +6,7 @@
 pub mod arcs;
 pub mod bench;
 pub mod polygons;
+pub mod rows;
 pub mod sigma;
 pub mod sprites;
 pub mod textures;

@@ -38,6 +38,7 @@ pub struct DiskVertex {
     pub apparent: [f32; 4],
     pub gas: [f32; 4],
     pub more: [f32; 4],
+    pub bend: [f32; 4],
 }
 
 /// `Counters` in WGSL.

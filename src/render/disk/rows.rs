@@ -1,0 +1,326 @@
+//! Which circles of the disk an image order draws, and how the gas goes from one to the next: as parabolas over the way that is seen.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DVec2, DVec3};
+
+use crate::lensing::Slice;
+use crate::lensing::lookup::lens_lookup_at;
+use crate::render::disk::Disk;
+use crate::render::frame::Camera;
+use crate::scene::disk::radial::LAST_ORBIT;
+use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
+
+/// How far off what goes as a parabola between two circles may be; rings are drawn together as long as it is off by no more.
+#[derive(Clone, Copy, Debug)]
+pub struct Within {
+    /// The place in the gas across the orbit, in pixels.
+    across: f64,
+    /// And along it, where streaks are ten times as long. By how much falling gas is ahead goes straight.
+    along: f64,
+    /// The logarithm of light is a parabola, and the optical depth: the light that comes of both, over that of the brightest ring.
+    light: f64,
+    /// And what is stopped of light from behind.
+    stopped: f64,
+}
+
+/// From far.
+pub const FROM_FAR: Within = Within { across: 0.15, along: 4.0, light: 0.005, stopped: 0.015 };
+/// Where a ring may fill the picture.
+pub const FROM_NEAR: Within = Within { across: 0.1, along: 4.0, light: 0.002, stopped: 0.005 };
+
+/// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
+/// the first two misses the lag by 0.02 rad.
+const FALL_STEP: f64 = 0.05;
+/// Circles nearer to one another than this, in r_s, are one.
+const LEAST_RING: f64 = 1e-3;
+/// Azimuths at which all this is tried and told, on one side, for both sides are alike; as in shaders/disk/place.wgsl.
+pub const AZIMUTHS: usize = 12;
+/// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
+const GREEN: f64 = 26_160.0;
+/// Light of gas as dark as this, in its logarithm, is none.
+const LEAST_LOG_LIGHT: f64 = -690.0;
+/// Light in the middle of a ring is at most this far from the straight line, in its logarithm: the colours go with the slopes of Planck's law at the circles, which
+/// is good for no more.
+const MOST_BENT: f64 = 0.7;
+/// The middle of a ring is seen no nearer to either circle than this share of its width: else a parabola would tell more of the ends than of the ring.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The radii to choose from, ascending, in r_s: the arcs' circles, and from near more of them in the falling gas. By how much its pattern is ahead grows as
+/// the root of the way from the last orbit, which the straight line between two arcs' circles missed by up to a tenth of a radian; and at that orbit the
+/// pattern has a kink.
+pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
+    let mut radii = disk.arcs.circles.clone();
+    let [start, _] = disk.gas.extent();
+    if close && disk.config.gap <= 0.0 && start < LAST_ORBIT {
+        let falling = (0..).map(|k| LAST_ORBIT - (FALL_STEP * f64::from(k)).powi(2));
+        radii.extend(falling.take_while(|&r| r > start));
+        radii.sort_by(f64::total_cmp);
+        radii.dedup_by(|next, r| *next - *r < LEAST_RING);
+    }
+    radii
+}
+
+/// The rows of an order.
+#[derive(Clone, Debug)]
+pub struct Rows {
+    /// Their radii, ascending, in r_s.
+    pub radii: Vec<f64>,
+    /// Pairs of them with gas between.
+    pub pairs: Vec<[u32; 2]>,
+    /// For the ring from each of them to the next, by azimuth, what its middle has beyond the straight line; of the last row nothing.
+    pub bends: Vec<[Bend; AZIMUTHS]>,
+}
+
+impl Rows {
+    /// All of these circles, with what lies between two of them straight.
+    pub fn straight(radii: Vec<f64>, pairs: Vec<[u32; 2]>) -> Rows {
+        Rows { bends: vec![[Bend::default(); AZIMUTHS]; radii.len()], radii, pairs }
+    }
+}
+
+/// An order as the camera sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Look<'a> {
+    /// The disk that is seen.
+    pub disk: &'a Disk,
+    /// From where.
+    pub camera: &'a Camera,
+    /// The lensing table for the camera's radius.
+    pub slice: &'a Slice,
+    /// 1 to 3.
+    pub order: u32,
+    /// Of the picture, in pixels.
+    pub width: u32,
+    /// Whether light changes its strength with g.
+    pub beaming: bool,
+}
+
+impl Look<'_> {
+    /// Of the circles there are to choose from as few as will do.
+    /// `own` says how much of its own each shows, by azimuth: of a thin image less than all.
+    pub fn rows(&self, seen: &[SeenCircle], own: &[f64; AZIMUTHS], within: Within) -> Rows {
+        let brightest =
+            std::array::from_fn(|k| [0, 1].map(|side| seen.iter().map(|circle| circle.shining(k, side)).fold(1e-300, f64::max)));
+        let smooth = |a: usize, b: usize| {
+            let ring = [&seen[a], &seen[(a + b) / 2], &seen[b]];
+            // Middle and quarters.
+            [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
+                let i = (a * (n - k) + b * k) / n;
+                i == a || i == b || self.is_on(ring, &seen[i], own, &brightest, within)
+            })
+        };
+        let mut chosen = vec![0];
+        for k in 1..seen.len() {
+            let last = *chosen.last().unwrap_or(&0);
+            if k + 1 == seen.len() || !smooth(last, k + 1) {
+                chosen.push(k);
+            }
+        }
+        let bend = |pair: &[usize]| {
+            let [a, b] = [&seen[pair[0]], &seen[pair[1]]];
+            let between = (pair[0] + pair[1]) / 2;
+            // Two neighbours among the circles have none in the middle.
+            let new = (between == pair[0]).then(|| self.circle(0.5 * (a.radius + b.radius)));
+            let middle = new.as_ref().unwrap_or(&seen[between]);
+            std::array::from_fn(|k| Bend::of([a, middle, b], k).unwrap_or_default())
+        };
+        let mut bends: Vec<_> = chosen.windows(2).map(bend).collect();
+        bends.push([Bend::default(); AZIMUTHS]);
+        let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
+        Rows { radii: chosen.into_iter().map(|k| seen[k].radius).collect(), pairs, bends }
+    }
+
+    /// Whether the circle `here` looks as it should in the `ring` of an inner circle, one in the middle and an outer; the light that may be missing is an absolute
+    /// one here.
+    fn is_on(
+        &self,
+        ring: [&SeenCircle; 3],
+        here: &SeenCircle,
+        own: &[f64; AZIMUTHS],
+        brightest: &[[f64; 2]; AZIMUTHS],
+        within: Within,
+    ) -> bool {
+        let pixel = pixel_angle(self.camera, self.width);
+        let slants = slants(self.camera);
+        let [a, _, b] = ring;
+        (0..AZIMUTHS).all(|k| {
+            let t = here.share(a, b, k);
+            let Some(bend) = Bend::of(ring, k).filter(|_| t > 0.0 && t < 1.0) else { return false };
+            let straight = |from: f64, to: f64| from + t * (to - from);
+            let middle = 4.0 * t * (1.0 - t);
+            // Pixels for each r_s across the ring, and along it.
+            let wide = a.angle_to(b, k) / pixel;
+            let across = wide / (b.radius - a.radius);
+            // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
+            let shown = own[k] * wide.min(1.0);
+            let length = here.places[k].length();
+            let along = here.radius / length / pixel;
+            let aside = here.pattern * PATTERN_HEIGHT * (straight(a.height, b.height) + middle * bend.height - here.height).abs();
+            // Gas is ahead by as much, and turned on as light shows it whose path is as much off.
+            let path = straight(a.places[k].length(), b.places[k].length()) - length;
+            let ahead = (straight(a.lag, b.lag) - here.lag).abs() + here.rate * path.abs();
+            if aside * across >= within.across || ahead * along * wide.min(1.0) >= within.along {
+                return false;
+            }
+            let depth = (straight(a.depth, b.depth) + middle * bend.depth).max(0.0);
+            let drawn = slants.map(|slant| stopped(depth, slant));
+            (0..2).all(|n| (drawn[n] - here.stopped[n]).abs() * shown < within.stopped)
+                && (0..2).all(|side| {
+                    let light = (straight(a.log_light[k][side], b.log_light[k][side]) * (1.0 - middle * bend.light[side])).exp();
+                    let there = here.log_light[k][side].exp();
+                    (0..2).all(|n| (light * drawn[n] - there * here.stopped[n]).abs() * shown < within.light * brightest[k][side])
+                })
+        })
+    }
+
+    /// The circle of radius `r` in r_s.
+    pub fn circle(&self, r: f64) -> SeenCircle {
+        let radial = &self.disk.gas.radial;
+        let camera = self.camera;
+        let l = camera.radius();
+        let n = camera.position / l;
+        let level = (1.0 - n.z * n.z).max(0.0).sqrt();
+        let towards = DVec3::new(n.x, n.y, 0.0).try_normalize().unwrap_or(DVec3::X);
+        let sideways = DVec3::Z.cross(towards);
+        let upwards = DVec3::Z * level - towards * n.z;
+        let turn = if self.order == 2 { -1.0 } else { 1.0 };
+        let gamma = |squared: f64| (1.0 + squared).sqrt();
+        let [outward, ahead] = radial.momentum(r);
+        let heat = radial.temperature(r);
+        let mut log_light = [[LEAST_LOG_LIGHT; 2]; AZIMUTHS];
+        let places: [DVec2; AZIMUTHS] = std::array::from_fn(|k| {
+            let (sine, cosine) = azimuth(k).sin_cos();
+            let reach = (n.z * cosine).hypot(sine).max(1e-12);
+            let (along, across) = (r * cosine * level, r * reach);
+            let ray = lens_lookup_at(self.slice, (along - l) as f32, across as f32, along as f32, self.order);
+            let [cos_psi, sin_psi] = [ray.cos_psi, ray.sin_psi].map(f64::from);
+            // On either side; as shaders/disk/place.wgsl has it, with what of the vectors' products is nothing left out.
+            log_light[k] = [1.0, -1.0].map(|side| {
+                let look = n * cos_psi + (sideways * (side * sine) - upwards * (n.z * cosine)) * (turn * sin_psi / reach);
+                let observed = (gamma(camera.momentum.length_squared()) + camera.momentum.dot(look)) * f64::from(ray.frequency);
+                let emitted = gamma(outward * outward + ahead * ahead) * f64::from(ray.emission_frequency)
+                    - outward * f64::from(ray.emission_radial)
+                    + ahead * f64::from(ray.emission_tangential) * (turn * side * sine * level / reach);
+                let g = if self.beaming && ray.valid { (observed / emitted.max(1e-9)).clamp(1e-3, 1e3) } else { 1.0 };
+                (-GREEN / (heat * g)).max(LEAST_LOG_LIGHT)
+            });
+            DVec2::new(cos_psi, sin_psi) * if ray.valid { f64::from(ray.delay) } else { f64::NAN }
+        });
+        let depth = radial.depth(r);
+        let pattern = radial.pattern_radius(r);
+        SeenCircle {
+            radius: r,
+            lag: radial.lag(r),
+            rate: radial.turning_rate(r),
+            pattern,
+            height: pattern.ln() / PATTERN_HEIGHT,
+            log_light,
+            depth,
+            stopped: slants(camera).map(|slant| stopped(depth, slant)),
+            places,
+            angles: places.map(|place| place.y.atan2(place.x)),
+        }
+    }
+}
+
+/// By how much a ring's middle is beyond the straight line between its circles. Where the share t of the ring's width is seen, 4t(1 − t) times that is added.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Bend {
+    /// Height in the pattern.
+    height: f64,
+    /// The logarithm of light, over itself with its sign turned; where the azimuth is positive and where it is negative.
+    light: [f64; 2],
+    /// Optical depth straight through.
+    depth: f64,
+}
+
+impl Bend {
+    /// Of the ring between two circles at an azimuth, through what the one in the middle has; None where that is not seen between them.
+    fn of([a, middle, b]: [&SeenCircle; 3], azimuth: usize) -> Option<Bend> {
+        let t = middle.share(a, b, azimuth);
+        if !(t > LEAST_SHARE && t < 1.0 - LEAST_SHARE) {
+            return None;
+        }
+        let weight = 1.0 / (4.0 * t * (1.0 - t));
+        let straight = |from: f64, to: f64| from + t * (to - from);
+        Some(Bend {
+            height: (middle.height - straight(a.height, b.height)) * weight,
+            light: std::array::from_fn(|side| {
+                let [from, through, to] = [a, middle, b].map(|circle| circle.log_light[azimuth][side]);
+                let line = straight(from, to);
+                ((1.0 - through / line) * weight).clamp(MOST_BENT / line, -MOST_BENT / line)
+            }),
+            depth: (middle.depth - straight(a.depth, b.depth)) * weight,
+        })
+    }
+
+    /// For the shaders.
+    pub fn row(&self) -> [f32; 4] {
+        [self.height, self.light[0], self.depth, self.light[1]].map(|value| value as f32)
+    }
+}
+
+/// The azimuths that are tried, from the camera's, in rad: closest where the disk comes closest to the camera.
+pub fn azimuth(k: usize) -> f64 {
+    let share = (k as f64 + 0.5) / AZIMUTHS as f64;
+    PI * share * share
+}
+
+/// A circle as an order shows it.
+pub struct SeenCircle {
+    /// In r_s.
+    pub radius: f64,
+    /// Azimuth by which its pattern is ahead, in rad.
+    lag: f64,
+    /// How fast that turns, in rad per r_s/c.
+    rate: f64,
+    /// The radius that its pattern comes from, and its height in the pattern.
+    pattern: f64,
+    height: f64,
+    /// The logarithm of the light of gas that lets nothing through, as it is seen at each azimuth and at the same on the other side.
+    pub log_light: [[f64; 2]; AZIMUTHS],
+    depth: f64,
+    /// What it stops at each of [`slants`].
+    stopped: [f64; 2],
+    /// For each azimuth the place, direction times light path, in the half plane that holds the ray: outward and across.
+    pub places: [DVec2; AZIMUTHS],
+    /// And its angle there from outward, in rad.
+    angles: [f64; AZIMUTHS],
+}
+
+impl SeenCircle {
+    /// Its light at an azimuth on one side, seen face on.
+    fn shining(&self, azimuth: usize, side: usize) -> f64 {
+        self.log_light[azimuth][side].exp() * self.depth.min(1.0)
+    }
+
+    /// The angle to the same azimuth of another circle, in rad.
+    pub fn angle_to(&self, other: &SeenCircle, azimuth: usize) -> f64 {
+        let angle = (self.angles[azimuth] - other.angles[azimuth]).abs();
+        angle.min(TAU - angle)
+    }
+
+    /// The share of the way from `a` to `b`, which are drawn straight, at which this circle is seen. Where there is no ray it is not a number.
+    fn share(&self, a: &SeenCircle, b: &SeenCircle, azimuth: usize) -> f64 {
+        let [here, start, end] = [self, a, b].map(|circle| circle.places[azimuth]);
+        let (before, after) = (here.perp_dot(start), here.perp_dot(end));
+        before / (before - after)
+    }
+}
+
+/// The angle of a pixel in the middle of a picture `width` pixels wide, in rad.
+pub fn pixel_angle(camera: &Camera, width: u32) -> f64 {
+    2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1))
+}
+
+/// Optical depths along a ray over those straight through: seen face on, and from where the camera is.
+fn slants(camera: &Camera) -> [f64; 2] {
+    let height = camera.position.z.abs() / camera.radius();
+    [1.0, 1.0 / height.max(LEAST_COSINE)]
+}
+
+/// The share of the light from behind that gas of an optical depth stops at a slant.
+fn stopped(depth: f64, slant: f64) -> f64 {
+    1.0 - (-slant * depth).exp()
+}
