@@ -44,8 +44,10 @@ struct OfRing {
 
 /// Between a ring's two circles gas goes as parabolas that are right on both and in the middle.
 fn of_ring(in: Gas, ring: AcrossRing) -> OfRing {
-    let bent = 4.0 * (ring.across - ring.across * ring.across) * ring.bend;
-    return OfRing(in.slope.w + bent.x, bent.y, max(in.light.w + bent.z, 0.0));
+    // A sliver that hardly touches a pixel may have anything at its centre.
+    let t = saturate(ring.across);
+    let bent = 4.0 * (t - t * t) * ring.bend;
+    return OfRing(max(in.slope.w + bent.x, 0.0), bent.y, max(in.light.w + bent.z, 0.0));
 }
 
 /// From far: the slant is in the vertices. Order 1 is wide; where gaps are closed gas has a part of its place.

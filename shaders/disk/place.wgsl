@@ -13,6 +13,9 @@ const ALONG_STEP: f32 = 0.01;
 /// Circles whose mean a thin image shows, for each of so many azimuths; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
 const THIN_AZIMUTHS: u32 = 12u;
+/// The first of these azimuths, and what is left from the last to half a turn: π(½/12)² and π(1 − (11½/12)²), in rad.
+const FIRST_AZIMUTH: f32 = 0.0054541539;
+const FROM_LAST_AZIMUTH: f32 = 0.25634524;
 
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f32 = 26160.0;
@@ -288,7 +291,10 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let first_bend = row * THIN_AZIMUTHS + u32(place.x);
     // What a thin image shows of all of its gas is the same everywhere in it.
     let bend = mix(bends[first_bend], bends[first_bend + 1u], vec4<f32>(place.y));
-    vertex.bend = vec4<f32>(bend.x, own * select(bend.y, bend.w, s < 0.0), own * along_ray * bend.z, f32((row - circle.rows.y) & 1u));
+    // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
+    let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
+    let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, s < 0.0) * apart * (bend.y - bend.w);
+    vertex.bend = vec4<f32>(bend.x, own * brighter, own * along_ray * bend.z, f32((row - circle.rows.y) & 1u));
     return vertex;
 }
 

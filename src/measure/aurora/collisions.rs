@@ -52,7 +52,7 @@ impl Default for Collisions {
 
 impl Collisions {
     /// Deals out `collisions` over the levels by the random number `u`: ⌊collisions · spent + u⌋ above each level. `AVX` may be said only where
-    /// the processor has AVX2; it changes no bit.
+    /// the processor has AVX2 and POPCNT; it changes no bit.
     #[inline(always)]
     pub(super) fn deal<const AVX: bool>(&mut self, falls: &Falls, row: usize, collisions: f32, u: f32) {
         let (spent, stop) = (&falls.spent[row], falls.stops[row]);
@@ -66,7 +66,7 @@ impl Collisions {
             #[cfg(target_arch = "x86_64")]
             if AVX {
                 #[allow(unsafe_code)]
-                // SAFETY: the caller says that the processor has AVX2.
+                // SAFETY: the caller says that the processor has AVX2 and POPCNT.
                 unsafe {
                     self.deal_avx(falls, spent, first, collisions, u, &mut length)
                 };

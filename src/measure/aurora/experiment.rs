@@ -266,7 +266,7 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
             let _ = part.set((canvas, times));
         }
         drop(taken);
-        // Only for those that have electrons, not for a thread that comes late.
+        // Until all electrons are drawn; a thread that comes late and has none waits as well, as the sum's bands are for all.
         while done.load(Ordering::Acquire) < tasks {
             std::thread::yield_now();
         }

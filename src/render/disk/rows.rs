@@ -32,6 +32,9 @@ pub const FROM_NEAR: Within = Within { across: 0.1, along: 4.0, light: 0.002, st
 /// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
 /// the first two misses the lag by 0.02 rad.
 const FALL_STEP: f64 = 0.05;
+/// From one circle to the next that there is to choose from it is no farther than this, over the radius and in r_s, whichever is more: over wider rings, as a disk of few arcs
+/// has, gas is no parabola.
+const WIDEST: [f64; 2] = [0.1, 0.25];
 /// Circles nearer to one another than this, in r_s, are one.
 const LEAST_RING: f64 = 1e-3;
 /// Azimuths at which all this is tried and told, on one side, for both sides are alike; as in shaders/disk/place.wgsl.
@@ -43,10 +46,10 @@ const LEAST_LOG_LIGHT: f64 = -690.0;
 /// Light in the middle of a ring is at most this far from the straight line, in its logarithm: the colours go with the slopes of Planck's law at the circles, which
 /// is good for no more.
 const MOST_BENT: f64 = 0.7;
-/// The middle of a ring is seen no nearer to either circle than this share of its width: else a parabola would tell more of the ends than of the ring.
-const LEAST_SHARE: f64 = 0.1;
+/// The middle of a ring is seen no nearer to either circle than this share of its width: else the parabola goes beyond what its circles have.
+const LEAST_SHARE: f64 = 0.3;
 
-/// The radii to choose from, ascending, in r_s: the arcs' circles, and from near more of them in the falling gas. By how much its pattern is ahead grows as
+/// The radii to choose from, ascending, in r_s: the arcs' circles, where they are few more of them, and from near more in the falling gas. By how much its pattern is ahead grows as
 /// the root of the way from the last orbit, which the straight line between two arcs' circles missed by up to a tenth of a radian; and at that orbit the
 /// pattern has a kink.
 pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
@@ -58,7 +61,15 @@ pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
         radii.sort_by(f64::total_cmp);
         radii.dedup_by(|next, r| *next - *r < LEAST_RING);
     }
-    radii
+    if disk.config.gap > 0.0 {
+        return radii;
+    }
+    let between = |pair: &[f64]| {
+        let (from, width) = (pair[0], pair[1] - pair[0]);
+        let parts = (width / (WIDEST[0] * from).max(WIDEST[1])).ceil().max(1.0);
+        (1..=parts as u32).map(move |k| from + width * f64::from(k) / parts)
+    };
+    radii[..1].iter().copied().chain(radii.windows(2).flat_map(between)).collect()
 }
 
 /// The rows of an order.
