@@ -18,7 +18,8 @@ pub struct Within {
     across: f64,
     /// And along it, where streaks are ten times as long. By how much falling gas is ahead goes straight.
     along: f64,
-    /// The logarithm of light is a parabola, and the optical depth: the light that comes of both, over that of the brightest ring.
+    /// The logarithm of light is a parabola, and the optical depth: the light that comes of both, over that of the ring that is brightest at the
+    /// same azimuth.
     light: f64,
     /// And what is stopped of light from behind.
     stopped: f64,
@@ -37,7 +38,7 @@ const FALL_STEP: f64 = 0.05;
 const WIDEST: [f64; 2] = [0.1, 0.25];
 /// Circles nearer to one another than this, in r_s, are one.
 const LEAST_RING: f64 = 1e-3;
-/// Azimuths at which all this is tried and told, on one side, for both sides are alike; as in shaders/disk/place.wgsl.
+/// Azimuths at which all this is tried and told, on one side, for both sides are alike but in their light; as in shaders/disk/place.wgsl.
 pub const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
@@ -109,6 +110,7 @@ pub struct Look<'a> {
 
 impl Look<'_> {
     /// Of the circles there are to choose from as few as will do.
+    ///
     /// `own` says how much of its own each shows, by azimuth: of a thin image less than all.
     pub fn rows(&self, seen: &[SeenCircle], own: &[f64; AZIMUTHS], within: Within) -> Rows {
         let brightest =
