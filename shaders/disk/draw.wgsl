@@ -2,7 +2,8 @@
 
 @group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
 
-/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing.
+/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing. It stands here once more, as what one stage hands to the
+/// next may hold no structures, and polygons have no use for the rest.
 struct ArcGas {
     @builtin(position) position: vec4<f32>,
     @location(0) even: vec4<f32>,
