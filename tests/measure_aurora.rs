@@ -17,6 +17,7 @@ use proptest::prelude::*;
 use std::sync::LazyLock;
 
 static FALLS_TABLE: LazyLock<Falls> = LazyLock::new(Falls::new);
+static SHARES: LazyLock<Shares> = LazyLock::new(Shares::default);
 static TABLE: LazyLock<lensing::Table> = LazyLock::new(lensing::default_table);
 
 /// Falls along the field, none of them astray.
@@ -262,7 +263,7 @@ fn direct_sum(size: [usize; 2], points: &[Point], radius: f64) -> Picture {
 
 fn by_pyramid(size: [usize; 2], points: &[Point], radius: f32) -> Picture {
     let mut pyramid = Pyramid::new(size);
-    pyramid.add(&points.iter().copied().collect(), &FALLS_TABLE, radius, &Shares::default());
+    pyramid.add(&points.iter().copied().collect(), &FALLS_TABLE, radius, &SHARES);
     pyramid.picture()
 }
 
@@ -276,17 +277,17 @@ fn worst(got: &Picture, want: &Picture) -> f32 {
 
 #[test]
 fn one_splat_of_the_pyramid_is_a_gaussian() {
-    // Half-pixel Gaussians vary by 1.4 % along each side with their place, as the pyramid's do not, and half a step of the tabulated width is
-    // 1.2 % of them. Where a layer begins, the cut-off of its narrowest Gaussians and their pixels are seen to 5 % of the peak; a widening of the Gaussian that
-    // is not taken off beforehand is 20 %.
-    for k in 0..240 {
-        let sigma = 0.5 * 80f32.powf(k as f32 / 239.0);
+    // Half-pixel Gaussians vary by 1.4 % along each side with their place, as the pyramid's do not, half a step of the tabulated width is 1.2 % of
+    // them, and the cut-off of the narrowest is seen: 6 % of the peak. Where a layer begins, what the humps of its pixels cannot tell is 5.5 %, and half a step of
+    // the tabulated place as much as 1 %. A widening of the Gaussian that is not taken off beforehand is 20 %.
+    for k in 0..2400 {
+        let sigma = 0.5 * 80f32.powf(k as f32 / 2399.0);
         let place = |step: f32| 128.0 + (step * k as f32).fract() * 64.0;
         let point = Point { x: place(0.754_877_7), y: place(0.569_840_3), scale: sigma, count: 3.0, level: 100 };
         let size = [320, 320];
         let (got, want) = (by_pyramid(size, &[point], 1.0), direct_sum(size, &[point], 1.0));
         let off = worst(&got, &want);
-        assert!(off < 0.056, "a splat of {sigma} px is off by {off} of its peak");
+        assert!(off < 0.068, "a splat of {sigma} px is off by {off} of its peak");
     }
 }
 
@@ -343,7 +344,7 @@ fn wider_instructions_change_no_bit() {
                 let mut pyramid = Pyramid::new(eye.size);
                 // From half a pixel to eight.
                 for radius in [0.5, 1.5, 6.0] {
-                    add(&mut pyramid, &plain, &FALLS_TABLE, radius, &Shares::default());
+                    add(&mut pyramid, &plain, &FALLS_TABLE, radius, &SHARES);
                 }
                 pyramid.picture()
             };
@@ -360,13 +361,13 @@ fn nothing_is_left_in_a_pyramid_that_is_used_again() {
         all_points(Method::Exact, &eye, &Sheet::numbered(number).streaks(100)).concat().into_iter().collect::<Points>()
     };
     let mut pyramid = Pyramid::new([192, 108]);
-    pyramid.add(&found(View::Below, 2), &FALLS_TABLE, 9.0, &Shares::default());
+    pyramid.add(&found(View::Below, 2), &FALLS_TABLE, 9.0, &SHARES);
     for (radius, number) in [(1.0, 4), (20.0, 6), (3.0, 7)] {
         let points = found(View::Orbit, number);
         pyramid.wipe();
-        pyramid.add(&points, &FALLS_TABLE, radius, &Shares::default());
+        pyramid.add(&points, &FALLS_TABLE, radius, &SHARES);
         let mut fresh = Pyramid::new([192, 108]);
-        fresh.add(&points, &FALLS_TABLE, radius, &Shares::default());
+        fresh.add(&points, &FALLS_TABLE, radius, &SHARES);
         assert!(pyramid.picture() == fresh.picture(), "splats of {radius} km");
     }
     pyramid.wipe();

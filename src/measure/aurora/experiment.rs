@@ -110,12 +110,31 @@ pub struct Tables {
     pub shares: Shares,
     /// Those of earlier pictures: new memory would be given by the system page by page, within a picture's time.
     spare: Mutex<Vec<Pyramid>>,
+    /// Earlier pictures, for the same cause.
+    seen: Mutex<Vec<Picture>>,
 }
 
 impl Tables {
     fn spare(&self) -> MutexGuard<'_, Vec<Pyramid>> {
         // A list of pyramids is whole whatever happened to the thread that had it.
         self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn seen(&self) -> MutexGuard<'_, Vec<Picture>> {
+        // As above.
+        self.seen.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a picture that nobody looks at any more, for its memory.
+    pub fn take_back(&self, picture: Picture) {
+        self.seen().push(picture);
+    }
+
+    /// A picture of a size, in which anything may be.
+    fn picture(&self, size: [usize; 2]) -> Picture {
+        let mut seen = self.seen();
+        let at = seen.iter().position(|picture| picture.size == size);
+        at.map_or_else(|| Picture::new(size), |k| seen.swap_remove(k))
     }
 
     /// A black pyramid for pictures of a size.
@@ -178,7 +197,11 @@ impl Canvas {
     fn new(splats: Splats, size: [usize; 2], tables: &Tables) -> Canvas {
         match splats {
             Splats::Pyramid => Canvas::Layers(tables.pyramid(size)),
-            Splats::Table | Splats::Exponential => Canvas::Direct(Picture::new(size)),
+            Splats::Table | Splats::Exponential => {
+                let mut picture = tables.picture(size);
+                picture.pixels.fill([0.0; 4]);
+                Canvas::Direct(picture)
+            }
         }
     }
 
@@ -240,7 +263,11 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     // Threads take electrons until there are none left, as none is woken at once and none is as fast as the other.
     let (next, done, tasks) = (AtomicUsize::new(0), AtomicUsize::new(0), job.streaks.len().div_ceil(TASK));
     let [width, height] = job.eye.size;
-    let mut picture = Picture::new([width, height]);
+    let mut picture = tables.picture([width, height]);
+    if tasks == 0 {
+        // Else each row is written as a whole, or it is a thread's canvas.
+        picture.pixels.fill([0.0; 4]);
+    }
     // Rows that a thread sums at once: there are more bands than threads, as no two are ready at once.
     let band = height.div_ceil(if threads > 1 { 2 * threads } else { 1 }).max(1);
     let bands = Mutex::new(picture.pixels.chunks_mut((width * band).max(1)).zip((0..height).step_by(band)));
@@ -286,8 +313,14 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let mut direct = false;
     for (canvas, _) in parts.into_iter().filter_map(OnceLock::into_inner) {
         match canvas {
-            Canvas::Direct(part) if direct => picture.merge(&part),
-            Canvas::Direct(part) => (picture, direct) = (part, true),
+            Canvas::Direct(part) if direct => {
+                picture.merge(&part);
+                tables.take_back(part);
+            }
+            Canvas::Direct(part) => {
+                tables.take_back(std::mem::replace(&mut picture, part));
+                direct = true;
+            }
             Canvas::Layers(pyramid) => tables.spare().push(pyramid),
         }
     }
@@ -425,8 +458,11 @@ fn case(
                         let own = reference(way);
                         let other = own.and_then(|own| pictures[own].as_ref()).unwrap_or(&timed.picture);
                         errors[way] = [timed.picture.error(truth), timed.picture.error(other)];
+                        // Those of an adapter come from elsewhere.
                         if own == Some(way) {
                             pictures[way] = Some(timed.picture);
+                        } else if way < VARIANTS.len() {
+                            tables.take_back(timed.picture);
                         }
                     }
                     None => drawn[way] = false,

@@ -116,7 +116,7 @@ impl Layer {
 /// A row of a finer layer from three of a coarser one: two fine pixels of each coarse one and its neighbours, along both sides. They have five, ten and one sixteenth, from
 /// the side that the fine one leans to. `column` is room for a row.
 #[inline(always)]
-fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [[f32; 4]]) {
     let width = on.len();
     let leaning = if upper { 0.125 } else { -0.125 };
     {
@@ -127,17 +127,28 @@ fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4]
             *pixel = on * 0.625 + (before + after) * 0.1875 + (before - after) * leaning;
         }
     }
-    let (pairs, _) = row.as_chunks_mut::<2>();
-    for (pair, [before, on, after]) in pairs.iter_mut().zip(column[..width].array_windows::<3>()) {
-        let even = *on * f32x4::splat(0.625) + (*before + *after) * f32x4::splat(0.1875);
-        let odd = (*before - *after) * f32x4::splat(0.125);
-        *pair = [even + odd, even - odd];
+    let (pairs, single) = row.as_chunks_mut::<2>();
+    let windows = column[..width].array_windows::<3>();
+    for (pair, window) in pairs.iter_mut().zip(windows.clone()) {
+        *pair = fine(window);
     }
+    // A picture of an odd width ends with half a pair.
+    if let ([last], Some(window)) = (single, windows.skip(pairs.len()).next()) {
+        [*last, _] = fine(window);
+    }
+}
+
+/// Two pixels of a finer row from the coarse one that they lie in and its neighbours.
+#[inline(always)]
+fn fine([before, on, after]: &[f32x4; 3]) -> [[f32; 4]; 2] {
+    let even = *on * f32x4::splat(0.625) + (*before + *after) * f32x4::splat(0.1875);
+    let odd = (*before - *after) * f32x4::splat(0.125);
+    [(even + odd).to_array(), (even - odd).to_array()]
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn enlarge_avx(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+fn enlarge_avx(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [[f32; 4]]) {
     enlarge(rows, upper, column, row);
 }
 
@@ -159,7 +170,7 @@ fn add_row(layer: &Layer, y: usize, first: usize, row: &mut [[f32; 4]]) {
 }
 
 /// [`enlarge`] with the widest instructions there are: the same bits.
-fn enlarged(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f32x4]) {
+fn enlarged(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [[f32; 4]]) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") {
         #[allow(unsafe_code)]
@@ -171,9 +182,7 @@ fn enlarged(rows: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [f
 
 /// Rows of a layer that have been made: with all coarser layers, enlarged.
 struct Made {
-    /// Pixels of a row that the next finer layer asks for.
-    width: usize,
-    /// The last four; the `y`-th is the `y % 4`-th.
+    /// The last four; the `y`-th is the `y % 4`-th. As many pixels as the next finer layer asks for.
     rows: [Vec<f32x4>; 4],
     /// The row that is made next; none before the first.
     next: Option<usize>,
@@ -181,48 +190,41 @@ struct Made {
     column: Vec<f32x4>,
 }
 
-/// Enlarges what the coarser layers, all of `made` but the first, have for row `y` of the first, whose number is `number`. Rows must be asked for in order. What is
-/// black for want of coarser layers is not written.
-fn enlarge_coarser(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize) {
-    let Some((own, coarser)) = made.split_first_mut() else { return };
-    let middle = (y + MARGIN) / 2;
-    let coarsest = coarser.len() == 1;
-    if coarser.is_empty() {
+/// Enlarges what the layers from `number` on, of which `made` are the rows, have for row `y` of the next finer one, from its pixel `first` on. Rows must be asked for in
+/// order. Black for want of coarser layers.
+fn enlarge_coarser(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize, first: usize, out: &mut [[f32; 4]]) {
+    let Some((own, coarser)) = made.split_first_mut() else {
+        out.fill([0.0; 4]);
         return;
-    }
-    for y in coarser[0].next.unwrap_or(middle - 1)..middle + 2 {
-        enlarge_coarser(coarser, pyramids, number + 1, y);
-        let row = &mut coarser[0].rows[y % 4];
-        if coarsest {
-            row.fill(f32x4::ZERO);
-        }
+    };
+    let middle = (y + MARGIN) / 2;
+    for y in own.next.unwrap_or(middle - 1)..middle + 2 {
+        let row: &mut [[f32; 4]] = bytemuck::cast_slice_mut(&mut own.rows[y % 4]);
+        enlarge_coarser(coarser, pyramids, number + 1, y, FIRST, row);
         for layers in pyramids {
-            add_row(&layers[number + 1], y, FIRST, bytemuck::cast_slice_mut(row));
+            add_row(&layers[number], y, FIRST, row);
         }
-        coarser[0].next = Some(y + 1);
+        own.next = Some(y + 1);
     }
-    let coarse = &coarser[0];
-    let rows = [middle - 1, middle, middle + 1].map(|y| &coarse.rows[y % 4][..coarse.width]);
-    enlarged(rows, y.is_multiple_of(2), &mut own.column, &mut own.rows[y % 4]);
+    // The first of three neighbours that the first pixel is made of.
+    let left = (first + MARGIN) / 2 - 1 - FIRST;
+    let rows = [middle - 1, middle, middle + 1].map(|y| &own.rows[y % 4][left..]);
+    enlarged(rows, y.is_multiple_of(2), &mut own.column, out);
 }
 
 /// The light of several pyramids of a picture of this size, in some of its rows; `out` has their pixels.
 pub(super) fn sum(pyramids: &[&[Layer; LAYERS]], size: [usize; 2], rows: Range<usize>, out: &mut [[f32; 4]]) {
-    let layers = (0..LAYERS).rev().find(|&k| pyramids.iter().any(|layers| !layers[k].is_black())).map_or(1, |k| k + 1);
-    let mut made: Vec<Made> = (0..layers)
+    let coarser = (1..LAYERS).filter(|&k| pyramids.iter().any(|layers| !layers[k].is_black())).next_back().unwrap_or(0);
+    let mut made: Vec<Made> = (1..=coarser)
         .map(|k| {
-            let width = size[0].div_ceil(1 << k) + 4;
-            // Two fine pixels of each coarse one may be one too many.
-            let row = || vec![f32x4::ZERO; width + 1];
-            Made { width, rows: std::array::from_fn(|_| row()), next: None, column: row() }
+            let row = || vec![f32x4::ZERO; size[0].div_ceil(1 << k) + 4];
+            Made { rows: std::array::from_fn(|_| row()), next: None, column: row() }
         })
         .collect();
     for (y, out) in rows.zip(out.chunks_exact_mut(size[0].max(1))) {
-        let y = y + MARGIN;
-        enlarge_coarser(&mut made, pyramids, 0, y);
-        out.copy_from_slice(bytemuck::cast_slice(&made[0].rows[y % 4][MARGIN - FIRST..][..size[0]]));
+        enlarge_coarser(&mut made, pyramids, 1, y + MARGIN, MARGIN, out);
         for layers in pyramids {
-            add_row(&layers[0], y, MARGIN, out);
+            add_row(&layers[0], y + MARGIN, MARGIN, out);
         }
     }
 }

@@ -4,8 +4,8 @@
 //!
 //! A pixel is enlarged by the shares 1, 5, 10, 10, 5, 1 of sixteen along each side (those of a spline of the fourth degree, beside which pixels of a layer
 //! are hardly seen), which adds a variance of 5/4 fine pixels², or 5/12 (1 − 4⁻ᵏ) pixels² of layer k after k times; the Gaussian that is added to the layer is
-//! narrower by that. Beside a sum of Gaussians the picture errs by what pairs and tabulated widths and places leave: the tests
-//! hold it below 2 % (root mean square), and a single splat within 5.6 % of its peak.
+//! narrower by that, and its pixels are those that come nearest to it when they are enlarged ([`super::shares`]). Beside a sum of Gaussians the picture errs by what
+//! pairs and tabulated widths and places leave: the tests hold it below 2 % (root mean square), and a single splat within 6.8 % of its peak.
 
 use bytemuck::cast;
 use std::ops::Range;
@@ -15,14 +15,16 @@ use wide::f32x4;
 use super::collisions::ORDERS;
 use super::layers::{LAYERS, Layer, MARGIN, Pair, TILE, across, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
-use super::shares::{MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
+use super::shares::{FINEST, MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
 /// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
-const ADDED: f32 = 5.0 / 12.0;
-/// One over the least variance of the splats of a layer, pixels of it squared: narrower by what enlarging adds, they are still wider than half a pixel.
-const FINENESS: f32 = 1.0 / (0.9 * 0.9);
+pub(super) const ADDED: f32 = 5.0 / 12.0;
+/// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels become to 6 % of their peak.
+const FINENESS: f32 = 1.0 / (0.85 * 0.85);
+/// From this variance on a splat goes to the first coarser layer, whose pixels are enlarged but once and tell narrower ones: its standard deviation is 0.8 of them.
+const FIRST_COARSE: f32 = 4.0 * 0.8 * 0.8;
 /// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what the
 /// splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the third: seen
 /// along a streak, its far and its near end fall on one pixel.
@@ -400,8 +402,10 @@ fn side(variance: f32, shrink: f32, centre: f32) -> (f32, f32, f32) {
     let at = centre * shrink + (MARGIN as f32 - 0.5);
     let pixel = nearest(at);
     let place = nearest((lesser(greater(at - pixel, -0.5), 0.5) + 0.5) * PLACES as f32);
-    let shares = row * ((PLACES + 1) * SIDE) as f32 + place * SIDE as f32 + MIDDLE as f32;
-    (half_of(row * (1.0 / WIDTHS_PER_PIXEL) + 0.5), pixel, shares)
+    let enlarged = shrink < 1.0;
+    let first = if enlarged { (FINEST + MIDDLE) as f32 } else { MIDDLE as f32 };
+    let shares = row * ((PLACES + 1) * SIDE) as f32 + place * SIDE as f32 + first;
+    (half_of(row * (1.0 / WIDTHS_PER_PIXEL) + 0.5, enlarged), pixel, shares)
 }
 
 impl Splats {
@@ -414,8 +418,9 @@ impl Splats {
         splats.other_level = blobs.other_level;
         for k in 0..LANES {
             // Layer l has the variances from 4ˡ to 4ˡ⁺¹ times the least: half the number's exponent says which.
-            let exponent = ((lesser(blobs.wide[k], blobs.tall[k]) * FINENESS).to_bits() >> 23) as i32 - 127;
-            let layer = (exponent >> 1).max(0).min(LAYERS as i32 - 1);
+            let least = lesser(blobs.wide[k], blobs.tall[k]);
+            let exponent = ((least * FINENESS).to_bits() >> 23) as i32 - 127;
+            let layer = (exponent >> 1).max(i32::from(least >= FIRST_COARSE)).min(LAYERS as i32 - 1);
             // 2⁻ˡ: a float of which only the exponent is set.
             let shrink = f32::from_bits(((127 - layer) as u32) << 23);
             let (half, column, columns) = side(blobs.wide[k], shrink, blobs.x[k]);
