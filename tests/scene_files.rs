@@ -42,6 +42,28 @@ fn the_long_help_names_every_scene() {
     }
 }
 
+/// The rain falls from r = 2 in T = (2/3)·2^1.5 = 1.886: of the picture after that, every command that draws one says why there is none.
+#[test]
+fn no_picture_is_drawn_from_within_the_singularity() {
+    let commands: &[&[&str]] = if cfg!(feature = "game") { &[&["trace"], &["shot"], &["compare"]] } else { &[&["trace"]] };
+    let output = std::env::temp_dir().join(format!("lensrunner-singularity-{}.png", std::process::id()));
+    for command in commands {
+        let run = |at: &str| {
+            let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
+            run.args(*command)
+                .args(["--scene", "plunge", "--size", "16x9", "--at", at, "-o"])
+                .arg(&output)
+                .output()
+                .expect("the program starts")
+        };
+        let after = run("1.9");
+        let said = String::from_utf8_lossy(&after.stderr).into_owned();
+        assert_eq!(after.status.code(), Some(2), "{command:?}: {said}");
+        assert!(said.contains("--at 1.9") && said.contains("singularity") && !output.exists(), "{command:?}: {said}");
+    }
+    assert!(load("plunge").unwrap().camera.viewpoint(1.87, &[]).check(1.87).is_ok());
+}
+
 #[test]
 fn scenes_have_the_triangles_they_promise() {
     let triangles = |name: &str| load(name).unwrap().assemble(&GameConfig::default()).triangles();

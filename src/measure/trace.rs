@@ -15,7 +15,8 @@ use crate::reference::picture::{Disk, Layer, Motion, Picture, Pose, Quality, See
 use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
 use crate::scene::planet::{AuroraShape, Planet};
-use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
+use crate::scene::viewpoint::CameraEnded;
+use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, Viewpoint, lighting};
 use crate::sim::history::Bounds;
 use crate::sim::{History, Moment};
 use crate::spacetime::orbit::orbital_frequency;
@@ -54,6 +55,9 @@ pub enum TraceError {
     /// An argument is wrong: exit code 2.
     #[error("{0}")]
     Input(String),
+    /// The camera sees nothing then: exit code 2.
+    #[error(transparent)]
+    Camera(#[from] CameraEnded),
     /// The file's name says nothing known (exit code 2), or it could not be written (exit code 1).
     #[error(transparent)]
     File(#[from] PictureFileError),
@@ -70,7 +74,14 @@ pub enum TraceError {
 impl TraceError {
     /// Whether the asker is at fault.
     pub fn is_input(&self) -> bool {
-        matches!(self, TraceError::Scene(_) | TraceError::Config(_) | TraceError::Input(_) | TraceError::File(PictureFileError::Format(_)))
+        matches!(
+            self,
+            TraceError::Scene(_)
+                | TraceError::Config(_)
+                | TraceError::Input(_)
+                | TraceError::Camera(_)
+                | TraceError::File(PictureFileError::Format(_))
+        )
     }
 }
 
@@ -177,6 +188,12 @@ impl Case {
         }
         let assembly = scene.assemble(&config);
         Case { scene, config, assembly, time, histories, camera }
+    }
+
+    /// An error if the camera is where nothing is seen; `at` is the T that was asked for.
+    pub fn check(&self, at: f64) -> Result<(), CameraEnded> {
+        let Camera { position, momentum, attitude, field_of_view, .. } = self.camera;
+        Viewpoint { position, momentum, attitude, field_of_view }.check(at)
     }
 
     /// The world as the judge sees it, the ships on these worldlines, in scene order.
@@ -323,6 +340,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
         eprintln!("playing to T = {}", request.at);
     }
     let case = Case::new(scene, config, request.at, request.size);
+    case.check(request.at)?;
     for warning in &case.assembly.warnings {
         eprintln!("warning: {warning}");
     }

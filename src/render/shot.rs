@@ -8,6 +8,7 @@ use thiserror::Error;
 
 use crate::lensing;
 pub use crate::scene::picture_size as size;
+use crate::scene::viewpoint::CameraEnded;
 use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
 pub use crate::sim::Moment;
 
@@ -36,6 +37,9 @@ pub enum ShotError {
     /// The time is wrong.
     #[error("--at {0}: T must be a number from 0 to 100000 r_s/c")]
     Time(f64),
+    /// The camera sees nothing then.
+    #[error(transparent)]
+    Camera(#[from] CameraEnded),
 }
 
 /// What to draw.
@@ -88,6 +92,7 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, request.size);
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
+    scene.camera.viewpoint(moment.time(), &moment.ships()).check(request.at)?;
     let camera = stage.camera(moment.time(), &moment.ships());
     let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
     let settings = Settings { own_ship, ..settings(config) };

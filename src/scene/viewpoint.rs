@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::camera::{Camera, Mount};
 use crate::spacetime::frames;
-use crate::spacetime::matter::{ShipState, gamma, momentum_of, step};
+use crate::spacetime::matter::{ShipState, gamma, in_singularity, momentum_of, step};
 
 /// A camera at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +17,18 @@ pub struct Viewpoint {
     pub attitude: DQuat,
     /// Horizontal field of view in radians.
     pub field_of_view: f64,
+}
+
+/// The camera has fallen into the singularity, from where nothing is seen.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("--at {0}: the camera has fallen into the singularity by then, from where nothing is seen; an earlier T shows the fall")]
+pub struct CameraEnded(pub f64);
+
+impl Viewpoint {
+    /// An error if the camera, at T = `time`, is where nothing is seen.
+    pub fn check(&self, time: f64) -> Result<(), CameraEnded> {
+        if in_singularity(self.position) { Err(CameraEnded(time)) } else { Ok(()) }
+    }
 }
 
 /// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
