@@ -39,7 +39,7 @@ pub struct Follower {
 }
 
 impl Follower {
-    /// The attitude after `seconds` of wall time, behind that of the ship by [`LAG`]; at once where `rigid`.
+    /// The attitude after `seconds` of wall time, behind that of the ship by `LAG`; at once where `rigid`.
     pub fn follow(&mut self, ship: DQuat, seconds: f64, rigid: bool) -> DQuat {
         let next = match self.attitude {
             Some(before) if !rigid => before.slerp(ship, 1.0 - (-seconds / LAG).exp()).normalize(),

@@ -74,7 +74,7 @@ pub enum GameSet {
     Answer,
 }
 
-/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`], [`Session`] and [`Seat`].
+/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`Seat`].
 pub struct GamePlugin;
 
 impl Plugin for GamePlugin {

@@ -4,7 +4,7 @@
 //! - [`geodesic`]: one step of the equations of motion, a Taylor series with error control that is its own dense output.
 //! - `taylor`, `segments`: its coefficients, and steps of several rays side by side.
 //! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
-//! - [`shoot`]: the look direction at which a given point is seen (boundary value).
+//! - [`mod@shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
 //! - [`picture`]: whole pictures of a scene, with a tree.
 //! - [`thin_disk`]: the image of a thin disk, by the shape of its rays alone, four at a time.

@@ -27,7 +27,7 @@ pub struct Request {
     pub frames: u32,
     /// T of the frames, in r_s/c.
     pub at: f64,
-    /// Whether the aurora is held to its share of a frame, as in the window; it is given [`SETTLING`] frames more for that.
+    /// Whether the aurora is held to its share of a frame, as in the window; it is given `SETTLING` frames more for that.
     pub rationed: bool,
 }
 

@@ -78,7 +78,7 @@ impl Targets {
         }
     }
 
-    /// The level of the bloom that is metered: the first that is no more than [`METERED_WIDTH`] texels wide, or the smallest there is.
+    /// The level of the bloom that is metered: the first that is no more than `METERED_WIDTH` texels wide, or the smallest there is.
     pub fn meter_level(&self) -> usize {
         let wide = |level: &usize| self.size[0] >> (2 + level) > METERED_WIDTH;
         (0..self.bloom.len() - 1).find(|level| !wide(level)).unwrap_or(self.bloom.len() - 1)

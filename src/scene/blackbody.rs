@@ -14,7 +14,7 @@ const LEAST_CHANNEL: f64 = 1e-4;
 /// sRGB has 7 % of red here and none at all from 1,900 K down. The difference cannot be seen (1.4 % of red at 1,900 K), but a streak's light is told from that of gas of mean temperature
 /// and its slope: from none at all no hotter streak got its blue, and they were yellow.
 const DIM_BLUE: f64 = 2500.0;
-/// See [`DIM_BLUE`].
+/// See `DIM_BLUE`.
 const TAIL: [f64; 2] = [2.255, 12_370.0];
 
 /// Second radiation constant hc/k in nm·K (CODATA 2018, exact).
@@ -63,7 +63,7 @@ pub fn unit_luminance() -> f64 {
 }
 
 /// Linear sRGB of a black body at `temperature` (K), in units in which its luminance at [`UNIT_TEMPERATURE`] is 1. Colours outside sRGB
-/// (below about 1,900 K) are brought in by adding grey at the same luminance, and blue goes on to fall as by Wien's law (see [`DIM_BLUE`]). Zero for a
+/// (below about 1,900 K) are brought in by adding grey at the same luminance, and blue goes on to fall as by Wien's law (see `DIM_BLUE`). Zero for a
 /// temperature that is not positive.
 pub fn blackbody_rgb(temperature: f64) -> [f64; 3] {
     if !(temperature > 0.0 && temperature.is_finite()) {

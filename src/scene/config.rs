@@ -1,4 +1,4 @@
-//! `game.toml`: every tunable value, with unit, default and allowed range, said once in [`config_fields`](super::config_fields).
+//! `game.toml`: every tunable value, with unit, default and allowed range, said once in `config_fields.rs`.
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +24,7 @@ pub fn file(named: Option<&Path>) -> Option<PathBuf> {
     })
 }
 
-/// Reads the named file, or the one that [`file`] finds; where there is none, every value is its default.
+/// Reads the named file, or the one that [`file()`] finds; where there is none, every value is its default.
 pub fn find(named: Option<&Path>) -> Result<GameConfig, ConfigError> {
     Ok(file(named).as_deref().map(load).transpose()?.unwrap_or_default())
 }

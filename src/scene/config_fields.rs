@@ -70,7 +70,7 @@ macro_rules! config {
             $(#[$about])*
             #[derive(Debug, Clone, PartialEq)]
             pub struct $struct {
-                $(#[doc = concat!($help, " [", $unit, "]")] pub $key: $type,)*
+                $(#[doc = concat!($help, " (", $unit, ")")] pub $key: $type,)*
             }
 
             impl Default for $struct {

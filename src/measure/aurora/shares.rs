@@ -1,5 +1,5 @@
 //! What part of a splat's light falls on each pixel along one of its sides: Gaussians of standard deviations from half a pixel to 2.4, tabulated.
-//! In the finest layer they are sampled as they are. Pixels of coarser layers are enlarged, each into a hump of its own ([`super::layers`]); there the shares are
+//! In the finest layer they are sampled as they are. Pixels of coarser layers are enlarged, each into a hump of its own (`layers.rs`); there the shares are
 //! those whose humps together are nearest to the Gaussian that is wanted (least squares), which takes fewer of them, and from narrower Gaussians on.
 
 use super::points::lesser;

@@ -80,7 +80,7 @@ impl Default for Falls {
     }
 }
 
-/// The reach that a row of [`Falls::losses`] is for, g cm⁻².
+/// The reach that a row of [`Falls::spent`] is for, g cm⁻².
 pub fn row_reach(row: usize) -> f64 {
     REACHES[0] * (REACHES[1] / REACHES[0]).powf(row as f64 / (FALLS - 1) as f64)
 }

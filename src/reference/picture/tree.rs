@@ -90,7 +90,7 @@ impl Tree {
             }
         }
     }
-    /// The same for those leaves alone of which [`Tree::gather`] told, in any order.
+    /// The same for those leaves alone of which `Tree::gather` told, in any order.
     pub fn along_leaves(&self, leaves: &[u32], from: DVec3, to: DVec3, grow: f64, mut meet: impl FnMut(u32, f64) -> f64) {
         let chord = Chord::new(from, to, DVec3::splat(grow));
         let mut until = 1.0;

@@ -1,6 +1,6 @@
 //! The air above 80 km: densities of the three species that matter, temperature, and the mass of air overhead.
 
-/// One height of [`TABLE`].
+/// One height of `TABLE`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Air {
     /// Mass density, g cm⁻³.

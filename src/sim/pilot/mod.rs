@@ -1,6 +1,6 @@
 //! [`EnemyAiPlugin`]: the pilots. One code flies hunter and quarry; the quarry has the sign of the distance turned.
 //!
-//! Far away, sampling model-predictive control ([`plan`]); where a meeting can be flown, zero-effort-miss shooting ([`rendezvous`]); the
+//! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting ([`mod@rendezvous`]); the
 //! hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and expects it to go on
 //! as it did. Difficulty is
 //! thrust, replanning period, horizon and reaction delay, nothing else.
