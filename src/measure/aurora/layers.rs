@@ -85,7 +85,10 @@ impl Layer {
                 if !std::mem::replace(&mut self.clear[tile], true) {
                     let first = (row << TILE) * stride + (column << (TILE - 1));
                     for line in 0..1 << TILE {
-                        self.pairs[first + line * stride..][..1 << (TILE - 1)].fill(Pair::default());
+                        let row: Option<&mut [Pair; 1 << (TILE - 1)]> = self.pairs[first + line * stride..].first_chunk_mut();
+                        if let Some(row) = row {
+                            *row = [Pair::default(); 1 << (TILE - 1)];
+                        }
                     }
                 }
             }
