@@ -29,7 +29,7 @@ fn down(in: Screen) -> @location(0) vec4<f32> {
 /// What a level and all coarser ones have of the glow, beside the next finer one: a halo that falls off, so that what is dark stays dark.
 const WIDER: f32 = 0.5;
 
-/// The coarser level, smoothed; blending mixes it with the finer one by its alpha.
+/// The coarser level, smoothed; blending mixes it with the finer one by its alpha. At the end the finest, smoothed as well.
 @fragment
 fn up(in: Screen) -> @location(0) vec4<f32> {
     let d = 0.5 / vec2<f32>(textureDimensions(source));

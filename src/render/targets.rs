@@ -43,6 +43,8 @@ pub struct Targets {
     pub thin_signed: wgpu::TextureView,
     /// The picture at a quarter of its size, halved, halved again, and so on.
     pub bloom: Vec<wgpu::TextureView>,
+    /// As large as the finest of them: room to soften it.
+    pub glow: wgpu::TextureView,
     /// What the pixels show; made when first asked for.
     pub layers: Option<LayerTargets>,
 }
@@ -54,6 +56,7 @@ impl Targets {
         let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
         let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
         let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, SIGNED_FORMAT);
+        let glow = target(device, "glow", size.map(|side| side.div_ceil(4)), HDR_FORMAT).1;
         let mut bloom = Vec::new();
         let mut level = size;
         while bloom.len() < BLOOM_LEVELS {
@@ -74,6 +77,7 @@ impl Targets {
             thin_signed_texture,
             thin_signed,
             bloom,
+            glow,
             layers: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::Gpu;
 
-/// Passes that can be timed in one frame: two images of an aurora have nine each, the disk four, bloom nine, and some twenty more.
+/// Passes that can be timed in one frame: two images of an aurora have nine each, the disk four, bloom eleven, and some twenty more.
 const PASSES: u32 = 96;
 /// Passes whose fragments can be counted in one frame.
 const COUNTED: u32 = 8;

@@ -24,6 +24,8 @@ struct Canvas {
 const LEVELS: usize = 5;
 /// Pixels across the level that is metered, at most.
 const METERED_WIDTH: usize = 80;
+/// Times that all levels together are softened.
+const SOFTENED: usize = 2;
 /// What a level and all coarser ones have of the glow, beside the next finer one.
 const WIDER: f32 = 0.5;
 
@@ -79,11 +81,12 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
             *pixel = pixel.lerp(glow, WIDER);
         }
     }
+    let glow = (0..SOFTENED).fold(levels.swap_remove(0), |glow, _| glow.four_taps(glow.size, 0.5));
     let mut bytes = Vec::with_capacity(3 * size[0] * size[1]);
     for row in 0..size[1] {
         for column in 0..size[0] {
             let place = Vec2::new(column as f32 + 0.5, row as f32 + 0.5);
-            let glow = levels[0].sample(place / Vec2::new(size[0] as f32, size[1] as f32));
+            let glow = glow.sample(place / Vec2::new(size[0] as f32, size[1] as f32));
             let exposed = picture.light[row * size[0] + column].lerp(glow, how.bloom) * exposure;
             // Half a step of 8-bit noise against banding in the dark.
             let noise = (52.982_918 * (place.dot(Vec2::new(0.067_110_56, 0.005_837_15))).fract()).fract() - 0.5;

@@ -24,6 +24,7 @@ pub struct Develop {
     compose: wgpu::RenderPipeline,
     down: wgpu::RenderPipeline,
     up: wgpu::RenderPipeline,
+    soften: wgpu::RenderPipeline,
     meter: wgpu::ComputePipeline,
     develop: wgpu::RenderPipeline,
     develop_twice: wgpu::RenderPipeline,
@@ -38,7 +39,7 @@ pub struct Develop {
 #[derive(Debug)]
 struct Groups {
     thin: wgpu::BindGroup,
-    /// Sampling the picture, then each level of the bloom.
+    /// Sampling the picture, each level of the bloom, and what is between two softenings.
     sampled: Vec<wgpu::BindGroup>,
     meter: wgpu::BindGroup,
     develop: wgpu::BindGroup,
@@ -67,6 +68,8 @@ impl Develop {
             compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
+            // The same, and nothing to mix it with.
+            soften: pass("bloom soften", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, None),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
             develop: pass("develop", Pass::Develop, "fragment", &develop_layout, output, None),
             develop_twice: {
@@ -97,7 +100,7 @@ impl Develop {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
         let (_, developed) = target(device, "developed", targets.size, self.output);
-        let views = std::iter::once(&targets.picture).chain(&targets.bloom);
+        let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
             sampled: views
@@ -168,6 +171,11 @@ impl Develop {
                 frame,
                 &groups.sampled[level + 1],
             );
+        }
+        // There and back.
+        let last = targets.bloom.len() + 1;
+        for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
+            screen(encoder, timing.render("bloom"), "bloom soften", to, true, &self.soften, frame, &groups.sampled[from]);
         }
         if !smooth {
             screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
