@@ -392,6 +392,28 @@ fn threads_draw_the_picture_of_one() {
 }
 
 #[test]
+fn nothing_is_left_of_a_picture_whose_memory_is_used_again() {
+    // An odd width, which ends with half a pair; a sheet far out of sight, of which nothing is drawn; and no electron at all.
+    let eye = View::Side.eye([189, 107], &TABLE);
+    let streaks = Sheet::numbered(3).streaks(100);
+    let away: Vec<Streak> = streaks.iter().map(|streak| Streak { top: streak.top * 100.0, end: streak.end * 100.0, ..*streak }).collect();
+    for streaks in [&streaks[..], &away, &[]] {
+        let job = Job { eye: &eye, falls: &FALLS_TABLE, streaks, seed: 3, splat: Splat { radius: 3.0, table: true } };
+        for variant in VARIANTS.iter().filter(|variant| variant.method == Method::Exact && !variant.threads) {
+            let tables = Tables::default();
+            for _ in 0..3 {
+                let mut dirty = Picture::new(eye.size);
+                dirty.pixels.fill([7.0; 4]);
+                tables.take_back(dirty);
+            }
+            let (used, fresh) = (draw(*variant, &job, &tables).picture, draw(*variant, &job, &Tables::default()).picture);
+            assert!(used == fresh, "{}, {} electrons", variant.name, streaks.len());
+            assert!(!streaks.is_empty() || fresh == Picture::new(eye.size));
+        }
+    }
+}
+
+#[test]
 fn the_experiment_makes_its_table() {
     let request = Request { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
     let rows = run(&request, &TABLE, &mut [], |_| ());
