@@ -88,7 +88,7 @@ impl DiskView {
             let rows = if gaps {
                 Rows::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
             } else {
-                look.rows(&seen, &own, if order <= close { FROM_NEAR } else { FROM_FAR })
+                look.rows(&seen, &own, if order == 1 && close > 0 { FROM_NEAR } else { FROM_FAR })
             };
             let last = first + rows.radii.len() as u32 - 1;
             let behind = samples.len() as u32;
