@@ -131,12 +131,12 @@ fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4]
         }
     }
     let (pairs, single) = row.as_chunks_mut::<2>();
-    let windows = column[..width].array_windows::<3>();
+    let mut windows = column[..width].array_windows::<3>();
     for (pair, window) in pairs.iter_mut().zip(windows.clone()) {
         *pair = fine(window);
     }
     // A picture of an odd width ends with half a pair.
-    if let ([last], Some(window)) = (single, windows.skip(pairs.len()).next()) {
+    if let ([last], Some(window)) = (single, windows.nth(pairs.len())) {
         [*last, _] = fine(window);
     }
 }
@@ -217,7 +217,7 @@ fn enlarge_coarser(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usi
 
 /// The light of several pyramids of a picture of this size, in some of its rows; `out` has their pixels.
 pub(super) fn sum(pyramids: &[&[Layer; LAYERS]], size: [usize; 2], rows: Range<usize>, out: &mut [[f32; 4]]) {
-    let coarser = (1..LAYERS).filter(|&k| pyramids.iter().any(|layers| !layers[k].is_black())).next_back().unwrap_or(0);
+    let coarser = (1..LAYERS).rfind(|&k| pyramids.iter().any(|layers| !layers[k].is_black())).unwrap_or(0);
     let mut made: Vec<Made> = (1..=coarser)
         .map(|k| {
             let row = || vec![f32x4::ZERO; size[0].div_ceil(1 << k) + 4];
