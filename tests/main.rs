@@ -48,6 +48,7 @@ mod render_disk;
 mod render_disk_near;
 #[cfg(feature = "game")]
 mod render_disk_order;
+#[cfg(feature = "game")]
 mod render_disk_rings;
 #[cfg(feature = "game")]
 mod render_disk_thin;

@@ -2,8 +2,11 @@
 
 use std::path::Path;
 
+use glam::DVec3;
+
 use lensrunner::scene::config::GameConfig;
 use lensrunner::scene::{Mount, Scene, load, names};
+use lensrunner::spacetime::matter::ShipState;
 
 fn complaint(text: &str) -> String {
     Scene::from_toml(Path::new("some/scene.toml"), text).expect_err("must be refused").to_string()
@@ -61,7 +64,12 @@ fn no_picture_is_drawn_from_within_the_singularity() {
         assert_eq!(after.status.code(), Some(2), "{command:?}: {said}");
         assert!(said.contains("--at 1.9") && said.contains("singularity") && !output.exists(), "{command:?}: {said}");
     }
-    assert!(load("plunge").unwrap().camera.viewpoint(1.87, &[]).check(1.87).is_ok());
+    assert!(load("plunge").unwrap().camera.check(1.87, &[]).is_ok());
+    // A camera beside a ship that has ended is outside still, and sees as little.
+    let chase = load("chase").unwrap();
+    let Mount::Follow { ship, .. } = &chase.camera.mount else { panic!("the chase's camera follows a ship") };
+    let [here, there] = [4.0, 0.0].map(|r| ShipState::new(DVec3::Z * r, DVec3::ZERO));
+    assert!(chase.camera.check(1.0, &[(ship, here)]).is_ok() && chase.camera.check(1.0, &[(ship, there)]).is_err());
 }
 
 #[test]

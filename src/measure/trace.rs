@@ -16,7 +16,7 @@ use crate::reference::trace::Camera;
 use crate::scene::disk::Gas;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::viewpoint::CameraEnded;
-use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, Viewpoint, lighting};
+use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::history::Bounds;
 use crate::sim::{History, Moment};
 use crate::spacetime::orbit::orbital_frequency;
@@ -163,6 +163,7 @@ pub struct Case {
     pub histories: Vec<History>,
     /// The camera.
     pub camera: Camera,
+    ended: Result<(), CameraEnded>,
 }
 
 impl Case {
@@ -171,6 +172,7 @@ impl Case {
         let moment = Moment::new(&scene, &config, at, 0);
         let time = moment.time();
         let view = scene.camera.viewpoint(time, &moment.ships());
+        let ended = scene.camera.check(time, &moment.ships());
         let camera =
             Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
@@ -187,13 +189,12 @@ impl Case {
             }
         }
         let assembly = scene.assemble(&config);
-        Case { scene, config, assembly, time, histories, camera }
+        Case { scene, config, assembly, time, histories, camera, ended }
     }
 
-    /// An error if the camera is where nothing is seen; `at` is the T that was asked for.
-    pub fn check(&self, at: f64) -> Result<(), CameraEnded> {
-        let Camera { position, momentum, attitude, field_of_view, .. } = self.camera;
-        Viewpoint { position, momentum, attitude, field_of_view }.check(at)
+    /// An error if the camera is where nothing is seen.
+    pub fn check(&self) -> Result<(), CameraEnded> {
+        self.ended
     }
 
     /// The world as the judge sees it, the ships on these worldlines, in scene order.
@@ -340,7 +341,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
         eprintln!("playing to T = {}", request.at);
     }
     let case = Case::new(scene, config, request.at, request.size);
-    case.check(request.at)?;
+    case.check()?;
     for warning in &case.assembly.warnings {
         eprintln!("warning: {warning}");
     }

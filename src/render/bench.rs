@@ -118,7 +118,7 @@ pub fn frame_times(
     let mut renderer = Renderer::new(gpu, surroundings, format, request.size);
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
-    scene.camera.viewpoint(moment.time(), &moment.ships()).check(request.at)?;
+    scene.camera.check(moment.time(), &moment.ships())?;
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut whole = Vec::new();
     let mut prepared = Vec::new();

@@ -92,7 +92,7 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, request.size);
     let stage = Stage::new(&mut renderer, &scene, config);
     let moment = Moment::new(&scene, config, request.at, 0);
-    scene.camera.viewpoint(moment.time(), &moment.ships()).check(request.at)?;
+    scene.camera.check(moment.time(), &moment.ships())?;
     let camera = stage.camera(moment.time(), &moment.ships());
     let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
     let settings = Settings { own_ship, ..settings(config) };

@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::camera::{Camera, Mount};
 use crate::spacetime::frames;
-use crate::spacetime::matter::{ShipState, gamma, in_singularity, momentum_of, step};
+use crate::spacetime::matter::{ShipState, gamma, has_ended, momentum_of, step};
 
 /// A camera at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,22 +19,27 @@ pub struct Viewpoint {
     pub field_of_view: f64,
 }
 
-/// The camera has fallen into the singularity, from where nothing is seen.
+/// The camera, or the ship that it follows, has fallen into the singularity, from where nothing is seen.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("--at {0}: the camera has fallen into the singularity by then, from where nothing is seen; an earlier T shows the fall")]
 pub struct CameraEnded(pub f64);
-
-impl Viewpoint {
-    /// An error if the camera, at T = `time`, is where nothing is seen.
-    pub fn check(&self, time: f64) -> Result<(), CameraEnded> {
-        if in_singularity(self.position) { Err(CameraEnded(time)) } else { Ok(()) }
-    }
-}
 
 /// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
 const CAMERA_FLOOR: f64 = 1.003;
 
 impl Camera {
+    /// An error if, at T = `time`, the camera or the ship that it follows has come to where nothing is seen; `ships` as for [`Camera::viewpoint`].
+    pub fn check(&self, time: f64, ships: &[(&str, ShipState)]) -> Result<(), CameraEnded> {
+        let ended = match &self.mount {
+            Mount::Follow { ship, .. } => ships.iter().any(|(name, state)| name == ship && has_ended(state)),
+            Mount::Static(_) | Mount::Falling(_) | Mount::Planet { .. } => {
+                let view = self.viewpoint(time, ships);
+                has_ended(&ShipState::new(view.position, view.momentum))
+            }
+        };
+        if ended { Err(CameraEnded(time)) } else { Ok(()) }
+    }
+
     /// The camera at T = `time`; `ships` are the states of the ships then, by name. Without the ship that it follows it looks on from 20 r_s.
     pub fn viewpoint(&self, time: f64, ships: &[(&str, ShipState)]) -> Viewpoint {
         let state = match &self.mount {

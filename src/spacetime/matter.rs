@@ -172,12 +172,7 @@ pub fn step_until(state: &ShipState, h: f64, thrust: DVec3, rates: DVec3, mut vi
 
 /// Whether the ship is at the singularity, or its numbers have failed.
 pub fn has_ended(state: &ShipState) -> bool {
-    !state.is_finite() || in_singularity(state.position)
-}
-
-/// Whether a place, in r_s, counts as the singularity.
-pub fn in_singularity(position: DVec3) -> bool {
-    position.length_squared() <= SINGULARITY_RADIUS * SINGULARITY_RADIUS
+    !state.is_finite() || state.position.length_squared() <= SINGULARITY_RADIUS * SINGULARITY_RADIUS
 }
 
 /// One step of order 8 with 12 evaluations of [`rate`] (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, section II.5, DOP853),

@@ -460,7 +460,10 @@ fn case(
                         errors[way] = [timed.picture.error(truth), timed.picture.error(other)];
                         // Those of an adapter come from elsewhere.
                         if own == Some(way) {
-                            pictures[way] = Some(timed.picture);
+                            // For all ways alike, the one before is taken back.
+                            if let Some(before) = pictures[way].replace(timed.picture) {
+                                tables.take_back(before);
+                            }
                         } else if way < VARIANTS.len() {
                             tables.take_back(timed.picture);
                         }

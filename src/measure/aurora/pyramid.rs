@@ -5,7 +5,8 @@
 //! A pixel is enlarged by the shares 1, 5, 10, 10, 5, 1 of sixteen along each side (those of a spline of the fourth degree, beside which pixels of a layer
 //! are hardly seen), which adds a variance of 5/4 fine pixels², or 5/12 (1 − 4⁻ᵏ) pixels² of layer k after k times; the Gaussian that is added to the layer is
 //! narrower by that, and its pixels are those that come nearest to it when they are enlarged ([`super::shares`]). Beside a sum of Gaussians the picture errs by what
-//! pairs and tabulated widths and places leave: the tests hold it below 2 % (root mean square), and a single splat within 6.8 % of its peak.
+//! pairs and tabulated widths and places leave: the tests hold it below 2 % (root mean square), and a single splat within 6.8 % of its peak at 2,400 widths and places (10 % was
+//! found between two tabulated widths about half a pixel, 7.6 % elsewhere).
 
 use bytemuck::cast;
 use std::ops::Range;
@@ -21,7 +22,7 @@ use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
 /// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
 pub(super) const ADDED: f32 = 5.0 / 12.0;
-/// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels become to 6 % of their peak.
+/// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels become to some 6 % of their peak.
 const FINENESS: f32 = 1.0 / (0.85 * 0.85);
 /// From this variance on a splat goes to the first coarser layer, whose pixels are enlarged but once and tell narrower ones: its standard deviation is 0.8 of them.
 const FIRST_COARSE: f32 = 4.0 * 0.8 * 0.8;

@@ -145,7 +145,7 @@ fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Of a matrix whose diagonal is greater than all else in its column, as that of neighbouring humps is: no rows need be exchanged (Gauss and Jordan).
+/// Of a matrix of products, which is symmetric and positive definite: no rows need be exchanged (Gauss and Jordan).
 fn inverse(mut matrix: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let n = matrix.len();
     for (k, row) in matrix.iter_mut().enumerate() {

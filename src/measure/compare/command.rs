@@ -98,7 +98,7 @@ pub fn run(
     let config = scene::config::find(config).map_err(TraceError::from)?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
     let case = Case::new(scene, config, request.at, request.size);
-    case.check(request.at).map_err(TraceError::from)?;
+    case.check().map_err(TraceError::from)?;
     if let Some(what) = case.left_out() {
         eprintln!("note: {what}");
     }
