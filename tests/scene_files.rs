@@ -62,7 +62,7 @@ fn no_picture_is_drawn_from_within_the_singularity() {
         let after = run("1.9");
         let said = String::from_utf8_lossy(&after.stderr).into_owned();
         assert_eq!(after.status.code(), Some(2), "{command:?}: {said}");
-        assert!(said.contains("--at 1.9") && said.contains("singularity") && !output.exists(), "{command:?}: {said}");
+        assert!(said.contains("--at: by T = 1.9") && said.contains("singularity") && !output.exists(), "{command:?}: {said}");
     }
     assert!(load("plunge").unwrap().camera.check(1.87, &[]).is_ok());
     // A camera beside a ship that has ended is outside still, and sees as little.

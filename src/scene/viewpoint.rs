@@ -21,7 +21,7 @@ pub struct Viewpoint {
 
 /// The camera, or the ship that it follows, has fallen into the singularity, from where nothing is seen.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("--at {0}: the camera has fallen into the singularity by then, from where nothing is seen; an earlier T shows the fall")]
+#[error("--at: by T = {0} the camera has fallen into the singularity, from where nothing is seen; an earlier T shows the fall")]
 pub struct CameraEnded(pub f64);
 
 /// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.

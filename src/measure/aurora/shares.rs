@@ -35,8 +35,8 @@ pub struct Shares(pub(super) Vec<f32>);
 impl Default for Shares {
     fn default() -> Self {
         let mut shares = Vec::with_capacity(SHARES);
+        let humps: Vec<Humps> = (0..=WIDTH / 2).map(Humps::new).collect();
         for enlarged in [false, true] {
-            let humps: Vec<Humps> = (0..=WIDTH / 2).map(Humps::new).collect();
             for row in 0..=WIDTHS {
                 let sigma = row as f32 / WIDTHS_PER_PIXEL + 0.5;
                 let half = half_of(sigma, enlarged) as usize;
@@ -88,6 +88,8 @@ struct Humps {
     humps: Vec<Vec<f64>>,
     /// The inverse of the matrix of their products.
     inverse: Vec<Vec<f64>>,
+    /// The sum of each of its rows.
+    even: Vec<f64>,
 }
 
 impl Humps {
@@ -117,7 +119,9 @@ impl Humps {
             })
             .collect();
         let products = humps.iter().map(|a| humps.iter().map(|b| product(a, b)).collect()).collect();
-        Humps { half, humps, inverse: inverse(products) }
+        let inverse = inverse(products);
+        let even = inverse.iter().map(|row| row.iter().sum()).collect();
+        Humps { half, humps, inverse, even }
     }
 
     /// The shares, 1 in sum, whose humps are nearest to a Gaussian, wider than the one asked for by what enlarging adds.
@@ -129,12 +133,11 @@ impl Humps {
             .map(|light| light / (std::f64::consts::TAU * variance).sqrt() / FINE as f64)
             .collect();
         let overlap: Vec<f64> = self.humps.iter().map(|hump| product(hump, &wanted)).collect();
-        let solve = |right: &[f64]| -> Vec<f64> { self.inverse.iter().map(|row| product(row, right)).collect() };
         // The least squares, and what must be added to each that they add up to 1 (Lagrange's multiplier).
-        let (shares, even) = (solve(&overlap), solve(&vec![1.0; overlap.len()]));
-        let missing = (1.0 - shares.iter().sum::<f64>()) / even.iter().sum::<f64>();
+        let shares: Vec<f64> = self.inverse.iter().map(|row| product(row, &overlap)).collect();
+        let missing = (1.0 - shares.iter().sum::<f64>()) / self.even.iter().sum::<f64>();
         // Narrow ones ask for a little less than nothing beside their middle: there is no light below nothing.
-        let mut shares: Vec<f64> = shares.iter().zip(&even).map(|(share, even)| (share + missing * even).max(0.0)).collect();
+        let mut shares: Vec<f64> = shares.iter().zip(&self.even).map(|(share, even)| (share + missing * even).max(0.0)).collect();
         let sum: f64 = shares.iter().sum();
         shares.iter_mut().for_each(|share| *share /= sum);
         shares
