@@ -2,7 +2,6 @@
 //! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
 
 use std::hint::black_box;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Instant;
 
@@ -15,6 +14,7 @@ use super::pyramid::Pyramid;
 use super::shares::Shares;
 use super::sheet::{Falls, Sheet, Streak, field_direction};
 use super::splat::{Gaussian, Picture, Splat};
+use super::tasks::{Tasks, on_threads};
 use super::truth::Emission;
 use super::walk::{Method, Walker};
 use crate::lensing::{Slice, Table};
@@ -183,9 +183,6 @@ pub struct Timed {
 
 /// Error allowed to chords through bent light, pixels.
 pub const TOLERANCE: f32 = 0.25;
-/// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
-const TASK: usize = 64;
-
 /// A picture in the making.
 #[allow(clippy::large_enum_variant, reason = "there is one for each thread")]
 enum Canvas {
@@ -223,31 +220,6 @@ impl Canvas {
     }
 }
 
-/// Does `work` for each of `parts` on a thread of its own. This thread takes the first itself: the others alone have to be woken.
-fn on_threads<T: Send>(mut parts: impl Iterator<Item = T>, work: impl Fn(T) + Sync) {
-    rayon::in_place_scope(|scope| {
-        let own = parts.next();
-        for part in parts {
-            scope.spawn(|_| work(part));
-        }
-        if let Some(part) = own {
-            work(part);
-        }
-    });
-}
-
-/// Tasks that a thread has taken. They count as done when this is dropped, if only by a panic, so that no other thread waits for ever.
-struct Taken<'a> {
-    done: &'a AtomicUsize,
-    tasks: usize,
-}
-
-impl Drop for Taken<'_> {
-    fn drop(&mut self) {
-        self.done.fetch_add(self.tasks, Ordering::Release);
-    }
-}
-
 /// Draws `job` in the given way: some electrons are walked, their points drawn, then the next. With threads, the time from start to end is
 /// divided between walk and splats as the threads' own times are. Threads are woken once for a picture: before they sum its layers they wait for one another
 /// awake, as to be woken again takes as long as the sum.
@@ -260,11 +232,10 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let threads = if variant.threads { rayon::current_num_threads() } else { 1 };
     // Each thread's canvas, and seconds of walk and of splats.
     let parts: Vec<OnceLock<(Canvas, [f64; 2])>> = std::iter::repeat_with(OnceLock::new).take(threads).collect();
-    // Threads take electrons until there are none left, as none is woken at once and none is as fast as the other.
-    let (next, done, tasks) = (AtomicUsize::new(0), AtomicUsize::new(0), job.streaks.len().div_ceil(TASK));
+    let tasks = Tasks::new(job.streaks, threads);
     let [width, height] = job.eye.size;
     let mut picture = tables.picture([width, height]);
-    if tasks == 0 {
+    if tasks.is_empty() {
         // Else each row is written as a whole, or it is a thread's canvas.
         picture.pixels.fill([0.0; 4]);
     }
@@ -272,13 +243,12 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let band = height.div_ceil(if threads > 1 { 2 * threads } else { 1 }).max(1);
     let bands = Mutex::new(picture.pixels.chunks_mut((width * band).max(1)).zip((0..height).step_by(band)));
     let (ready, drawn) = (start.elapsed().as_secs_f64(), OnceLock::new());
-    on_threads(parts.iter(), |part| {
-        let mut taken = Taken { done: &done, tasks: 0 };
+    on_threads(parts.iter(), |thread, part| {
+        let mut taker = tasks.taker(thread);
         let mut canvas = None;
         let mut times = [0.0; 2];
         let mut points = Points::default();
-        while let Some(some) = job.streaks.chunks(TASK).nth(next.fetch_add(1, Ordering::Relaxed)) {
-            taken.tasks += 1;
+        for some in taker.by_ref() {
             let start = Instant::now();
             points.clear();
             walker.walk(variant.method, some, &mut points);
@@ -292,11 +262,9 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
             // The thread's own place, in which nothing was before.
             let _ = part.set((canvas, times));
         }
-        drop(taken);
-        // Until all electrons are drawn; a thread that comes late and has none waits as well, as the sum's bands are for all.
-        while done.load(Ordering::Acquire) < tasks {
-            std::thread::yield_now();
-        }
+        drop(taker);
+        // A thread that comes late and has none waits as well, as the sum's bands are for all.
+        tasks.wait();
         drawn.get_or_init(|| start.elapsed().as_secs_f64());
         let pyramids: Vec<&Pyramid> = parts.iter().filter_map(|part| part.get()?.0.layers()).collect();
         if pyramids.is_empty() {

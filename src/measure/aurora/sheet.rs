@@ -156,10 +156,11 @@ impl Sheet {
         }
     }
 
-    /// `count` electrons. µ is moved a little, so that each falls exactly as a row of the table says.
+    /// `count` electrons from west to east, so that those that follow one another are neighbours in the picture. µ is moved a little, so that each falls exactly as a row of
+    /// the table says.
     pub fn streaks(&self, count: u32) -> Vec<Streak> {
         let up = field_direction();
-        (0..count)
+        let mut streaks: Vec<Streak> = (0..count)
             .map(|id| {
                 let random = |k: u32| f64::from(uniform(self.seed, id, 1_000_000 + k));
                 let curve = &self.curves[id as usize % self.curves.len()];
@@ -178,6 +179,8 @@ impl Sheet {
                     id,
                 }
             })
-            .collect()
+            .collect();
+        streaks.sort_by(|a, b| a.top.x.total_cmp(&b.top.x));
+        streaks
     }
 }
