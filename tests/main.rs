@@ -49,6 +49,8 @@ mod render_disk_near;
 #[cfg(feature = "game")]
 mod render_disk_order;
 #[cfg(feature = "game")]
+mod render_disk_pictures;
+#[cfg(feature = "game")]
 mod render_disk_rings;
 #[cfg(feature = "game")]
 mod render_disk_thin;
