@@ -17,6 +17,7 @@ pub mod layout;
 pub mod method;
 pub mod models;
 pub mod outside;
+mod passes;
 pub mod placements;
 pub mod plugin;
 pub mod race;

@@ -1,7 +1,6 @@
 //! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it alike.
 
 use std::mem::offset_of;
-use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
@@ -20,6 +19,7 @@ use super::geometry::Geometry;
 use super::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use super::method::Method;
 use super::models::{ModelRange, Models};
+use super::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
 use super::readback::{self, Picture, PictureError};
 use super::shaders::Worldlines;
 use super::sky::table::{NODES, sky_table, straight_sky_table};
@@ -420,77 +420,6 @@ impl Renderer {
     }
 }
 
-/// Lays these orders of the disk over the picture, if there are any.
-fn draw_disk(
-    disk: Option<&DiskPasses>,
-    orders: RangeInclusive<u32>,
-    timing: &mut Timing,
-    encoder: &mut wgpu::CommandEncoder,
-    group: &wgpu::BindGroup,
-    targets: &Targets,
-) {
-    let Some(disk) = disk.filter(|_| !orders.is_empty()) else { return };
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("disk"),
-        color_attachments: &[Some(colour(&targets.picture, false))],
-        // Polygons write it.
-        depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
-        timestamp_writes: timing.render("disk"),
-        ..Default::default()
-    });
-    pass.set_bind_group(0, group, &[]);
-    timing.count("disk", &mut pass, |pass| disk.draw(pass, orders));
-}
-
-/// Sums thin images: all, or those whose light crosses the disk's plane so often.
-fn draw_thin(
-    geometry: &Geometry,
-    crossings: Option<u32>,
-    timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
-    encoder: &mut wgpu::CommandEncoder,
-    group: &wgpu::BindGroup,
-    targets: &Targets,
-) {
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("thin"),
-        color_attachments: &[Some(colour(&targets.thin, true)), Some(colour(&targets.thin_signed, true))],
-        depth_stencil_attachment: Some(tested_depth(&targets.depth)),
-        timestamp_writes,
-        ..Default::default()
-    });
-    pass.set_bind_group(0, group, &[]);
-    geometry.draw_thin(&mut pass, crossings);
-}
-
-/// Adds the images of the aurora that are behind the disk, or the others.
-fn draw_aurora(
-    aurora: &Aurora,
-    behind: bool,
-    timing: &mut Timing,
-    encoder: &mut wgpu::CommandEncoder,
-    group: &wgpu::BindGroup,
-    targets: &Targets,
-) {
-    for image in aurora.images_behind(behind) {
-        let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(label),
-                color_attachments: &[Some(colour(target, fresh))],
-                depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
-                timestamp_writes: timing.render(label),
-                ..Default::default()
-            });
-            pass.set_bind_group(0, group, &[]);
-            run(&mut pass);
-        };
-        // The finest level is cleared only where it has light.
-        for (level, light) in aurora.levels() {
-            draw("aurora strokes", light, level > 0, level == 0, &|pass| aurora.draw(pass, image, level));
-        }
-        draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
-    }
-}
-
 fn frame_bindings(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
@@ -499,26 +428,4 @@ fn frame_bindings(
 ) -> wgpu::BindGroup {
     let resources = [frame.as_entire_binding(), lens.binding(), sky.binding(), blackbody.binding()];
     bind(device, "frame", layout, &resources)
-}
-
-fn colour(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassColorAttachment<'_> {
-    let load = if fresh { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) } else { wgpu::LoadOp::Load };
-    wgpu::RenderPassColorAttachment {
-        view,
-        depth_slice: None,
-        resolve_target: None,
-        ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-    }
-}
-
-/// Depth that is written, reversed: infinity is 0.
-fn depth(view: &wgpu::TextureView, fresh: bool) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    let load = if fresh { wgpu::LoadOp::Clear(0.0) } else { wgpu::LoadOp::Load };
-    let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
-    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: Some(ops), stencil_ops: None }
-}
-
-/// Depth that is only tested, so that passes one after the other need not wait for it.
-fn tested_depth(view: &wgpu::TextureView) -> wgpu::RenderPassDepthStencilAttachment<'_> {
-    wgpu::RenderPassDepthStencilAttachment { view, depth_ops: None, stencil_ops: None }
 }
