@@ -64,6 +64,15 @@ fn no_picture_is_drawn_from_within_the_singularity() {
         assert_eq!(after.status.code(), Some(2), "{command:?}: {said}");
         assert!(said.contains("--at: by T = 1.9") && said.contains("singularity") && !output.exists(), "{command:?}: {said}");
     }
+    if cfg!(feature = "game") {
+        // Of several scenes all are looked at before anything is drawn or said.
+        let mut run = std::process::Command::new(env!("CARGO_BIN_EXE_lensrunner"));
+        let after =
+            run.args(["chart", "frame", "--scene", "ring,plunge", "--size", "16x9", "--frames", "1", "--at", "1.9"]).output().unwrap();
+        let said = String::from_utf8_lossy(&after.stderr).into_owned();
+        assert_eq!(after.status.code(), Some(2), "{said}");
+        assert!(said.contains("--at: by T = 1.9") && after.stdout.is_empty(), "{said}{}", String::from_utf8_lossy(&after.stdout));
+    }
     assert!(load("plunge").unwrap().camera.check(1.87, &[]).is_ok());
     // A camera beside a ship that has ended is outside still, and sees as little.
     let chase = load("chase").unwrap();
@@ -179,6 +188,18 @@ fn complaints_name_file_line_key_and_range() {
         let said = complaint(text);
         assert!(parts.iter().all(|part| said.contains(part)), "{text:?} gave {said:?}, lacking one of {parts:?}");
     }
+}
+
+/// All that is wrong with a disk is said at once, in the order of the file; what clashes only once the single values are right.
+#[test]
+fn complaints_about_a_disk_name_all_of_its_faults() {
+    let said = complaint("[disk]\nouter = \"wide\"\nglow = 1\ninner = 6.5\narcs = 4\n");
+    let lines: Vec<&str> = said.lines().collect();
+    let wanted = [":2: disk.outer: ", ":3: disk.glow: unknown key", ":5: disk.arcs: 4 is out of range"];
+    assert_eq!(lines.len(), wanted.len(), "{said}");
+    assert!(lines.iter().zip(wanted).all(|(line, wanted)| line.contains(wanted)), "{said}");
+    let said = complaint("[disk]\nouter = 4.0\ninner = 6.5\narcs = 4\n");
+    assert!(said.contains("disk.arcs") && said.lines().count() == 1, "{said}");
 }
 
 #[test]

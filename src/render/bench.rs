@@ -4,7 +4,7 @@ use std::fmt;
 use std::io::Write;
 use std::time::Instant;
 
-use crate::scene::{self, GameConfig};
+use crate::scene::{self, GameConfig, Scene};
 
 use super::aurora::ration::shares;
 use super::disk::types::DiskCounters;
@@ -89,36 +89,42 @@ impl fmt::Display for FrameTimes {
     }
 }
 
-/// Times the scenes one after the other and says each result as it comes.
+/// Times the scenes one after the other and says each result as it comes. What is wrong with any of them is said before the first is drawn.
 pub fn run(request: &Request, config: &GameConfig, out: &mut impl Write) -> Result<(), ShotError> {
+    let played = |name: &String| -> Result<(Scene, Moment), ShotError> {
+        let scene = scene::load(name)?;
+        let moment = Moment::new(&scene, config, request.at, 0);
+        scene.camera.check(moment.time(), &moment.ships())?;
+        Ok((scene, moment))
+    };
+    let scenes: Vec<_> = request.scenes.iter().map(played).collect::<Result<_, _>>()?;
     let gpu = Gpu::headless()?;
     let surroundings = surroundings();
     let [width, height] = request.size;
     let say = |error: std::io::Error| PictureError::Write { path: "standard output".into(), reason: error.to_string() };
     writeln!(out, "{}, {width}x{height}, {} frames", gpu.adapter.name, request.frames).map_err(say)?;
-    for scene in &request.scenes {
-        let times = frame_times(&gpu, &surroundings, scene, request, config)?;
+    for (name, (scene, moment)) in request.scenes.iter().zip(&scenes) {
+        let times = frame_times(&gpu, &surroundings, name, scene, moment, request, config)?;
         writeln!(out, "{times}").map_err(say)?;
     }
     Ok(())
 }
 
-/// Draws a scene again and again and times the frames one by one: a frame is submitted when the one before is done.
-pub fn frame_times(
+/// Draws a scene at a moment again and again and times the frames one by one: a frame is submitted when the one before is done.
+fn frame_times(
     gpu: &Gpu,
     surroundings: &Surroundings,
     name: &str,
+    scene: &Scene,
+    moment: &Moment,
     request: &Request,
     config: &GameConfig,
 ) -> Result<FrameTimes, ShotError> {
     let format = wgpu::TextureFormat::Rgba8UnormSrgb;
     let (_, view) = target(&gpu.device, "bench", request.size, format);
-    let scene = scene::load(name)?;
     let start = Instant::now();
     let mut renderer = Renderer::new(gpu, surroundings, format, request.size);
-    let stage = Stage::new(&mut renderer, &scene, config);
-    let moment = Moment::new(&scene, config, request.at, 0);
-    scene.camera.check(moment.time(), &moment.ships())?;
+    let stage = Stage::new(&mut renderer, scene, config);
     let camera = stage.camera(moment.time(), &moment.ships());
     let mut whole = Vec::new();
     let mut prepared = Vec::new();

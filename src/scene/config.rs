@@ -8,7 +8,7 @@ use toml::de::{DeString, DeTable, DeValue};
 pub use super::config_fields::{
     Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, Render, RulesConfig, ShipConfig, Sky, Video, settings,
 };
-use super::document::{complain, syntax};
+use super::document::{complain_all, one, syntax};
 use super::error::{Complaints, ConfigError};
 pub use super::setting::{Allowed, Setting, Value, is_key};
 use super::ship::Fault;
@@ -37,7 +37,7 @@ pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
 
 /// Reads the text of a `game.toml`; `file` is only named in the complaints.
 pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
-    let document = DeTable::parse(text).map_err(|error| Complaints(vec![syntax(file, text, &error)]))?;
+    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
     let mut config = GameConfig::default();
     let known = section_names();
     let mut faults = Vec::new();
@@ -53,19 +53,18 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
         };
         faults.push(Fault { span: section.span(), message: wrong });
     }
+    check_all(&config, faults, document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
+    Ok(config)
+}
+
+/// All that is wrong: the `faults` of single entries of `document`, or, where it has none, those of what [`apply_table`] made of them, `config`, as a whole.
+pub(super) fn check_all(config: &GameConfig, faults: Vec<Fault>, document: &DeTable<'_>) -> Result<(), Vec<Fault>> {
     // What is left out because it is wrong clashes with nothing.
-    if faults.is_empty() {
-        faults.extend(check_together(&config, document.get_ref()).err());
-    }
-    if faults.is_empty() {
-        return Ok(config);
-    }
-    faults.sort_by_key(|fault| fault.span.start);
-    Err(Complaints(faults.into_iter().map(|fault| complain(file, text, fault)).collect()))
+    if faults.is_empty() { check_together(config, document).map_err(|fault| vec![fault]) } else { Err(faults) }
 }
 
 /// What [`together`] says, at the line in `document` of one of the keys that clash.
-pub(super) fn check_together(config: &GameConfig, document: &DeTable<'_>) -> Result<(), Fault> {
+fn check_together(config: &GameConfig, document: &DeTable<'_>) -> Result<(), Fault> {
     together(config).map_err(|(keys, message)| {
         // The other of the two may be a default, which has no line.
         let span = keys.iter().find_map(|key| {

@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::Complaint;
+use super::error::{Complaint, Complaints};
 use super::ship::Fault;
 
 /// Reads a list of exactly `N` values; the TOML reader by itself drops what is too many.
@@ -49,13 +49,24 @@ pub fn syntax(file: &Path, text: &str, error: &toml::de::Error) -> Complaint {
 }
 
 /// Adds file, line and key to a fault.
-pub fn complain(file: &Path, text: &str, fault: Fault) -> Complaint {
+fn complain(file: &Path, text: &str, fault: Fault) -> Complaint {
     Complaint {
         file: file.to_path_buf(),
         line: Some(line_of(text, fault.span.start)),
         key: key_at(text, fault.span),
         problem: fault.message,
     }
+}
+
+/// As [`complain`], of every fault, in the order of their lines.
+pub fn complain_all(file: &Path, text: &str, mut faults: Vec<Fault>) -> Complaints {
+    faults.sort_by_key(|fault| fault.span.start);
+    Complaints(faults.into_iter().map(|fault| complain(file, text, fault)).collect())
+}
+
+/// The only complaint.
+pub fn one(complaint: Complaint) -> Complaints {
+    Complaints(vec![complaint])
 }
 
 /// The line of a byte offset, from 1.

@@ -63,9 +63,9 @@ pub enum SceneError {
         /// The operating system's reason.
         source: std::io::Error,
     },
-    /// An entry is wrong.
+    /// Entries are wrong.
     #[error("{0}")]
-    Invalid(Complaint),
+    Invalid(Complaints),
 }
 
 /// Why `game.toml` could not be loaded.

@@ -8,8 +8,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::camera::{Camera, CameraEntry, check_camera};
 use super::config::{self, GameConfig, RulesConfig};
-use super::document::{complain, parse, syntax};
-use super::error::{Complaint, SceneError};
+use super::document::{complain_all, one, parse, syntax};
+use super::error::{Complaints, SceneError};
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
@@ -78,9 +78,9 @@ impl Scene {
     }
 
     /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.
-    pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaint> {
-        let entry: SceneFile = parse(file, text)?;
-        let scene = check(&entry).map_err(|fault| complain(file, text, fault))?;
+    pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaints> {
+        let entry: SceneFile = parse(file, text).map_err(one)?;
+        let scene = check(&entry).map_err(|fault| complain_all(file, text, vec![fault]))?;
         let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
         Ok(Scene { name, disk, ..scene })
@@ -115,14 +115,14 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
 }
 
 /// The keys of `[disk]`, checked by the table of `game.toml`.
-fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaint> {
-    let document = DeTable::parse(text).map_err(|error| syntax(file, text, &error))?;
+fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
+    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
     let Some(DeValue::Table(table)) = document.get_ref().get("disk").map(Spanned::get_ref) else {
         return Ok(DiskKeys(Vec::new()));
     };
     let mut checked = GameConfig::default();
-    let first = config::apply_table(&mut checked, "disk", table).into_iter().next();
-    first.map_or_else(|| config::check_together(&checked, document.get_ref()), Err).map_err(|fault| complain(file, text, fault))?;
+    let faults = config::apply_table(&mut checked, "disk", table);
+    config::check_all(&checked, faults, document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
     let given = |key: &str| table.iter().any(|(name, _)| name.get_ref() == key);
     Ok(DiskKeys(
         config::settings()
