@@ -6,11 +6,10 @@ use crate::render::frame::Camera;
 use crate::render::stage::{static_camera, third_person};
 use crate::sim::History;
 use crate::spacetime::frames;
-use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
 
 use super::camera::state_of;
-use super::seen::apparition;
+use super::seen::facing;
 
 /// A kind of picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,7 +82,9 @@ impl Director {
             return (wide(near.0.at(time).position, share, field_of_view), None);
         }
         let state = state_of(&near.0.at(time));
-        let wanted = look_at(&state, time, far.map(|far| far.0)).unwrap_or(state.attitude);
+        let resting = Camera { position: state.position, momentum: state.momentum, attitude: DQuat::IDENTITY, field_of_view };
+        // The disk's axis upwards.
+        let wanted = far.and_then(|far| facing(&resting, time, far.0, DVec3::Z)).unwrap_or(state.attitude);
         self.attitude = if self.shot == Some(shot) { self.attitude.slerp(wanted, FOLLOW).normalize() } else { wanted };
         self.shot = Some(shot);
         let turned = ShipState { attitude: self.attitude, ..state };
@@ -92,13 +93,6 @@ impl Director {
             _ => (third_person(&turned, BEHIND * near.1, DQuat::IDENTITY, field_of_view), None),
         }
     }
-}
-
-/// The attitude of an observer in the ship who looks at the image of `other`, the disk's axis upwards.
-fn look_at(state: &ShipState, time: f64, other: Option<&History>) -> Option<DQuat> {
-    let resting = Camera { position: state.position, momentum: state.momentum, attitude: DQuat::IDENTITY, field_of_view: 1.0 };
-    let direction = apparition(&resting, time, other?, Order::ALL[0])?.direction;
-    frames::look(direction, DVec3::Z)
 }
 
 /// A hovering camera above the side of the hole where the ships are, the hole in the middle.
@@ -137,8 +131,7 @@ pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_
     };
     let Some(mut camera) = cameras.min_by(|a, b| fault(a).total_cmp(&fault(b))) else { return wide(state.position, 0.0, field_of_view) };
     // Light from so near is all but straight; it is aimed at where the ship is seen all the same.
-    if let Some(seen) = apparition(&camera, time, caught, Order::ALL[0]) {
-        let aimed = frames::look(camera.attitude * seen.direction, DVec3::Z).unwrap_or(camera.attitude);
+    if let Some(aimed) = facing(&camera, time, caught, DVec3::Z) {
         camera.attitude = (aimed * DQuat::from_rotation_y(ASIDE_CAUGHT)).normalize();
     }
     camera
@@ -146,7 +139,9 @@ pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_
 
 #[cfg(test)]
 mod tests {
+    use super::super::seen::apparition;
     use super::*;
+    use crate::spacetime::light::Order;
     use crate::spacetime::orbit::static_momentum;
 
     #[test]

@@ -3,12 +3,10 @@
 use glam::{DQuat, DVec3};
 
 use crate::sim::History;
-use crate::spacetime::frames;
-use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
 
 use super::camera::{View, on_ship};
-use super::seen::apparition;
+use super::seen::facing;
 
 /// Wall time of the whole turn, in seconds.
 const TURN: f64 = 0.4;
@@ -52,10 +50,9 @@ impl Gaze {
         // The third-person camera goes round the ship as it turns, which moves what is near: from the last frame's answer it is not far.
         let mut attitude = if self.aside() { follows * self.turn } else { follows };
         for _ in 0..CORRECTIONS.0 {
-            let camera = on_ship(state, view, attitude, length, 1.0);
-            let seen = apparition(&camera, time, target, Order::ALL[0])?.direction;
-            attitude = frames::look(attitude * seen, up)?;
-            if seen.angle_between(DVec3::NEG_Z) < CORRECTIONS.1 {
+            let before = attitude;
+            attitude = facing(&on_ship(state, view, before, length, 1.0), time, target, up)?;
+            if attitude.angle_between(before) < CORRECTIONS.1 {
                 break;
             }
         }
@@ -65,7 +62,9 @@ impl Gaze {
 
 #[cfg(test)]
 mod tests {
+    use super::super::seen::apparition;
     use super::*;
+    use crate::spacetime::light::Order;
     use crate::spacetime::orbit::static_momentum;
 
     fn hovering(position: DVec3) -> ShipState {

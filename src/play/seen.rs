@@ -1,10 +1,11 @@
 //! Where the image of a ship appears: the same light path and emission time as the renderer's.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::render::frame::Camera;
 use crate::render::placements::{branch_of, emission_time};
 use crate::sim::History;
+use crate::spacetime::frames;
 use crate::spacetime::light::{self, Order};
 
 /// A ship as a camera sees it.
@@ -21,6 +22,13 @@ pub fn apparition(camera: &Camera, time: f64, history: &History, order: Order) -
     let emitted = emission_time(camera, time, history, order)?;
     let position = history.at(emitted).position;
     Some(Apparition { direction: direction(camera, position, order, time - emitted)?, age: time - emitted })
+}
+
+/// The attitude in which `camera` has the image of order 1 of that ship in the middle, and `up` (rain axes) upwards; None where it is not seen. The camera is to
+/// stay where it is as it turns.
+pub fn facing(camera: &Camera, time: f64, history: &History, up: DVec3) -> Option<DQuat> {
+    let seen = apparition(camera, time, history, Order::ALL[0])?.direction;
+    frames::look(camera.attitude * seen, up)
 }
 
 /// Where light from `position` (on the slice of its emission), `age` r_s/c old, is seen, in camera axes.
@@ -47,7 +55,7 @@ mod tests {
     use crate::spacetime::orbit::static_momentum;
 
     fn hovering(position: DVec3) -> Camera {
-        Camera { position, momentum: static_momentum(position).unwrap_or_default(), attitude: glam::DQuat::IDENTITY, field_of_view: 1.0 }
+        Camera { position, momentum: static_momentum(position).unwrap_or_default(), attitude: DQuat::IDENTITY, field_of_view: 1.0 }
     }
 
     #[test]
