@@ -6,6 +6,7 @@ use wgpu::ShaderStages;
 
 use super::Gpu;
 use super::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use super::passes::colour;
 use super::shaders::Pass;
 use super::targets::{Targets, target};
 use super::timing::Timing;
@@ -131,7 +132,8 @@ impl Develop {
     /// Lays the thin triangles over the picture.
     pub fn compose(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup, targets: &Targets) {
         let Some(groups) = &self.groups else { return };
-        screen(encoder, timing.render("compose"), "compose", &targets.picture, false, &self.compose, frame, &groups.thin);
+        let over = [Some(colour(&targets.picture, false))];
+        begin(encoder, timing.render("compose"), "compose", &over, &self.compose, frame, &groups.thin).draw(0..3, 0..1);
     }
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the frame's exposure
@@ -149,7 +151,8 @@ impl Develop {
     ) {
         let Some(groups) = &self.groups else { return };
         for (level, view) in targets.bloom.iter().enumerate() {
-            screen(encoder, timing.render("bloom"), "bloom down", view, true, &self.down, frame, &groups.sampled[level]);
+            let level = &groups.sampled[level];
+            begin(encoder, timing.render("bloom"), "bloom down", &[Some(colour(view, true))], &self.down, frame, level).draw(0..3, 0..1);
         }
         {
             let mut pass = encoder
@@ -161,75 +164,45 @@ impl Develop {
         }
         encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
         for level in (1..targets.bloom.len()).rev() {
-            screen(
-                encoder,
-                timing.render("bloom"),
-                "bloom up",
-                &targets.bloom[level - 1],
-                false,
-                &self.up,
-                frame,
-                &groups.sampled[level + 1],
-            );
+            let (from, to) = (&groups.sampled[level + 1], &[Some(colour(&targets.bloom[level - 1], false))]);
+            begin(encoder, timing.render("bloom"), "bloom up", to, &self.up, frame, from).draw(0..3, 0..1);
         }
         // There and back.
         let last = targets.bloom.len() + 1;
         for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
-            screen(encoder, timing.render("bloom"), "bloom soften", to, true, &self.soften, frame, &groups.sampled[from]);
+            let (from, to) = (&groups.sampled[from], &[Some(colour(to, true))]);
+            begin(encoder, timing.render("bloom"), "bloom soften", to, &self.soften, frame, from).draw(0..3, 0..1);
         }
-        if !smooth {
-            screen(encoder, timing.render("develop"), "develop", output, true, &self.develop, frame, &groups.develop);
-            return;
+        // What smooths outlines reads the picture as it was before.
+        let both = [output, &groups.developed].map(|view| Some(colour(view, true)));
+        let (to, develop) = if smooth { (&both[..], &self.develop_twice) } else { (&both[..1], &self.develop) };
+        begin(encoder, timing.render("develop"), "develop", to, develop, frame, &groups.develop).draw(0..3, 0..1);
+        if smooth {
+            let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
+            let onto = &[Some(colour(output, false))];
+            begin(encoder, timing.render("smooth"), "smooth", onto, &self.smooth, frame, &groups.smooth).draw(0..6, 0..tiles);
         }
-        let attachment = |view, load| {
-            let ops = wgpu::Operations { load, store: wgpu::StoreOp::Store };
-            Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target: None, ops })
-        };
-        let fresh = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
-        let mut draw = |label, attachments: &[_], pipeline, group, corners, instances| {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(label),
-                color_attachments: attachments,
-                timestamp_writes: timing.render(label),
-                ..Default::default()
-            });
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, frame, &[]);
-            pass.set_bind_group(2, group, &[]);
-            pass.draw(0..corners, 0..instances);
-        };
-        draw("develop", &[attachment(output, fresh), attachment(&groups.developed, fresh)], &self.develop_twice, &groups.develop, 3, 1);
-        let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
-        draw("smooth", &[attachment(output, wgpu::LoadOp::Load)], &self.smooth, &groups.smooth, 6, tiles);
     }
 }
 
-/// One triangle over the whole of `view`.
-#[allow(clippy::too_many_arguments, reason = "one call says all that a pass is")]
-fn screen(
-    encoder: &mut wgpu::CommandEncoder,
-    timestamps: Option<wgpu::RenderPassTimestampWrites>,
+/// Begins a pass that draws to `targets`, with all that it needs but its triangles: most have one, over the whole picture.
+fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
     label: &str,
-    view: &wgpu::TextureView,
-    fresh: bool,
+    targets: &[Option<wgpu::RenderPassColorAttachment>],
     pipeline: &wgpu::RenderPipeline,
     frame: &wgpu::BindGroup,
     group: &wgpu::BindGroup,
-) {
-    let load = if fresh { wgpu::LoadOp::Clear(wgpu::Color::BLACK) } else { wgpu::LoadOp::Load };
+) -> wgpu::RenderPass<'e> {
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-        })],
-        timestamp_writes: timestamps,
+        color_attachments: targets,
+        timestamp_writes,
         ..Default::default()
     });
     pass.set_pipeline(pipeline);
     pass.set_bind_group(0, frame, &[]);
     pass.set_bind_group(2, group, &[]);
-    pass.draw(0..3, 0..1);
+    pass
 }
