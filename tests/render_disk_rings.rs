@@ -5,15 +5,17 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use lensrunner::lensing::Slice;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::disk::rows::{AZIMUTHS, Look, azimuth};
+use lensrunner::render::disk::rows::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
+use lensrunner::render::disk::view::DiskView;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
+use lensrunner::scene::disk::PATTERN_HEIGHT;
 use lensrunner::spacetime::light::Order;
 
 use crate::render_disk::{a_disk, exact};
-use crate::render_support::{camera, renderer, settings};
+use crate::render_support::{camera, default_surroundings, renderer, settings};
 use crate::twin::run;
 
 /// The azimuths at which bends are told are the same in both languages, the first of them and the last too.
@@ -55,6 +57,83 @@ fn the_light_of_circles_is_that_of_exact_rays() {
                     }
                 }
             }
+        }
+    }
+}
+
+/// From near, rings of order 1 are held to 0.1 pixels across the orbits, 1 along them, 0.001 of the light of the brightest gas at the same azimuth and 0.005 of the light from behind.
+/// So they are at all circles between their own two that there were to choose from: what goes straight over a ring, and as a parabola, against the gas itself. Rings with fewer than two
+/// circles between are left out: the parabola goes through one by itself.
+#[test]
+fn rings_from_near_are_as_true_as_they_are_held_to_be() {
+    const WIDTH: u32 = 1280;
+    let disk = a_disk();
+    let radial = &disk.gas.radial;
+    let all = radii(&disk, true);
+    let table = default_surroundings().table;
+    // The scenes `disk-skim` and `disk-inner`.
+    let skim = static_camera(DVec3::new(0.0, -6.5, 0.3), DVec3::new(-0.75, 0.66, -0.06), DVec3::Z, 80f64.to_radians());
+    let inner = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());
+    for camera in [skim, inner] {
+        let slice = Slice::new(&table, camera.radius());
+        let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
+        let view = DiskView::new(&disk, &input, &slice, WIDTH);
+        let look = Look { disk: &disk, camera: &camera, slice: &slice, order: 1, width: WIDTH, beaming: true };
+        let pixel = pixel_angle(&camera, WIDTH);
+        // Seen face on, and from where the camera is.
+        let slants = [1.0, camera.radius() / camera.position.z.abs()];
+        let light = |circle: &SeenCircle, k: usize, side: usize| circle.log_light[k][side].exp();
+        let seen: Vec<SeenCircle> = all.iter().map(|&r| look.circle(r)).collect();
+        let shining = |k: usize, side: usize| seen.iter().map(|c| light(c, k, side) * radial.depth(c.radius).min(1.0)).fold(0.0, f64::max);
+        let brightest: [[f64; 2]; AZIMUTHS] = std::array::from_fn(|k| [0, 1].map(|side| shining(k, side)));
+        let index = |row: u32| {
+            let radius = f64::from(view.circles[row as usize].gas[0]);
+            all.iter().position(|r| (r - radius).abs() < 1e-4).expect("one of the circles")
+        };
+        let (mut worst, mut rings) = ([0.0f64; 4], 0);
+        for &[inside, outside, ..] in view.rings.iter().filter(|ring| ring[2] == 1) {
+            let [from, to] = [inside, outside].map(index);
+            if to < from + 3 {
+                continue;
+            }
+            rings += 1;
+            let (a, b) = (&seen[from], &seen[to]);
+            for here in &seen[from + 1..to] {
+                let r = here.radius;
+                for k in 0..AZIMUTHS {
+                    let [place, start, end] = [here, a, b].map(|circle| circle.places[k]);
+                    let (before, after) = (place.perp_dot(start), place.perp_dot(end));
+                    let t = before / (before - after);
+                    assert!(t > 0.0 && t < 1.0, "r = {r}, azimuth {k}: seen at {t} of the ring");
+                    let parabola = |start: f64, end: f64, bend: f64| start + t * (end - start) + 4.0 * t * (1.0 - t) * bend;
+                    let [height, bent, depth, bent_too] = view.bends[inside as usize * AZIMUTHS + k].map(f64::from);
+                    let of = |value: &dyn Fn(f64) -> f64, bend: f64| parabola(value(a.radius), value(b.radius), bend) - value(r);
+                    // The pattern's radius goes as its height's exponential. Gas whose light is older is turned back.
+                    let aside = radial.pattern_radius(r) * of(&|r| radial.pattern_radius(r).ln(), PATTERN_HEIGHT * height).abs();
+                    let older = parabola(start.length(), end.length(), 0.0) - place.length();
+                    let ahead = of(&|r| radial.lag(r), 0.0).abs() + radial.turning_rate(r) * older.abs();
+                    let wide = a.angle_to(b, k) / pixel;
+                    worst[0] = worst[0].max(aside * wide / (b.radius - a.radius));
+                    worst[1] = worst[1].max(ahead * r / place.length() / pixel * wide.min(1.0));
+                    let drawn = (radial.depth(r) + of(&|r| radial.depth(r), depth)).max(0.0);
+                    for slant in slants {
+                        let [got, want] = [drawn, radial.depth(r)].map(|depth| 1.0 - (-slant * depth).exp());
+                        worst[3] = worst[3].max((got - want).abs() * wide.min(1.0));
+                        for (side, bent) in [bent, bent_too].into_iter().enumerate() {
+                            let line = parabola(a.log_light[k][side], b.log_light[k][side], 0.0);
+                            let shown = (line * (1.0 - 4.0 * t * (1.0 - t) * bent)).exp();
+                            let off = (shown * got - light(here, k, side) * want).abs() * wide.min(1.0);
+                            worst[2] = worst[2].max(off / brightest[k][side]);
+                        }
+                    }
+                }
+            }
+        }
+        println!("{rings} rings: {worst:.5?} across, along, of light, of what is stopped");
+        assert!(rings > 5, "{rings} rings");
+        for (worst, bound) in worst.into_iter().zip([0.1, 1.0, 0.001, 0.005]) {
+            // Circles that were not tried are off by up to a quarter more.
+            assert!(worst < 1.3 * bound, "off by {worst}, must be {bound}");
         }
     }
 }
