@@ -100,7 +100,7 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
             let (a, b) = (&seen[from], &seen[to]);
             for here in &seen[from + 1..to] {
                 let r = here.radius;
-                for k in 0..AZIMUTHS {
+                for (k, brightest) in brightest.iter().enumerate() {
                     let [place, start, end] = [here, a, b].map(|circle| circle.places[k]);
                     let (before, after) = (place.perp_dot(start), place.perp_dot(end));
                     let t = before / (before - after);
@@ -123,7 +123,7 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
                             let line = parabola(a.log_light[k][side], b.log_light[k][side], 0.0);
                             let shown = (line * (1.0 - 4.0 * t * (1.0 - t) * bent)).exp();
                             let off = (shown * got - light(here, k, side) * want).abs() * wide.min(1.0);
-                            worst[2] = worst[2].max(off / brightest[k][side]);
+                            worst[2] = worst[2].max(off / brightest[side]);
                         }
                     }
                 }
