@@ -29,6 +29,8 @@ mod render_aurora;
 #[cfg(feature = "game")]
 mod render_aurora_chords;
 #[cfg(feature = "game")]
+mod render_aurora_ground;
+#[cfg(feature = "game")]
 mod render_aurora_pictures;
 #[cfg(feature = "game")]
 mod render_aurora_rows;
@@ -89,6 +91,7 @@ mod render_swing;
 #[cfg(feature = "game")]
 mod render_trouble;
 mod scene_aurora;
+mod scene_aurora_ground;
 mod scene_aurora_heights;
 mod scene_aurora_lines;
 mod scene_aurora_nodes;

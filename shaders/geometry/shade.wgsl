@@ -32,6 +32,8 @@ struct Surface {
     @location(9) @interpolate(flat) base: vec4<f32>,
     /// Emitted light; w: roughness.
     @location(10) @interpolate(flat) emissive: vec4<f32>,
+    /// Place on the map of the aurora's light.
+    @location(11) ground: vec2<f32>,
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
@@ -44,7 +46,8 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
     let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * placement.position.w), 1.0);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
         vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red * filled, placement.light_green * filled,
-        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow);
+        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
+        ground_place(placement, vertex.normal.xyz));
 }
 
 /// By how much the light on the player's own ship is more or less than what falls on it: so that middle grey, as it was exposed in the frame before, is neither
@@ -83,7 +86,7 @@ fn shaded(in: Surface) -> vec3<f32> {
     let light = irradiance(in, n);
     let metallic = in.base.w;
     let roughness = max(in.emissive.w, 0.08);
-    var colour = emitted + base * light * (1.0 - metallic);
+    var colour = emitted + base * (light + aurora_light(in.ground)) * (1.0 - metallic);
     // What a glossy surface mirrors: the surroundings in the mirrored direction, sharpened towards the side the light comes from.
     let mirrored = reflect(-leaving, n);
     let fresnel = mix(vec3<f32>(0.04), base, vec3<f32>(metallic));

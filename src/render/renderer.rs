@@ -235,7 +235,8 @@ impl Renderer {
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
-        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget);
+        let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
+        self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;

@@ -43,6 +43,7 @@ const DISK_RADIAL: &str = include_str!("../../shaders/disk/radial.wgsl");
 const DISK_SPRITES_TYPES: &str = include_str!("../../shaders/disk/sprites_types.wgsl");
 const DISK_LIGHT: &str = include_str!("../../shaders/disk/light.wgsl");
 const DISK_GAS: &str = include_str!("../../shaders/disk/gas.wgsl");
+const AURORA_LIGHT: &str = include_str!("../../shaders/geometry/aurora_light.wgsl");
 const SHADE: &str = include_str!("../../shaders/geometry/shade.wgsl");
 
 /// How the points of models go through spacetime.
@@ -219,7 +220,7 @@ impl Pass {
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, EMIT]).collect(),
-            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, SHADE],
+            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, AURORA_LIGHT, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw => vec![TYPES, BINDINGS],

@@ -207,6 +207,11 @@ impl Stage {
         if let Some(planet) = &self.planet {
             let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
             aurora = show.as_mut().and_then(|show| show.frame(&view, time, back(planet), settings.orders));
+            // Its light is on the planet alone.
+            let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
+            if let (Some(ground), Some(number)) = (aurora.as_mut().and_then(|aurora| aurora.ground.as_mut()), globe) {
+                ground.light.planet[0] = number as u32 + 1;
+            }
         }
         let mut settings = *settings;
         settings.unmetered = unmetered;

@@ -6,6 +6,7 @@
 
 mod chords;
 mod colours;
+pub mod ground;
 mod levels;
 mod pass;
 pub mod race;

@@ -48,6 +48,11 @@ impl Rows {
         self.newest
     }
 
+    /// The row so many rows ago, from 0.
+    pub fn row(&self, ago: usize) -> Option<&Row> {
+        self.slots.get((self.newest + ago) % ROWS)
+    }
+
     /// The nodes so many rows ago, from 0; none if there is no history.
     pub fn ago(&self, rows: usize) -> &[[f32; 4]] {
         self.slots.get((self.newest + rows) % ROWS).map_or(&[], |row| row)

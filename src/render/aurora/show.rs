@@ -6,6 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::chords::Bend;
 use super::colours::Colours;
+use super::ground::{Glow, Ground, GroundFrame};
 use super::levels::PYRAMID;
 use super::ration::Ration;
 use super::rows::{ROW, ROWS, Rows, place as node_place};
@@ -44,6 +45,10 @@ const MIDNIGHT: f64 = 0.5;
 const REACH: f64 = 1.0 + HEIGHTS[0] / PLANET_RADIUS;
 /// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
 const LEAST_PIXELS: f64 = 6.0;
+/// Where the whole planet is narrower on the screen, pixels, its ground is not lit: the light beneath a curtain, some 230 km wide, would be a pixel. Up to twice as wide it fades in.
+const GROUND_PIXELS: f64 = 55.0;
+/// Collisions of 35 eV in kR that an erg cm⁻² s⁻¹ pays for: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
+const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
@@ -84,6 +89,8 @@ pub struct AuroraFrame {
     pub rows: Rows,
     /// [`Quantiles`] of the curtains' electrons.
     pub falls: Arc<Vec<f32>>,
+    /// What is lit by them, if any of it is wide enough to show.
+    pub ground: Option<GroundFrame>,
 }
 
 /// The curtains of a planet, as they move.
@@ -99,6 +106,8 @@ pub struct Show {
     /// The curtains' history, and when its newest row was (s).
     rows: Rows,
     newest: f64,
+    /// Their light on the ground, once it has been asked for.
+    ground: Option<Ground>,
     /// Whether it is watched as it goes: then no frame makes more than [`MOST_ROWS`], and what was missed out of sight is not made up for. Else each
     /// frame is what its time says, whatever came before.
     watched: bool,
@@ -150,6 +159,7 @@ impl Show {
             motion: None,
             rows: Rows::default(),
             newest: 0.0,
+            ground: None,
             watched: false,
             ration: Ration::default(),
             offset: 0.0,
@@ -177,6 +187,7 @@ impl Show {
         }
         if [config.energy, config.thermal] != [self.config.energy, self.config.thermal] {
             self.falls = Falls::of(config);
+            self.ground = None;
         }
         self.config = config.clone();
         true
@@ -207,6 +218,7 @@ impl Show {
         let distance = (now.position - view.camera.position).length();
         let pixels = 2.0 * self.planet.radius / distance.max(1e-6) / view.pixel;
         let mut frame = AuroraFrame::default();
+        let mut widest: f64 = 0.0;
         for placed in place(view, time, &object, orders) {
             let placement = placed.placement;
             let Some(order) = Order::new(placement.ids[0] as u8) else { continue };
@@ -220,6 +232,7 @@ impl Show {
             if part > 0.0 && sight::may_be_seen(view, time, &history, order, object.reach) {
                 let whole = [0.0, 0.0, 1.0, 1.0];
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
+                widest = widest.max(width);
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends();
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
@@ -266,6 +279,7 @@ impl Show {
             strokes: [self.config.radius as f32, levels as f32, midnight.x as f32, midnight.y as f32],
             heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
         };
+        frame.ground = self.ground(midnight, ahead, widest);
         frame.rows = self.rows.clone();
         frame.segments = segments;
         frame.falls = self.falls.table.clone();
@@ -323,6 +337,18 @@ impl Show {
         self.newest - now
     }
 
+    /// Their light on the ground, where the widest image of the planet has so many pixels; it comes and goes by degrees.
+    fn ground(&mut self, midnight: DVec2, ahead: f64, widest: f64) -> Option<GroundFrame> {
+        let part = (widest / GROUND_PIXELS - 1.0).min(1.0);
+        let motion = self.motion.as_ref().filter(|_| part > 0.0)?;
+        let ground = self.ground.get_or_insert_with(|| Ground::new(&self.plan.curves, motion, self.falls.glow.clone()));
+        // As the lines' colours are made, at rest: the shift of what is lit is that of the surface.
+        let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
+        let both = self.planet.aurora == AuroraShape::Oval;
+        let kilo = self.config.flux * self.planet.aurora_flux * KILO_COLLISIONS * unit;
+        Some(ground.frame(&self.rows, ahead / ROW, midnight, kilo, self.planet.dipole(), both))
+    }
+
     /// Parts of the curtains, each with as many streaks as its length on the screen asks for.
     fn segments(&self, view: &View, centre: DVec3, attitude: DQuat, pixels: f64) -> Vec<Segment> {
         let scale = self.planet.radius / PLANET_RADIUS;
@@ -365,9 +391,8 @@ impl Show {
                 let weight: f64 = weights[first_node..first_node + span].iter().sum();
                 let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
                 let kilometres: f64 = (first_node..first_node + span).map(|k| node_place(row, k).distance(node_place(row, k + 1))).sum();
-                // erg cm⁻² s⁻¹ → collisions of 35 eV in kR km²: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
-                let energy =
-                    self.config.flux * self.planet.aurora_flux * 6.2415e8 / 0.035 / 1e9 * length * span as f64 * curve.width * poles;
+                // Collisions of 35 eV in kR km².
+                let energy = self.config.flux * self.planet.aurora_flux * KILO_COLLISIONS * length * span as f64 * curve.width * poles;
                 segments.push(Segment {
                     range: [first, first_node as u32, count, span as u32],
                     light: [energy as f32, curve.width as f32, kilometres as f32, 0.0],
@@ -409,13 +434,15 @@ struct Falls {
     ends: [[f32; 2]; KINDS],
     /// The height (km) above which one of [`PARTS`] equal parts of each kind's light is made where the curtain is faintest.
     tops: [f64; KINDS],
+    /// What they light the ground with.
+    glow: Glow,
 }
 
 impl Falls {
     fn of(config: &AuroraConfig) -> Falls {
         let falls = Quantiles::new(&Spectrum { accelerated: config.energy, thermal: config.thermal });
         let tops = [0, 1].map(|kind| f64::from(falls.heights[kind * (PARTS + 1) + 1]));
-        Falls { table: Arc::new(falls.laid_out()), ends: falls.ends, tops }
+        Falls { table: Arc::new(falls.laid_out()), ends: falls.ends, tops, glow: Glow::of(&falls) }
     }
 }
 

@@ -135,7 +135,7 @@ impl PolygonPass {
                 turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
             }
         }
-        self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget);
+        self.geometry.prepare(gpu, &self.models, &placed, input.settings.vertex_budget, None);
         self.turning.write(gpu, &turning);
         self.group = Some(bind(
             &gpu.device,

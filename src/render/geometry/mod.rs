@@ -3,13 +3,16 @@
 //! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other through
 //! the buffers of group 1; the processor only says which objects there are.
 
+mod ground;
 mod stages;
 
 use wgpu::{BufferUsages, ShaderStages};
 
+use ground::Ground;
 use stages::{Makings, Shelf};
 
 use super::Gpu;
+use super::aurora::ground::GroundFrame;
 use super::frame::Capacity;
 use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use super::method::Method;
@@ -57,6 +60,7 @@ pub struct Geometry {
     arguments: wgpu::Buffer,
     arguments_group: wgpu::BindGroup,
     sampler: wgpu::Sampler,
+    ground: Ground,
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
     /// Whether any image of the prepared frame is thin, by how often its light crosses the disk's plane.
     thin_across: [bool; 4],
@@ -95,8 +99,12 @@ impl Geometry {
             &[Slot::Words, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
-        let draw_layout =
-            layout(device, "draw", ShaderStages::VERTEX_FRAGMENT, &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read]);
+        let draw_layout = layout(
+            device,
+            "draw",
+            ShaderStages::VERTEX_FRAGMENT,
+            &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read, Slot::Uniform, Slot::Texture],
+        );
         let makings = Makings {
             device: device.clone(),
             frame: frame_layout.clone(),
@@ -155,6 +163,7 @@ impl Geometry {
             arguments,
             arguments_group,
             sampler,
+            ground: Ground::new(device),
             groups: None,
             thin_across: [false; 4],
             capacity: room(0, 0, 0, 0),
@@ -197,7 +206,8 @@ impl Geometry {
     }
 
     /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
-    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32) {
+    /// `ground` is the aurora's light on its planet.
+    pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
         let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
@@ -232,6 +242,7 @@ impl Geometry {
         let device = &gpu.device;
         self.capacity = room(budget, vertices, triangles, device.limits().max_storage_buffer_binding_size);
         let mut replaced = self.placements.write(gpu, &placements);
+        replaced |= self.ground.write(gpu, ground);
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
             let count = list.len() as u32;
             *dispatch = [count.min(GROUPS), count.div_ceil(GROUPS)];
@@ -289,6 +300,8 @@ impl Geometry {
                 wgpu::BindingResource::TextureView(&textures),
                 wgpu::BindingResource::Sampler(&self.sampler),
                 self.thin.buffer.as_entire_binding(),
+                self.ground.light.as_entire_binding(),
+                wgpu::BindingResource::TextureView(&self.ground.view),
             ],
         );
         self.groups = Some((compute, draw));

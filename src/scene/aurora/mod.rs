@@ -16,6 +16,7 @@ pub mod curve;
 pub mod deposition;
 pub mod dipole;
 pub mod fall;
+pub mod ground;
 pub mod lines;
 pub mod motion;
 pub mod near;

@@ -1,0 +1,38 @@
+// The aurora's light on the ground of its planet: a map in the plane across the field (src/scene/aurora/ground.rs).
+
+struct GroundLight {
+    /// Columns of the rotation from the axes of the planet's model to those of its magnetic dipole; w unused.
+    dipole_x: vec4<f32>,
+    dipole_y: vec4<f32>,
+    dipole_z: vec4<f32>,
+    /// Linear colour of a curtain; w: how far back from the newer map to the older it is.
+    colour: vec4<f32>,
+    /// xy: where the pole is on the map, z: a radian of colatitude, both over the map's side; w unused.
+    map: vec4<f32>,
+    /// x: object id of the planet, 0 for none; y: whether the south has an aurora as well.
+    planet: vec4<u32>,
+}
+
+@group(2) @binding(6) var<uniform> ground: GroundLight;
+/// How bright a white ground is over a curtain, by the newest row of its history (x) and the one before (y).
+@group(2) @binding(7) var ground_map: texture_2d<f32>;
+
+/// Where on the map the ground is whose normal is n (rain axes); off it for all but the planet with an aurora.
+fn ground_place(placement: Placement, n: vec3<f32>) -> vec2<f32> {
+    let body = vec3<f32>(dot(placement.turn_x.xyz, n), dot(placement.turn_y.xyz, n), dot(placement.turn_z.xyz, n));
+    let from_dipole = ground.dipole_x.xyz * body.x + ground.dipole_y.xyz * body.y + ground.dipole_z.xyz * body.z;
+    let up = select(from_dipole.z, abs(from_dipole.z), ground.planet.y != 0u);
+    let out = length(from_dipole.xy);
+    let place = ground.map.xy + from_dipole.xy * (atan2(out, up) / max(out, 1e-6) * ground.map.z);
+    return select(vec2<f32>(-1.0), place, placement.ids.y == ground.planet.x);
+}
+
+/// The light of the aurora on the ground at a place of the map, as `irradiance` has it.
+fn aurora_light(place: vec2<f32>) -> vec3<f32> {
+    // Most of what is drawn is off the map, and reads nothing.
+    if any(place <= vec2<f32>(0.0)) || any(place >= vec2<f32>(1.0)) {
+        return vec3<f32>(0.0);
+    }
+    let rows = textureSampleLevel(ground_map, surface_sampler, place, 0.0).xy;
+    return ground.colour.rgb * mix(rows.x, rows.y, ground.colour.w);
+}

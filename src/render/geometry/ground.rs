@@ -1,0 +1,72 @@
+//! What the surfaces read of the aurora's light on the ground (`shaders/geometry/aurora_light.wgsl`).
+
+use std::sync::Arc;
+
+use wgpu::BufferUsages;
+
+use crate::render::Gpu;
+use crate::render::aurora::ground::{GroundFrame, GroundLight};
+use crate::render::layout::buffer;
+
+/// The map and its numbers on the GPU.
+#[derive(Debug)]
+pub(super) struct Ground {
+    pub light: wgpu::Buffer,
+    pub view: wgpu::TextureView,
+    texture: wgpu::Texture,
+    /// What is on the GPU.
+    written: GroundLight,
+    uploaded: Arc<Vec<[u16; 2]>>,
+}
+
+impl Ground {
+    /// One that lights nothing.
+    pub fn new(device: &wgpu::Device) -> Ground {
+        let light = buffer(device, "ground light", size_of::<GroundLight>() as u64, BufferUsages::UNIFORM);
+        let (texture, view) = map(device, 1);
+        Ground { light, view, texture, written: GroundLight::default(), uploaded: Arc::default() }
+    }
+
+    /// Writes what has changed. True if the texture was replaced, so that bind groups must be made anew.
+    pub fn write(&mut self, gpu: &Gpu, frame: Option<&GroundFrame>) -> bool {
+        let light = frame.map_or(GroundLight::default(), |frame| frame.light);
+        if light != self.written {
+            gpu.queue.write_buffer(&self.light, 0, bytemuck::bytes_of(&light));
+            self.written = light;
+        }
+        let Some(frame) = frame.filter(|frame| frame.size > 0 && frame.texels.len() == (frame.size * frame.size) as usize) else {
+            return false;
+        };
+        if Arc::ptr_eq(&self.uploaded, &frame.texels) {
+            return false;
+        }
+        let replaced = self.texture.width() != frame.size;
+        if replaced {
+            (self.texture, self.view) = map(&gpu.device, frame.size);
+        }
+        gpu.queue.write_texture(
+            self.texture.as_image_copy(),
+            bytemuck::cast_slice(&frame.texels),
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * frame.size), rows_per_image: None },
+            self.texture.size(),
+        );
+        self.uploaded = frame.texels.clone();
+        replaced
+    }
+}
+
+/// A square map of halves: all adapters read those straight between texels.
+fn map(device: &wgpu::Device, size: u32) -> (wgpu::Texture, wgpu::TextureView) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("ground light"),
+        size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rg16Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    (texture, view)
+}
