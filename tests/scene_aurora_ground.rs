@@ -70,16 +70,16 @@ fn a_straight_curtain_lights_the_ground_as_a_line_source() {
             0.5 * way.dot(ground.normalize()).max(0.0) / way.length().powi(3) / PI
         };
         let want: f64 = places().map(from).sum();
-        // Texels of 30 km: 30²/(3 · 112²) = 2.4 % less beneath the line, and more aside.
+        // Texels of 25 km: amid two of them what is laid out on both and read from both is blurred by a variance of 25²/2, and there is 25²/(2 · 112²) = 2.5 % less beneath the line.
         assert!((got / want - 1.0).abs() < 0.03, "{aside} km aside: {got}, {want} summed in space");
         if aside < 100.0 {
-            // Over flat ground 2h/(h² + d²) over π; the ground bends down from the line by 0.3 km there.
+            // Over flat ground 2h/(h² + d²) over π; where it is round the line's ends are lower, which takes 1.4 % more.
             let flat = 2.0 * height / (height * height + aside * aside) / PI;
-            assert!((got / flat - 1.0).abs() < 0.04, "{aside} km aside: {got}, {flat} over flat ground");
+            assert!((got / flat - 1.0).abs() < 0.045, "{aside} km aside: {got}, {flat} over flat ground");
         }
     }
-    // Below the horizon there is nothing.
-    assert_eq!(read(map.square(), map.size(), &light, DVec2::new(0.0, 1290.0)), 0.0);
+    // Below the horizon, 1,209 km away, there is nothing; coarse texels of 75 km may show it a little farther.
+    assert_eq!(read(map.square(), map.size(), &light, DVec2::new(0.0, 1340.0)), 0.0);
 }
 
 #[test]

@@ -218,7 +218,7 @@ impl Show {
         let distance = (now.position - view.camera.position).length();
         let pixels = 2.0 * self.planet.radius / distance.max(1e-6) / view.pixel;
         let mut frame = AuroraFrame::default();
-        let mut widest: f64 = 0.0;
+        let mut whole_width: f64 = 0.0;
         for placed in place(view, time, &object, orders) {
             let placement = placed.placement;
             let Some(order) = Order::new(placement.ids[0] as u8) else { continue };
@@ -232,7 +232,7 @@ impl Show {
             if part > 0.0 && sight::may_be_seen(view, time, &history, order, object.reach) {
                 let whole = [0.0, 0.0, 1.0, 1.0];
                 let seen_on = |aspect| if near { whole } else { extent.part_of_screen(view.camera, aspect) };
-                widest = widest.max(width);
+                whole_width = whole_width.max(width);
                 frame.parts.push(view.aspect.map_or(whole, seen_on));
                 let bends = view.settings.method.bends();
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
@@ -279,7 +279,7 @@ impl Show {
             strokes: [self.config.radius as f32, levels as f32, midnight.x as f32, midnight.y as f32],
             heights: [0, 1, 2, 3].map(|k| self.falls.ends[k / 2][k % 2]),
         };
-        frame.ground = self.ground(midnight, ahead, widest);
+        frame.ground = self.ground(midnight, ahead, whole_width);
         frame.rows = self.rows.clone();
         frame.segments = segments;
         frame.falls = self.falls.table.clone();
@@ -338,8 +338,8 @@ impl Show {
     }
 
     /// Their light on the ground, where the widest image of the planet has so many pixels; it comes and goes by degrees.
-    fn ground(&mut self, midnight: DVec2, ahead: f64, widest: f64) -> Option<GroundFrame> {
-        let part = (widest / GROUND_PIXELS - 1.0).min(1.0);
+    fn ground(&mut self, midnight: DVec2, ahead: f64, pixels: f64) -> Option<GroundFrame> {
+        let part = (pixels / GROUND_PIXELS - 1.0).min(1.0);
         let motion = self.motion.as_ref().filter(|_| part > 0.0)?;
         let ground = self.ground.get_or_insert_with(|| Ground::new(&self.plan.curves, motion, self.falls.glow.clone()));
         // As the lines' colours are made, at rest: the shift of what is lit is that of the surface.

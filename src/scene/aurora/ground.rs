@@ -8,11 +8,16 @@ use glam::DVec2;
 use super::curve::Curve;
 use super::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 
-/// Side of a texel, km. Sources are laid out cloud in cell and the map is read straight between texels: that blurs by a variance of a third of a texel's square, of
-/// which a long straight curtain 110 km up loses 30²/(3 · 110²) = 2.5 % beneath it.
-const TEXEL: f64 = 30.0;
-/// Most texels along a side: an oval's map has 240.
-const MOST: usize = 320;
+/// Side of a texel, km. Sources are laid out cloud in cell and the map is read straight between texels: that blurs by a variance of up to half
+/// a texel's square, of which a long straight curtain 110 km up loses up to 25²/(2 · 110²) = 2.6 % beneath it.
+const TEXEL: f64 = 25.0;
+/// Most texels along a side: an oval's map has 290.
+const MOST: usize = 400;
+/// What is lit from farther than the first of these (km) goes over to a map of coarser texels, and from the second on it is in that alone: where light changes slowly,
+/// of the thousands of fine texels that a source has within its horizon a tenth does.
+const NEAR: [f64; 2] = [90.0, 360.0];
+/// Fine texels along the side of a coarse one.
+const COARSE: usize = 3;
 
 /// The brightness of a level white ground over that of a source, a part of a thin sheet, times the area of that part in km², which is `height` km above a place `distance` km away in
 /// the plane across the field. The sheet shines as much to all sides: where it is seen along its normal with brightness L, dA of it has the intensity L dA, so that
@@ -29,15 +34,17 @@ pub fn horizon(height: f64) -> f64 {
     (PLANET_RADIUS / (PLANET_RADIUS + height)).acos() * (PLANET_RADIUS + REFERENCE_HEIGHT)
 }
 
-/// A square of the plane across the field, and what a source lights about it.
+/// The part of what a source lights so far away (km) that is in the fine map.
+fn near(distance: f64) -> f64 {
+    let x = ((distance - NEAR[0]) / (NEAR[1] - NEAR[0])).clamp(0.0, 1.0);
+    1.0 - x * x * (3.0 - 2.0 * x)
+}
+
+/// A square of the plane across the field: a fine map of what sources light near them, and a coarse one of the rest.
 #[derive(Clone, Debug)]
 pub struct GroundMap {
-    /// The middle of the first texel, km.
-    first: DVec2,
-    /// Texels along a side.
-    size: usize,
-    /// What the texels about a source in the middle of one have: rows from the one that many texels before it on.
-    spread: Vec<Vec<f32>>,
+    fine: Level,
+    coarse: Level,
 }
 
 impl GroundMap {
@@ -47,29 +54,68 @@ impl GroundMap {
         let (low, high) = (places().fold(DVec2::INFINITY, DVec2::min), places().fold(DVec2::NEG_INFINITY, DVec2::max));
         let reach = horizon(height);
         let side = (high - low).max_element() + 2.0 * reach;
-        let size = if side.is_finite() { ((side / TEXEL).ceil() as usize + 1).min(MOST) } else { 1 };
-        let middle = if side.is_finite() { 0.5 * (low + high) } else { DVec2::ZERO };
-        let most = (reach / TEXEL) as i32;
-        // Rows are as long as the circle of the horizon is there.
-        let row = |y: i32| {
-            let half = (f64::from(most * most - y * y)).sqrt() as i32;
-            (-half..=half).map(|x| lit(f64::from(x).hypot(f64::from(y)) * TEXEL, height) as f32).collect()
-        };
-        GroundMap { first: middle - 0.5 * TEXEL * (size - 1) as f64, size, spread: (-most..=most).map(row).collect() }
+        let (size, middle) =
+            if side.is_finite() { (((side / TEXEL).ceil() as usize + 1).min(MOST), 0.5 * (low + high)) } else { (1, DVec2::ZERO) };
+        let first = middle - 0.5 * TEXEL * (size - 1) as f64;
+        GroundMap {
+            fine: Level::new(first, TEXEL, size, NEAR[1].min(reach), |distance| near(distance) * lit(distance, height)),
+            coarse: Level::new(first, TEXEL * COARSE as f64, (size - 1) / COARSE + 2, reach, |distance| {
+                (1.0 - near(distance)) * lit(distance, height)
+            }),
+        }
     }
 
     /// Texels along a side.
     pub fn size(&self) -> usize {
-        self.size
+        self.fine.size
     }
 
     /// The corner of the map, before its first texel, and its side, km in the plane across the field.
     pub fn square(&self) -> (DVec2, f64) {
-        (self.first - 0.5 * TEXEL, TEXEL * self.size as f64)
+        (self.fine.first - 0.5 * TEXEL, TEXEL * self.fine.size as f64)
     }
 
     /// How bright a white ground is, row by row, where sources are at these places (km): their brightness times their area in km².
-    pub fn of(&self, sources: impl Iterator<Item = (DVec2, f64)>) -> Vec<f32> {
+    pub fn of(&self, sources: impl Iterator<Item = (DVec2, f64)> + Clone) -> Vec<f32> {
+        let (mut map, far, coarse) = (self.fine.of(sources.clone()), self.coarse.of(sources), self.coarse.size);
+        for (y, row) in map.chunks_exact_mut(self.fine.size).enumerate() {
+            let t = (y % COARSE) as f32 / COARSE as f32;
+            let rows = &far[y / COARSE * coarse..][..2 * coarse];
+            let between: Vec<f32> = rows[..coarse].iter().zip(&rows[coarse..]).map(|(a, b)| a + t * (b - a)).collect();
+            for (x, texel) in row.iter_mut().enumerate() {
+                let [a, b] = [0, 1].map(|next| between[x / COARSE + next]);
+                *texel += a + (x % COARSE) as f32 / COARSE as f32 * (b - a);
+            }
+        }
+        map
+    }
+}
+
+/// Texels of one size, and what a source lights about it.
+#[derive(Clone, Debug)]
+struct Level {
+    /// The middle of the first texel, km, and the side of one.
+    first: DVec2,
+    texel: f64,
+    /// Texels along a side.
+    size: usize,
+    /// What the texels about a source in the middle of one have: rows from the one that many texels before it on, each as long as a circle is wide there.
+    spread: Vec<Vec<f32>>,
+}
+
+impl Level {
+    /// Sources light so far (km), by their distance as `light` says.
+    fn new(first: DVec2, texel: f64, size: usize, reach: f64, light: impl Fn(f64) -> f64) -> Level {
+        let most = (reach / texel) as i32;
+        let row = |y: i32| {
+            let half = f64::from(most * most - y * y).sqrt() as i32;
+            (-half..=half).map(|x| light(f64::from(x).hypot(f64::from(y)) * texel) as f32).collect()
+        };
+        Level { first, texel, size, spread: (-most..=most).map(row).collect() }
+    }
+
+    /// Its part of how bright a white ground is, row by row.
+    fn of(&self, sources: impl Iterator<Item = (DVec2, f64)>) -> Vec<f32> {
         let laid = self.lay_out(sources);
         let mut map = vec![0.0; self.size * self.size];
         let reach = self.spread.len() / 2;
@@ -93,7 +139,7 @@ impl GroundMap {
     fn lay_out(&self, sources: impl Iterator<Item = (DVec2, f64)>) -> Vec<f32> {
         let mut laid = vec![0.0; self.size * self.size];
         for (place, light) in sources {
-            let p = (place - self.first) / TEXEL;
+            let p = (place - self.first) / self.texel;
             let last = (self.size - 1) as f64;
             if !(light.is_finite() && p.min_element() >= 0.0 && p.max_element() < last) {
                 continue;
