@@ -22,9 +22,9 @@ pub struct Tasks<'a> {
 }
 
 impl<'a> Tasks<'a> {
-    /// For so many threads, at least one.
+    /// For so many threads, at least one. Whatever their number, tasks are the same: points are joined within a task, and else the picture would be another.
     pub fn new(streaks: &'a [Streak], threads: usize) -> Self {
-        let share = streaks.len().div_ceil(TASK).div_ceil(threads.max(1)).max(1) * TASK + 7;
+        let share = streaks.len().div_ceil(TASK).div_ceil(threads.max(1)).max(1) * TASK;
         let parts: Vec<&[Streak]> = streaks.chunks(share).collect();
         let count = parts.iter().map(|part| part.len().div_ceil(TASK)).sum();
         Tasks { next: parts.iter().map(|_| AtomicUsize::new(0)).collect(), parts, done: AtomicUsize::new(0), count }
@@ -104,6 +104,9 @@ mod tests {
         for (threads, count) in [(1, 1000), (2, 1000), (3, 65), (5, 200), (16, 1000), (2, 0), (4, 1)] {
             let tasks = Tasks::new(&streaks[..count], threads);
             assert_eq!(tasks.is_empty(), count == 0);
+            let own = tasks.parts.iter().flat_map(|part| part.chunks(TASK).map(|some| some.iter().map(|streak| streak.id)));
+            let one = streaks[..count].chunks(TASK).map(|some| some.iter().map(|streak| streak.id));
+            assert!(own.map(Vec::from_iter).eq(one.map(Vec::from_iter)), "{threads} threads have other tasks than one");
             let mut takers: Vec<Taker> = (0..threads).map(|thread| tasks.taker(thread)).collect();
             let mut taken: Vec<u32> = Vec::new();
             // The last thread takes one task for two of the one before, and so on; the first comes when all others have done.
