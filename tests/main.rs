@@ -8,6 +8,7 @@ mod lensing_stability;
 mod lensing_tables;
 mod light_against_judge;
 mod measure_aurora;
+mod measure_aurora_pyramid;
 mod measure_charts;
 mod measure_compare;
 mod measure_displacement;
