@@ -146,8 +146,19 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     assert_eq!(green(&mut renderer, &frame), dark);
     assert!(lit.iter().sum::<f64>() > 1.5 * dark.iter().sum::<f64>());
 
-    // Where the planet is small on the screen no map is made, though its curtains still show.
+    // Arcs are in the north alone: about the south pole of the magnetic axis the map's middle is in no direction, and in all.
     config.aurora.enabled = true;
+    for height in [60.0, 300.0] {
+        let scene = scene_above("arcs", -1.5707, height);
+        let stage = Stage::of(&mut renderer, &scene, scene.assemble(&config), &config, Some(white));
+        let mut frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
+        let south = green(&mut renderer, &frame);
+        frame.aurora.as_mut().and_then(|aurora| aurora.ground.take()).expect("the planet is wide enough");
+        let off = south.iter().zip(green(&mut renderer, &frame)).filter(|(a, b)| **a != *b).count();
+        assert_eq!(off, 0, "pixels lit from {height} km");
+    }
+
+    // Where the planet is small on the screen no map is made, though its curtains still show.
     let scene = scene_above("arcs", 1.18, 60_000.0);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));

@@ -7,7 +7,7 @@ struct GroundLight {
     dipole_z: vec4<f32>,
     /// Linear colour of a curtain; w: how far back from the newer map to the older it is.
     colour: vec4<f32>,
-    /// xy: where the pole is on the map, z: a radian of colatitude, both over the map's side; w unused.
+    /// xy: where the pole is on the map, z: a radian of colatitude, w: half a texel, all over the map's side.
     map: vec4<f32>,
     /// x: object id of the planet, 0 for none; y: whether the south has an aurora as well.
     planet: vec4<u32>,
@@ -17,22 +17,24 @@ struct GroundLight {
 /// How bright a white ground is over a curtain, by the newest row of its history (x) and the one before (y).
 @group(2) @binding(7) var ground_map: texture_2d<f32>;
 
-/// Where on the map the ground is whose normal is n (rain axes); off it for all but the planet with an aurora.
-fn ground_place(placement: Placement, n: vec3<f32>) -> vec2<f32> {
+/// Where on the map the ground is whose normal is n (rain axes); z: greater than nothing on a side that has an aurora, less for all but the planet. Around the pole
+/// opposite to the map's middle places lie in all directions, and what is between three of them may be anywhere: there z is less than nothing.
+fn ground_place(placement: Placement, n: vec3<f32>) -> vec3<f32> {
     let body = vec3<f32>(dot(placement.turn_x.xyz, n), dot(placement.turn_y.xyz, n), dot(placement.turn_z.xyz, n));
     let from_dipole = ground.dipole_x.xyz * body.x + ground.dipole_y.xyz * body.y + ground.dipole_z.xyz * body.z;
     let up = select(from_dipole.z, abs(from_dipole.z), ground.planet.y != 0u);
     let out = length(from_dipole.xy);
     let place = ground.map.xy + from_dipole.xy * (atan2(out, up) / max(out, 1e-6) * ground.map.z);
-    return select(vec2<f32>(-1.0), place, placement.ids.y == ground.planet.x);
+    return select(vec3<f32>(-1.0), vec3<f32>(place, up), placement.ids.y == ground.planet.x);
 }
 
 /// The light of the aurora on the ground at a place of the map, as `irradiance` has it.
-fn aurora_light(place: vec2<f32>) -> vec3<f32> {
-    // Most of what is drawn is off the map, and reads nothing.
-    if any(place <= vec2<f32>(0.0)) || any(place >= vec2<f32>(1.0)) {
+fn aurora_light(place: vec3<f32>) -> vec3<f32> {
+    // Most of what is drawn is off the map, and reads nothing. The sampler, which is for surfaces, goes on at the other edge beyond the last texel's middle.
+    let half = ground.map.w;
+    if place.z <= 0.0 || any(place.xy <= vec2<f32>(half)) || any(place.xy >= vec2<f32>(1.0 - half)) {
         return vec3<f32>(0.0);
     }
-    let rows = textureSampleLevel(ground_map, surface_sampler, place, 0.0).xy;
+    let rows = textureSampleLevel(ground_map, surface_sampler, place.xy, 0.0).xy;
     return ground.colour.rgb * mix(rows.x, rows.y, ground.colour.w);
 }

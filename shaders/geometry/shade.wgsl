@@ -32,8 +32,8 @@ struct Surface {
     @location(9) @interpolate(flat) base: vec4<f32>,
     /// Emitted light; w: roughness.
     @location(10) @interpolate(flat) emissive: vec4<f32>,
-    /// Place on the map of the aurora's light.
-    @location(11) ground: vec2<f32>,
+    /// `ground_place`.
+    @location(11) ground: vec3<f32>,
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {

@@ -44,7 +44,8 @@ pub struct Glow {
     xyz: [f64; 3],
     /// By row of the tables, luminance over that where the flux is the mean.
     luminance: [f64; ROWS],
-    /// Height that has as much of the green, blue and crimson light above as below it where the flux is the mean, km; red, higher and a hundredth of the luminance, is taken with them.
+    /// Height that has as much of the green, blue and crimson light above as below it where the flux is the mean, km. Red, which is higher, is taken with them: at the
+    /// default energy it is a hundredth of the luminance, of the softest electrons most of it.
     pub height: f64,
 }
 
@@ -89,6 +90,25 @@ fn row_of(flux: f64) -> f64 {
     row.min((ROWS - 1) as f64 - 1e-9)
 }
 
+/// How far midnight may turn before a row's map is made anew, as a part of the whole brightness that it adds: some three degrees.
+const TURNED: f64 = 0.03;
+
+/// A row's map.
+#[derive(Clone, Debug)]
+struct Kept {
+    row: Row,
+    /// Midnight as it was then.
+    midnight: DVec2,
+    light: Arc<Vec<f32>>,
+}
+
+impl Kept {
+    /// Whether it is still the map of `row`.
+    fn serves(&self, row: &Row, midnight: DVec2) -> bool {
+        Arc::ptr_eq(&self.row, row) && self.midnight.distance(midnight) < TURNED
+    }
+}
+
 /// The maps of a planet's curtains.
 #[derive(Clone, Debug)]
 pub struct Ground {
@@ -97,7 +117,7 @@ pub struct Ground {
     /// Of each node of a row the area (km²) of the curtain that it stands for.
     areas: Vec<f64>,
     /// Maps of the newest row and the one before, and both as texels.
-    kept: [Option<(Row, Arc<Vec<f32>>)>; 2],
+    kept: [Option<Kept>; 2],
     texels: Arc<Vec<[u16; 2]>>,
 }
 
@@ -110,22 +130,20 @@ impl Ground {
     /// The light of the two newest rows; `midnight` points to magnetic midnight, as long as an oval is brighter there. What was made of a row before is kept.
     fn follow(&mut self, rows: &Rows, midnight: DVec2) {
         let wanted = [0, 1].map(|ago| rows.row(ago));
-        let same = |kept: &Option<(Row, _)>, row: Option<&Row>| matches!((kept, row), (Some(kept), Some(row)) if Arc::ptr_eq(&kept.0, row));
-        if self.kept.iter().zip(wanted).all(|(kept, row)| same(kept, row)) {
+        let [Some(newest), Some(before)] = wanted else { return };
+        let serves = |kept: &Option<Kept>, row: &Row| kept.as_ref().is_some_and(|kept| kept.serves(row, midnight));
+        if serves(&self.kept[0], newest) && serves(&self.kept[1], before) {
             return;
         }
-        let before = self.kept.clone();
-        for (k, row) in wanted.into_iter().enumerate() {
-            let Some(row) = row else { return };
-            let made = before.iter().chain(&self.kept[..k]).find(|kept| same(kept, Some(row)));
-            self.kept[k] = match made {
-                Some(made) => made.clone(),
-                None => Some((row.clone(), Arc::new(self.light(row, midnight)))),
-            };
+        let old = self.kept.clone();
+        for (k, row) in [newest, before].into_iter().enumerate() {
+            let made = old.iter().chain(&self.kept[..k]).flatten().find(|kept| kept.serves(row, midnight)).cloned();
+            let make = || Kept { row: row.clone(), midnight, light: Arc::new(self.light(row, midnight)) };
+            self.kept[k] = Some(made.unwrap_or_else(make));
         }
-        if let [Some((_, newer)), Some((_, older))] = &self.kept {
-            self.texels =
-                Arc::new(newer.iter().zip(older.iter()).map(|(a, b)| [a, b].map(|light| f16::from_f32(*light).to_bits())).collect());
+        if let [Some(newest), Some(before)] = &self.kept {
+            let both = newest.light.iter().zip(before.light.iter());
+            self.texels = Arc::new(both.map(|(a, b)| [a, b].map(|light| f16::from_f32(*light).to_bits())).collect());
         }
     }
 
@@ -150,7 +168,7 @@ impl Ground {
             light: GroundLight {
                 dipole: turn.to_cols_array_2d().map(|[x, y, z]| [x, y, z, 0.0]),
                 colour: [red, green, blue, ahead.clamp(0.0, 1.0) as f32],
-                map: [x, y, ((PLANET_RADIUS + REFERENCE_HEIGHT) / side) as f32, 0.0],
+                map: [x, y, ((PLANET_RADIUS + REFERENCE_HEIGHT) / side) as f32, 0.5 / self.map.size() as f32],
                 planet: [0, u32::from(both), 0, 0],
             },
             size: self.map.size() as u32,

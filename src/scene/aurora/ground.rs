@@ -13,15 +13,15 @@ use super::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 const TEXEL: f64 = 25.0;
 /// Most texels along a side: an oval's map has 290.
 const MOST: usize = 400;
-/// What is lit from farther than the first of these (km) goes over to a map of coarser texels, and from the second on it is in that alone: where light changes slowly,
-/// of the thousands of fine texels that a source has within its horizon a tenth does.
+/// What is lit from farther than the first of these (km) goes over to a map of coarser texels, and from the second on it is in that alone: light changes slowly there, and a
+/// source has thousands of fine texels within its horizon, nine times as many as coarse ones.
 const NEAR: [f64; 2] = [90.0, 360.0];
 /// Fine texels along the side of a coarse one.
 const COARSE: usize = 3;
 
-/// The brightness of a level white ground over that of a source, a part of a thin sheet, times the area of that part in km², which is `height` km above a place `distance` km away in
-/// the plane across the field. The sheet shines as much to all sides: where it is seen along its normal with brightness L, dA of it has the intensity L dA, so that
-/// E = L dA h/r³, and a white ground is as bright as E/π. The ground is round: below the horizon there is nothing.
+/// How bright level white ground is by a square kilometre of a thin level sheet of brightness 1, km⁻². That part of the sheet is `height` km above the ground, and stands over a place that is
+/// `distance` km away in the plane across the field. A sheet shines as much to all sides: where it is seen along its normal with brightness L, the area A has the intensity L A. At r km from it,
+/// h km below it, the irradiance is E = L A h/r³, and white ground is as bright as E/π. The ground is round: below the horizon there is nothing.
 pub fn lit(distance: f64, height: f64) -> f64 {
     let (sine, cosine) = (distance / (PLANET_RADIUS + REFERENCE_HEIGHT)).sin_cos();
     // From the place on the ground to the source: along the ground and up.
