@@ -149,7 +149,7 @@ fn without_an_aurora_the_ground_is_as_it_was() {
     // Arcs are in the north alone: about the south pole of the magnetic axis the map's middle is in no direction, and in all.
     config.aurora.enabled = true;
     for height in [60.0, 300.0] {
-        let scene = scene_above("arcs", -1.5707, height);
+        let scene = scene_above("arcs", 1e-4 - std::f64::consts::FRAC_PI_2, height);
         let stage = Stage::of(&mut renderer, &scene, scene.assemble(&config), &config, Some(white));
         let mut frame = stage.frame(stage.camera(0.0, &[]), SIZE, 0.0, &[], None, &settings(&config));
         let south = green(&mut renderer, &frame);
