@@ -183,6 +183,7 @@ pub struct Timed {
 
 /// Error allowed to chords through bent light, pixels.
 pub const TOLERANCE: f32 = 0.25;
+
 /// A picture in the making.
 #[allow(clippy::large_enum_variant, reason = "there is one for each thread")]
 enum Canvas {
