@@ -57,6 +57,15 @@ impl Node {
         let force = rate(state, DVec3::ZERO, DVec3::ZERO).momentum;
         Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force }
     }
+
+    /// Held in place from here backwards.
+    fn held(time: f64, state: &ShipState) -> Self {
+        Node { time, state: *state, velocity: DVec3::ZERO, force_before: DVec3::ZERO, force_after: DVec3::ZERO }
+    }
+
+    fn is_held(&self) -> bool {
+        self.velocity == DVec3::ZERO && is_frozen(&self.state)
+    }
 }
 
 /// Bounds on how a ship moves over a while, in r_s, c and radians.
@@ -165,10 +174,14 @@ impl History {
     /// Integrates the past back to T = `time` (or to where it freezes), so that [`History::at`] is quick from there on.
     pub fn reach_back(&mut self, time: f64) {
         let mut oldest = *self.oldest();
-        while oldest.time > time && !is_frozen(&oldest.state) {
+        while oldest.time > time && !oldest.is_held() {
             let h = past_step(&oldest.state);
-            let state = runge_kutta(&oldest.state, -h, DVec3::ZERO, DVec3::ZERO);
-            oldest = Node::coasting(oldest.time - h, &state);
+            oldest = if is_frozen(&oldest.state) {
+                // It comes to rest within a step: what holds between nodes holds here too.
+                Node::held(oldest.time - h, &oldest.state)
+            } else {
+                Node::coasting(oldest.time - h, &runge_kutta(&oldest.state, -h, DVec3::ZERO, DVec3::ZERO))
+            };
             self.past.push(oldest);
         }
     }
@@ -227,9 +240,21 @@ impl History {
         Some((within[most + 1].time, *jump - 0.5 * (beside[0] + beside[1])))
     }
 
-    /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them.
+    /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is held in place.
     pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
-        if from < self.oldest().time || to > self.last().time {
+        let oldest = self.oldest();
+        if from < oldest.time && oldest.is_held() {
+            let p = oldest.state.momentum.length();
+            let held = Bounds { momentum: [p, p], ..Bounds::default() };
+            if to <= oldest.time {
+                return Some(held);
+            }
+            // Place, momentum and their rates go over into rest without a jump, and in the last step it does not turn.
+            let mut bounds = self.bounds(oldest.time, to)?;
+            bounds.momentum = [bounds.momentum[0].min(p), bounds.momentum[1].max(p)];
+            return Some(bounds);
+        }
+        if from < oldest.time || to > self.last().time {
             return None;
         }
         // From the last node not after `from` to the first not before `to`; those of the past run backwards.

@@ -13,10 +13,12 @@ use super::roots::{Bend, roots};
 use super::span::Scope;
 use super::sweep::{fastest, fastest_since, is_short};
 use super::tree::Chord;
-use super::world::{Flying, Motion, World, Worldline};
+use super::world::{Flying, Motion, Pose, World, Worldline};
 use crate::reference::geodesic::{Segment, State, root};
 use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius, unwrap};
 use crate::reference::trace::Hit;
+use crate::spacetime::matter::gamma;
+use crate::spacetime::metric::river_speed;
 
 /// What is seen in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,6 +111,8 @@ impl Met {
 const BENT: f64 = 0.05;
 /// unless body and light come closer by less than this part of it meanwhile.
 const SHORT: f64 = 1.0 / 128.0;
+/// Where light and body together move by less than this part of the bound on their speeds, they creep.
+const CREEPING: f64 = 0.25;
 
 /// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
 const SLACK: f64 = 1e-11;
@@ -136,8 +140,8 @@ impl World<'_> {
                 None => Seen::Sky { direction, swept, energy: 1.0 },
             };
         }
-        let mut follower =
-            Follower::new(position.length(), in_plane, tolerance, Stop { radius, clings_until: scope.clings_until, ..Stop::default() });
+        let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
+        let mut follower = Follower::new(position.length(), in_plane, tolerance, stop);
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
             if let Some(hit) = self.meet(&segment, axes, swept, &near, &scope, cross) {
@@ -235,25 +239,47 @@ impl World<'_> {
         let half = 0.5 * (piece.to - piece.from);
         let middle = piece.from + half;
         let light = piece.segment.at(middle).position;
-        let centre = line.at(self.time - piece.segment.start - middle).position;
+        let pose = line.at(self.time - piece.segment.start - middle);
+        let centre = pose.position;
         // Neither light nor body, followed backwards, comes nearer to the hole than it is at the late end of the piece, or than r = 1.
         let speed = |r: f64, late: &dyn Fn() -> f64| if is_short(half, r) { fastest(r) } else { fastest_since(late()) };
         let light_speed = if self.hole { speed(light.length(), &|| piece.segment.position(piece.from).length()) } else { 1.0 };
         let body_speed = speed(centre.length(), &|| line.at(self.time - piece.segment.start - piece.from).position.length());
-        let straying = half * (light_speed + body_speed);
+        let most = half * (light_speed + body_speed);
         let apart = piece.embed(light).distance(centre);
         // A length is never longer on the slice than at rest.
-        if apart > flying.reach + straying {
+        if apart > flying.reach + most {
             return;
         }
         let can_halve = half > 1e-9 * (1.0 + piece.segment.start);
-        // Bounds on the motion are asked for late: most pieces are long, and are halved or let go without them.
+        let late = self.time - piece.segment.start;
+        let ask = || line.sway(late - piece.to, late - piece.from);
+        // Next to the horizon light and body creep, far below those bounds: there they are asked how they move.
+        let (mut straying, mut light_speed, mut sway) = (most, light_speed, None);
+        let light_rate = piece.segment.velocity(middle).length();
+        if can_halve && most > 0.5 * flying.reach && light_rate + drift(&pose) < CREEPING * (light_speed + body_speed) {
+            sway = ask().filter(|sway| sway.velocity.is_finite());
+            if let Some(sway) = &sway {
+                light_speed = light_speed.min(light_rate + half * piece.bend);
+                straying = half * (light_speed + body_speed.min(sway.velocity));
+                if apart > flying.reach + straying {
+                    return;
+                }
+            }
+        }
         let is_long = can_halve && straying > 0.5 * flying.reach;
-        let bend = (!is_long)
-            .then(|| line.sway(self.time - piece.segment.start - piece.to, self.time - piece.segment.start - piece.from))
-            .flatten()
-            .map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
-        let bends = bend.is_some_and(|bend| bend.sagitta(2.0 * half) > BENT * flying.reach) && straying > SHORT * flying.reach;
+        // Bounds on the motion are asked for late: most pieces are long, and are halved or let go without them.
+        let bend = (!is_long).then(|| sway.or_else(ask)).flatten().map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
+        let sagitta = bend.map_or(0.0, |bend| bend.sagitta(2.0 * half));
+        let bends = sagitta > BENT * flying.reach && most > SHORT * flying.reach;
+        if bends && can_halve {
+            // The bend grows with γ, and so does how far light is in the body's axes that is beside it.
+            let ends = [piece.from, piece.to].map(|elapsed| line.at(late - elapsed).to_body(piece.place(elapsed)));
+            let rounding = self.rounding(piece, middle) * gamma(pose.momentum) + 1e-9 * flying.reach;
+            if from_origin(ends) > flying.reach + sagitta + rounding {
+                return;
+            }
+        }
         if is_long || bends && can_halve {
             let first = Piece { to: middle, ..*piece };
             self.meet_flying(&first, flying, line, met);
@@ -319,6 +345,19 @@ impl World<'_> {
             ((elapsed - piece.from) / span).min(until)
         });
     }
+}
+
+/// |dx/dT| of a body, in c.
+fn drift(pose: &Pose) -> f64 {
+    let r = pose.position.length();
+    (pose.momentum / gamma(pose.momentum) - pose.position * (river_speed(r) / r)).length()
+}
+
+/// How far the line from `from` to `to` stays from the origin.
+fn from_origin([from, to]: [DVec3; 2]) -> f64 {
+    let chord = to - from;
+    let part = (-from.dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
+    if part.is_nan() { from.length() } else { (from + chord * part).length() }
 }
 
 /// What is seen by a ray that has met nothing.

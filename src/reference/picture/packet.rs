@@ -62,7 +62,7 @@ impl World<'_> {
         }
         let scope = self.scope(position.length());
         let radius = scope.radius.max(sky_radius(position.length()));
-        let stop = Stop { radius, clings_until: scope.clings_until, ..Stop::default() };
+        let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
         let walk = |&look: &DVec3| {
             let (axes, in_plane) = orbit_plane(position, look);
             let follower = Follower::new(position.length(), in_plane, tolerance, stop);

@@ -3,16 +3,19 @@
 use std::sync::Arc;
 
 use super::sweep::fastest_since;
-use super::world::{Motion, World, Worldline};
+use super::world::{Motion, Pose, World, Worldline};
+use crate::spacetime::matter::gamma;
 
 /// Light winds at the photon sphere for this long at most (r_s/c): a deviation grows by e in (3√3/2) r_s/c, and 10¹⁶ is e^36.8.
 const WINDING: f64 = 100.0;
 /// Light that clings to the horizon is followed for this long (r_s/c): its frequency has then fallen by e^−100, below the least number in f32.
-const CLINGING: f64 = 200.0;
+pub(super) const CLINGING: f64 = 200.0;
 /// Older light is not looked for (r_s/c): a ship that comes straight at the camera with 1 − v below about 10⁻⁴ is not seen where it was before.
 const OLDEST: f64 = 1e5;
 /// A step of the walk, as a part of the radius or of the body's reach, whichever is more.
 const STEP: f64 = 0.25;
+/// How close to r = 1 (r_s) light that clings is followed: the gap is taken with which it is left soonest. Each costs it 4.6 r_s/c more than the one before.
+const GAPS: [f64; 5] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
 /// What light to a camera at one radius may meet.
 #[derive(Clone, Debug)]
@@ -21,8 +24,12 @@ pub(super) struct Scope {
     camera: f64,
     /// Light on its way out beyond this radius (r_s) meets nothing any more.
     pub radius: f64,
-    /// Light that clings to the horizon may meet something until this delay (r_s/c).
+    /// Light that clings to the horizon may meet something until this delay (r_s/c),
     pub clings_until: f64,
+    /// or while it is farther than this from r = 1 (r_s).
+    pub gap: f64,
+    /// For each of [`GAPS`] the delay (r_s/c) after which no body comes so close to r = 1.
+    lingers: [f64; GAPS.len()],
     /// For each flying body the delays between which it may be met, in r_s/c.
     spans: Vec<[f64; 2]>,
 }
@@ -35,17 +42,20 @@ impl Scope {
     }
 
     fn add(&mut self, world: &World, line: &dyn Worldline, reach: f64) {
-        let at = |delay: f64| line.at(world.time - delay).position.length();
+        let pose = |delay: f64| line.at(world.time - delay);
+        let at = |delay: f64| pose(delay).position.length();
         // Light to the camera, followed backwards, comes no nearer to the hole than this; nor does a body that is inside ever come out.
         let floor = if world.hole { self.camera.min(1.0) } else { 0.0 };
         let newest = last_below(|delay| at(delay) + reach < floor);
         let mut delay = newest;
-        let mut r = at(delay);
+        let mut here = pose(delay);
+        let mut r = here.position.length();
         while delay < OLDEST {
             if !r.is_finite() {
                 // Where nothing is known here, more may be known a moment earlier.
                 delay += 1.0 / 64.0;
-                r = at(delay);
+                here = pose(delay);
+                r = here.position.length();
                 continue;
             }
             let clings = world.hole && r <= 2.0 + 2.0 * reach && delay < self.inwards() + CLINGING;
@@ -54,19 +64,36 @@ impl Scope {
             }
             let strays = STEP * r.max(reach);
             // At r = 0, where nothing real is, the bound has no end.
+            let newer = delay;
             delay += (strays / fastest_since(r)).max(1e-4);
-            let before = std::mem::replace(&mut r, at(delay));
+            let last = std::mem::replace(&mut here, pose(delay));
+            let before = std::mem::replace(&mut r, here.position.length());
             // Between the two it may be nearer and farther by half of what it strays at most.
-            let [near, far] = [before.min(r) - 0.5 * strays - reach, before.max(r) + 0.5 * strays + reach];
+            let far = before.max(r) + 0.5 * strays + reach;
             // Light gains on everything: what it has not reached by now it had not before.
             if r - reach <= farthest(self.camera, delay) {
                 self.radius = self.radius.max(far);
             }
-            if clings && near <= 1.0 {
-                self.clings_until = self.clings_until.max(delay);
+            if clings {
+                let room = room(world.time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
+                    let strays = 0.5 * strays + reach;
+                    (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays)
+                });
+                for (lingers, gap) in self.lingers.iter_mut().zip(GAPS) {
+                    if !(room > gap) {
+                        *lingers = delay;
+                    }
+                }
             }
         }
         self.spans.push([newest, delay]);
+    }
+
+    /// Takes the gap with which light that clings is left soonest.
+    fn settle(&mut self) {
+        let left = |k: &usize| self.lingers[*k].max(self.inwards() - 2.0 * GAPS[*k].ln());
+        let best = (0..GAPS.len()).min_by(|a, b| left(a).total_cmp(&left(b))).unwrap_or(0);
+        (self.clings_until, self.gap) = (self.lingers[best], GAPS[best]);
     }
 
     /// Whether no light is as old as this (r_s/c) and still within `far` (r_s), but what clings to the horizon. Nothing overtakes light, so that
@@ -84,6 +111,27 @@ impl Scope {
         let root = self.camera.sqrt();
         self.camera + 2.0 * root + 2.0 * root.ln_1p()
     }
+}
+
+/// How far from r = 1 a body stays between two delays (r_s/c) a step apart, at which it is at these places; below 0 where it may lie across it. None where it
+/// does not know how it moves. What hugs the horizon is contracted across it: followed backwards it comes as close to it as light that clings, and no closer.
+fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<f64> {
+    let span = older.0 - newer.0;
+    let sway = line.sway(time - older.0, time - newer.0)?;
+    let moves = 0.5 * sway.velocity * span;
+    let extent = |pose: &Pose| {
+        // Of y in body axes the place is B⁻¹ y from the centre, and |B⁻¹ n|² = 1 − (n·p)²/γ² = (1 + |p × n|²)/γ².
+        let across = pose.momentum.cross(pose.position.normalize());
+        reach * across.length().hypot(1.0) / gamma(pose.momentum)
+    };
+    let extent = if sway.force * span <= 0.25 * (1.0 + sway.momentum[0]) {
+        // In so short a time neither part of the momentum changes by half of it.
+        reach.min(2.0 * extent(newer.1).max(extent(older.1)))
+    } else {
+        reach
+    };
+    let [r0, r1] = [newer.1, older.1].map(|pose| pose.position.length());
+    Some((r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent)
 }
 
 /// How far out light of this delay (r_s/c) to a camera at radius `camera` is at most, in r_s: dr/dτ ≤ 1 + r^{-1/2}.
@@ -119,12 +167,14 @@ impl World<'_> {
         match &*kept {
             Some(scope) if scope.camera == camera => scope.clone(),
             _ => {
-                let mut scope = Scope { camera, radius: self.held_radius, clings_until: 0.0, spans: Vec::new() };
+                let (lingers, spans) = ([0.0; GAPS.len()], Vec::new());
+                let mut scope = Scope { camera, radius: self.held_radius, clings_until: 0.0, gap: GAPS[0], lingers, spans };
                 for flying in &self.flying {
                     if let Motion::Flying(line) = self.things[flying.thing as usize].motion {
                         scope.add(self, line, flying.reach);
                     }
                 }
+                scope.settle();
                 let scope = Arc::new(scope);
                 *kept = Some(scope.clone());
                 scope

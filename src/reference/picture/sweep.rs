@@ -45,11 +45,17 @@ impl Sweep {
     fn fill(&mut self, index: usize, line: &dyn Worldline, time: f64, [from, to]: [f64; 2], reach: f64) {
         let half = 0.5 * (to - from);
         let centre = line.at(time - from - half).position;
+        let sway = line.sway(time - to, time - from);
         let strays = half * fastest(centre.length());
         let sure = is_short(half, centre.length());
         // Inside the horizon r only falls with T: at the late end it is least.
         let late = if sure { f64::INFINITY } else { line.at(time - from).position.length() };
         let (sure, strays) = if late < 1.0 { (true, half * fastest_since(late)) } else { (sure, strays) };
+        // What the body knows of itself is closer: next to the horizon what came out of it creeps.
+        let (sure, strays) = match sway.map(|sway| half * sway.velocity) {
+            Some(known) if known.is_finite() => (true, if sure { strays.min(known) } else { known }),
+            _ => (sure, strays),
+        };
         if sure && strays <= SHARE * reach || half <= SHORTEST {
             // A length is never longer on the slice than at rest.
             let grow = DVec3::splat(if sure { strays + reach } else { f64::INFINITY });

@@ -1,11 +1,12 @@
 //! What the judge looks at: a scene's things with their models, places and worldlines.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use glam::{DMat3, DQuat, DVec3};
 
 use super::roots::Bend;
-use super::span::Scope;
+use super::span::{CLINGING, Scope};
 use super::sweep::Sweep;
 use super::tree::Tree;
 use crate::scene::lighting::Surroundings;
@@ -132,6 +133,8 @@ pub struct World<'a> {
     pub(super) held_radius: f64,
     /// What light to the latest camera may meet where.
     pub(super) scope: Mutex<Option<Arc<Scope>>>,
+    /// How many rays were given up.
+    pub(super) given_up: AtomicUsize,
 }
 
 /// All triangles that are held in place, together.
@@ -179,14 +182,23 @@ impl<'a> World<'a> {
                     let tree = Tree::new(&vertices, &model.triangles);
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
                     let far = line.at(time).position.length();
-                    let sweep = Sweep::new(line, time, OLDEST + 2.0 * far, reach);
+                    let oldest = OLDEST + 2.0 * far;
+                    // What lingers at the hole may be met by light that clings to the horizon.
+                    let lingers = line.at(time - oldest).position.length() <= 2.0 + 2.0 * reach;
+                    let sweep = Sweep::new(line, time, if lingers { oldest + CLINGING } else { oldest }, reach);
                     flying.push(Flying { thing: index as u32, vertices, tree, reach, sweep });
                 }
             }
         }
         held.tree = Tree::new(&held.vertices, &held.triangles);
         let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None) }
+        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None), given_up: AtomicUsize::new(0) }
+    }
+
+    /// How many rays have been given up since the world was built: they wound at the photon sphere to within rounding, or took more looks at flying bodies than
+    /// one ray is worth. Each counts as one that met nothing where it was left.
+    pub fn given_up(&self) -> usize {
+        self.given_up.load(Ordering::Relaxed)
     }
 }
 
