@@ -100,6 +100,9 @@ struct TraceArgs {
     /// Rays along each side of a packet, 1 to 8: neighbours are followed together until they diverge. The picture is the same.
     #[arg(long, value_name = "N", default_value_t = lensrunner::reference::picture::DEFAULT_PACKET)]
     packet: u32,
+    /// Gives up after so many seconds of tracing, with code 1, and says how far it came; without it there is no limit.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    limit: Option<f64>,
     /// Adds what each pixel shows to an .exr.
     #[arg(long)]
     layers: bool,
@@ -136,6 +139,9 @@ struct CompareArgs {
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
     #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
+    /// Gives up a picture by the judge that is not traced after so many seconds, and says how far it came; without it there is no limit.
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    limit: Option<f64>,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -296,6 +302,7 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         threads: args.threads,
         tolerance: args.tolerance,
         packet: args.packet,
+        limit: args.limit,
     };
     match trace::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
         Ok(rate) => {
@@ -317,6 +324,7 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
         threads: 0,
         tolerance: args.tolerance,
         packet: lensrunner::reference::picture::DEFAULT_PACKET,
+        limit: args.limit,
     };
     let (config, draw) = (args.config.as_deref(), &lensrunner::play::contestant::draw);
     if args.scene == command::ALL && args.table.is_some() {

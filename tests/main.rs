@@ -23,6 +23,7 @@ mod reference_bvh_rays;
 mod reference_bvh_robust;
 mod reference_judge;
 mod reference_oracles;
+mod reference_outwards;
 mod reference_picture;
 mod reference_trace;
 #[cfg(feature = "game")]

@@ -40,6 +40,8 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
         shares: vec![vec![(1, 1, 1.0)]; 25],
         open: vec![0.0; 25],
         dark: vec![false; 25],
+        given_up: 0,
+        missing: 0,
     };
     // The contestant shows the middle of the rod where the judge, a third of a pixel beside it, shows the wall.
     let mut shown: Vec<Shown> =

@@ -7,7 +7,7 @@ use lensrunner::measure::trace::Request;
 use lensrunner::scene;
 
 fn request(at: f64) -> Request {
-    Request { scene: "ring".into(), size: [640, 360], at, samples: 9, threads: 0, tolerance: 1e-12, packet: 8 }
+    Request { scene: "ring".into(), size: [640, 360], at, samples: 9, threads: 0, tolerance: 1e-12, packet: 8, limit: None }
 }
 
 fn verdict(orders: u32) -> Verdict {

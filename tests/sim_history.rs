@@ -65,3 +65,27 @@ fn a_ship_moves_within_its_bounds() {
     assert_eq!(history.bounds(6.2, 6.3), None);
     assert_eq!(history.bounds(-1e3, 0.0), None);
 }
+
+/// Followed backwards what moves outwards comes from r = 1, with a momentum that grows until it is held there: it goes over into rest within its bounds.
+#[test]
+fn what_came_out_of_the_hole_is_held_in_the_end_and_knows_it() {
+    let state = ShipState::new(DVec3::new(3.0, 0.0, 0.0), DVec3::new(1.0, 0.2, 0.0));
+    let mut history = History::new(0.0, &state);
+    history.reach_back(-1e4);
+    let last = history.at(-1e4);
+    assert!((last.position.length() - 1.0).abs() < 1e-5 && last.momentum.length() > 1e6, "{last:?}");
+    let held = history.bounds(-1e3, -500.0).unwrap();
+    assert_eq!((held.velocity, held.force, held.turning, held.momentum), (0.0, 0.0, 0.0, [last.momentum.length(); 2]));
+    for k in 0..200 {
+        let (from, span) = (-60.0 + 0.3 * f64::from(k), 0.25);
+        let bounds = history.bounds(from, from + span).unwrap();
+        let samples: Vec<_> = (0..=100).map(|i| history.at(from + span * f64::from(i) / 100.0)).collect();
+        for pair in samples.windows(2) {
+            let rounding = 1e-15 + 1e-12 * pair[0].momentum.length();
+            assert!(pair[0].position.distance(pair[1].position) <= bounds.velocity * span / 100.0 * (1.0 + 1e-9) + 1e-15, "{from}");
+            assert!(pair[0].momentum.distance(pair[1].momentum) <= bounds.force * span / 100.0 * (1.0 + 1e-9) + rounding, "{from}");
+            let p = pair[0].momentum.length();
+            assert!(p >= bounds.momentum[0] - rounding && p <= bounds.momentum[1] + rounding, "{from}: {p} {bounds:?}");
+        }
+    }
+}

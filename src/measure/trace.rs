@@ -1,7 +1,7 @@
 //! `lensrunner trace`: a scene's picture by the judge, every pixel by a geodesic of its own.
 
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -41,6 +41,20 @@ pub struct Request {
     pub tolerance: f64,
     /// Rays along each side of a packet; 1 for each alone.
     pub packet: u32,
+    /// How long the tracing may take, in seconds; None for as long as it needs.
+    pub limit: Option<f64>,
+}
+
+/// The time for a picture was up before it was finished.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("not finished in {limit} s, the limit: {pixels} of {all} pixels were traced")]
+pub struct OverTime {
+    /// The time that it had, in seconds.
+    pub limit: f64,
+    /// How many pixels were finished.
+    pub pixels: u64,
+    /// How many the picture has.
+    pub all: u64,
 }
 
 /// Why there is no picture.
@@ -58,6 +72,9 @@ pub enum TraceError {
     /// The camera sees nothing then: exit code 2.
     #[error(transparent)]
     Camera(#[from] CameraEnded),
+    /// The picture takes longer than it may: exit code 1.
+    #[error(transparent)]
+    OverTime(#[from] OverTime),
     /// The file's name says nothing known (exit code 2), or it could not be written (exit code 1).
     #[error(transparent)]
     File(#[from] PictureFileError),
@@ -104,6 +121,9 @@ impl Request {
         }
         if self.threads > 1024 {
             return input(format!("--threads {}: must be from 0 (as many as there are cores) to 1024", self.threads));
+        }
+        if self.limit.is_some_and(|limit| !(limit > 0.0 && limit <= 1e9)) {
+            return input(format!("--limit {}: must be from above 0 to 1e9 seconds", self.limit.unwrap_or(0.0)));
         }
         Ok(side)
     }
@@ -239,12 +259,43 @@ impl Case {
         self.trace_with(&ships, quality, with_sky, done)
     }
 
+    /// The same in `limit` seconds at most, if that is given; an error where it is not finished then.
+    pub fn trace_within(
+        &self,
+        quality: &Quality,
+        with_sky: bool,
+        limit: Option<f64>,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Result<Picture, OverTime> {
+        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
+        let deadline = limit.and_then(|limit| Instant::now().checked_add(Duration::try_from_secs_f64(limit).ok()?));
+        let picture = self.trace_until(&ships, quality, with_sky, deadline, done);
+        match limit {
+            Some(limit) if picture.missing > 0 => {
+                let all = picture.light.len() as u64;
+                Err(OverTime { limit, pixels: all - picture.missing, all })
+            }
+            _ => Ok(picture),
+        }
+    }
+
     /// The same with the ships on other worldlines than their own.
     pub fn trace_with<'a>(
         &'a self,
         ships: &[&'a dyn Worldline],
         quality: &Quality,
         with_sky: bool,
+        done: &(dyn Fn(u64) + Sync),
+    ) -> Picture {
+        self.trace_until(ships, quality, with_sky, None, done)
+    }
+
+    fn trace_until<'a>(
+        &'a self,
+        ships: &[&'a dyn Worldline],
+        quality: &Quality,
+        with_sky: bool,
+        deadline: Option<Instant>,
         done: &(dyn Fn(u64) + Sync),
     ) -> Picture {
         let sky = &self.scene.sky;
@@ -260,7 +311,11 @@ impl Case {
             Vec::new()
         };
         let setting = Setting { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
-        picture(&self.world(ships), &setting, &self.camera, quality, done)
+        let mut world = self.world(ships);
+        if let Some(deadline) = deadline {
+            world.stop_at(deadline);
+        }
+        picture(&world, &setting, &self.camera, quality, done)
     }
 
     /// The point of its body that a pixel of a picture shows, in the body's axes and the model's unit; the origin where it shows none.
@@ -359,8 +414,12 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
     }
     let started = Instant::now();
     let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let picture = threads.install(|| case.trace(&quality, true, &|pixels| bar.inc(pixels)));
+    let picture = threads.install(|| case.trace_within(&quality, true, request.limit, &|pixels| bar.inc(pixels)));
     bar.finish_and_clear();
+    let picture = picture?;
+    if let Some(what) = picture.given_up_in_words() {
+        eprintln!("note: {what}");
+    }
     let rate = f64::from(width) * f64::from(height) * f64::from(request.samples)
         / (started.elapsed().as_secs_f64() * threads.current_num_threads() as f64);
     if ending == Some("png") {

@@ -108,8 +108,12 @@ pub fn run(
         bar.set_style(style);
     }
     let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let mut judge = case.trace(&quality, true, &|pixels| bar.inc(pixels));
+    let judge = case.trace_within(&quality, true, request.limit, &|pixels| bar.inc(pixels));
     bar.finish_and_clear();
+    let mut judge = judge.map_err(TraceError::from)?;
+    if let Some(what) = judge.given_up_in_words() {
+        eprintln!("note: {what}");
+    }
     let probe = case.probe(request.tolerance);
     if side < narrow::SIDE {
         narrow::see_again(&mut judge, &frame, &probe);

@@ -114,6 +114,9 @@ const SHORT: f64 = 1.0 / 128.0;
 /// Where light and body together move by less than this part of the bound on their speeds, they creep.
 const CREEPING: f64 = 0.25;
 
+/// More looks at flying bodies than this are not worth one ray: it is given up, and counted. None is known that needs a tenth of it.
+pub(super) const MOST_LOOKS: u32 = 1 << 16;
+
 /// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
 const SLACK: f64 = 1e-11;
 
@@ -130,29 +133,35 @@ impl World<'_> {
         let near = Near::all(self);
         let scope = self.scope(position.length());
         let radius = scope.radius.max(sky_radius(position.length()));
+        let mut looks = MOST_LOOKS;
         if !self.hole {
             let state = State { position: DVec2::new(position.length(), 0.0), momentum: -in_plane };
             let segment = Segment::straight(0.0, state, position.length() + radius);
             let direction = axes[0] * in_plane.x + axes[1] * in_plane.y;
             let swept = in_plane.y.atan2(in_plane.x);
-            return match self.meet(&segment, axes, 0.0, &near, &scope, cross) {
-                Some(hit) => Seen::Hit(hit),
-                None => Seen::Sky { direction, swept, energy: 1.0 },
-            };
+            let hit = self.meet(&segment, axes, 0.0, &near, &scope, cross, &mut looks);
+            self.count_given_up(looks == 0);
+            return hit.map_or(Seen::Sky { direction, swept, energy: 1.0 }, Seen::Hit);
         }
         let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
         let mut follower = Follower::new(position.length(), in_plane, tolerance, stop);
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
-            if let Some(hit) = self.meet(&segment, axes, swept, &near, &scope, cross) {
+            if let Some(hit) = self.meet(&segment, axes, swept, &near, &scope, cross, &mut looks) {
+                self.count_given_up(looks == 0);
                 return Seen::Hit(hit);
             }
             swept = follower.swept;
+            if self.is_late() {
+                return Seen::Captured;
+            }
         }
+        self.count_given_up(looks == 0 || follower.end == Some(End::Steps));
         beyond(&follower, axes)
     }
 
-    /// The first meeting in one step of the ray, which had swept `swept` when it began, with what is `near` it.
+    /// The first meeting in one step of the ray, which had swept `swept` when it began, with what is `near` it. It has so many `looks` at flying bodies left.
+    #[allow(clippy::too_many_arguments)]
     pub(super) fn meet(
         &self,
         segment: &Segment,
@@ -161,6 +170,7 @@ impl World<'_> {
         near: &Near,
         scope: &Scope,
         cross: &mut dyn FnMut(Crossing),
+        looks: &mut u32,
     ) -> Option<Hit> {
         let bend = segment.bend();
         let (mut start, last) = (segment.position(0.0), segment.position(segment.length));
@@ -186,7 +196,7 @@ impl World<'_> {
                 if let Motion::Flying(line) = self.things[flying.thing as usize].motion
                     && flying.sweep.touches(&chord, segment.start + piece.from, segment.start + to)
                 {
-                    self.meet_flying(&piece, flying, line, &mut met);
+                    self.meet_flying(&piece, flying, line, &mut met, looks);
                 }
             }
             if let Some(crossing) = cross_plane(&piece, &ends, met.map(|met| met.elapsed)) {
@@ -232,10 +242,11 @@ impl World<'_> {
     }
 
     /// Nearer and nearer halves of the piece, until body and light are sure to miss each other or are close for a moment only.
-    fn meet_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>) {
-        if met.is_some_and(|met| met.elapsed <= piece.from) {
+    fn meet_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>, looks: &mut u32) {
+        if *looks == 0 || met.is_some_and(|met| met.elapsed <= piece.from) {
             return;
         }
+        *looks -= 1;
         let half = 0.5 * (piece.to - piece.from);
         let middle = piece.from + half;
         let light = piece.segment.at(middle).position;
@@ -256,9 +267,11 @@ impl World<'_> {
         let ask = || line.sway(late - piece.to, late - piece.from);
         // Next to the horizon light and body creep, far below those bounds: there they are asked how they move.
         let (mut straying, mut light_speed, mut sway) = (most, light_speed, None);
-        let light_rate = piece.segment.velocity(middle).length();
-        if can_halve && most > 0.5 * flying.reach && light_rate + drift(&pose) < CREEPING * (light_speed + body_speed) {
-            sway = ask().filter(|sway| sway.velocity.is_finite());
+        if can_halve && most > 0.5 * flying.reach {
+            let light_rate = piece.segment.velocity(middle).length();
+            if light_rate + drift(&pose) < CREEPING * (light_speed + body_speed) {
+                sway = ask().filter(|sway| sway.velocity.is_finite());
+            }
             if let Some(sway) = &sway {
                 light_speed = light_speed.min(light_rate + half * piece.bend);
                 straying = half * (light_speed + body_speed.min(sway.velocity));
@@ -282,9 +295,9 @@ impl World<'_> {
         }
         if is_long || bends && can_halve {
             let first = Piece { to: middle, ..*piece };
-            self.meet_flying(&first, flying, line, met);
+            self.meet_flying(&first, flying, line, met, looks);
             if met.is_none_or(|met| met.elapsed > middle) {
-                self.meet_flying(&Piece { from: middle, ..*piece }, flying, line, met);
+                self.meet_flying(&Piece { from: middle, ..*piece }, flying, line, met, looks);
             }
             return;
         }

@@ -100,6 +100,19 @@ pub struct Picture {
     pub open: Vec<f32>,
     /// Whether every sample of a pixel shows the shadow.
     pub dark: Vec<bool>,
+    /// How many rays were given up: see [`World::given_up`].
+    pub given_up: usize,
+    /// How many pixels are missing, black, since the world's deadline passed before: see [`World::stop_at`].
+    pub missing: u64,
+}
+
+impl Picture {
+    /// What was given up, in words; None if that is nothing.
+    pub fn given_up_in_words(&self) -> Option<String> {
+        let rays = if self.given_up == 1 { "1 ray was".into() } else { format!("{} rays were", self.given_up) };
+        let why = "wound at the photon sphere beyond rounding, or took more looks at flying bodies than one ray is worth";
+        (self.given_up > 0).then(|| format!("{rays} given up: {why}; such a ray shows what it had met, else the shadow"))
+    }
 }
 
 /// Rows of pixels that one task traces together; texture detail is found from neighbours inside it.
@@ -126,13 +139,17 @@ enum Ending {
 /// Traces the picture that `camera` sees. `done` is told how many pixels have been finished, again and again.
 pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
     let [width, height] = camera.size;
+    let given_up = world.given_up();
     let painter = Painter { world, setting, camera, quality, pyramids: pyramids(world) };
     let bands: Vec<Band> = (0..height.div_ceil(BAND))
         .into_par_iter()
         .map(|band| {
-            let result = painter.band(band * BAND, ((band + 1) * BAND).min(height));
-            done(result.light.len() as u64);
-            result
+            let (first, end) = (band * BAND, ((band + 1) * BAND).min(height));
+            let traced = (!world.is_late()).then(|| painter.band(first, end));
+            // What was being traced when the deadline passed is not finished.
+            let Some(band) = traced.filter(|_| !world.is_late()) else { return Band::missing((width * (end - first)) as usize) };
+            done(band.light.len() as u64);
+            band
         })
         .collect();
     let count = (width * height) as usize;
@@ -143,6 +160,8 @@ pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Qual
         shares: Vec::with_capacity(count),
         open: Vec::with_capacity(count),
         dark: Vec::with_capacity(count),
+        given_up: world.given_up() - given_up,
+        missing: bands.iter().map(|band| band.missing).sum(),
     };
     for band in bands {
         picture.light.extend(band.light);
@@ -200,6 +219,22 @@ struct Band {
     shares: Vec<Vec<(u32, u32, f32)>>,
     open: Vec<f32>,
     dark: Vec<bool>,
+    /// How many of its pixels are missing.
+    missing: u64,
+}
+
+impl Band {
+    /// Black and empty: so many pixels for which there was no time.
+    fn missing(pixels: usize) -> Band {
+        Band {
+            light: vec![[0.0; 3]; pixels],
+            layers: vec![Layer::default(); pixels],
+            shares: vec![Vec::new(); pixels],
+            open: vec![0.0; pixels],
+            dark: vec![false; pixels],
+            missing: pixels as u64,
+        }
+    }
 }
 
 impl Painter<'_> {
@@ -221,6 +256,7 @@ impl Painter<'_> {
             shares: Vec::with_capacity(pixels),
             open: Vec::with_capacity(pixels),
             dark: Vec::with_capacity(pixels),
+            missing: 0,
         };
         let weight = 1.0 / (n * n) as f32;
         for y in 0..(end - first) as usize {

@@ -6,15 +6,16 @@
 //! What a ray sees is the same to the last bit as when it goes alone: sheaves only ever leave out what cannot be met.
 
 use std::ops::Range;
+use std::sync::atomic::Ordering;
 
 use glam::{DVec2, DVec3};
 
 use super::disk::Crossing;
-use super::find::{Near, Seen, beyond, growth, pieces};
+use super::find::{MOST_LOOKS, Near, Seen, beyond, growth, pieces};
 use super::span::Scope;
 use super::tree::Chord;
 use super::world::World;
-use crate::reference::ray::{Follower, Stop, orbit_plane, sky_radius};
+use crate::reference::ray::{End, Follower, Stop, orbit_plane, sky_radius};
 use crate::reference::segments::{LANES, PIECES, Segments};
 
 /// A packet is split where its sheaf is wider than this part of its length; a third more or less costs no more than two per cent.
@@ -29,6 +30,8 @@ struct Walk {
     follower: Follower,
     axes: [DVec3; 2],
     seen: Option<Seen>,
+    /// How many looks at flying bodies it has left.
+    looks: u32,
     /// The step that it has just taken.
     stride: Stride,
 }
@@ -66,12 +69,12 @@ impl World<'_> {
         let walk = |&look: &DVec3| {
             let (axes, in_plane) = orbit_plane(position, look);
             let follower = Follower::new(position.length(), in_plane, tolerance, stop);
-            Walk { follower, axes, seen: None, stride: Stride::default() }
+            Walk { follower, axes, seen: None, looks: MOST_LOOKS, stride: Stride::default() }
         };
         let mut march = March { world: self, scope: &scope, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
         let everything = Near::all(self);
         let mut packets: Vec<Range<usize>> = std::iter::once(0..looks.len()).collect();
-        while march.step() {
+        while !self.is_late() && march.step() {
             let mut split = Vec::with_capacity(packets.len());
             packets.drain(..).for_each(|packet| march.split(packet, &mut split));
             packets = split;
@@ -79,7 +82,9 @@ impl World<'_> {
                 march.meet(packet.clone(), &everything);
             }
         }
-        // Every ray has ended, so every ray has seen something.
+        let is_lost = |walk: &&Walk| walk.looks == 0 || walk.seen.is_some_and(|seen| seen == Seen::Captured) && walk.follower.end == Some(End::Steps);
+        self.given_up.fetch_add(march.walks.iter().filter(is_lost).count(), Ordering::Relaxed);
+        // Every ray has ended, so every ray has seen something; or there is no time left for a picture.
         march.walks.iter().map(|walk| walk.seen.unwrap_or(Seen::Captured)).collect()
     }
 }
@@ -154,11 +159,11 @@ impl March<'_> {
     /// Asks those rays of a packet one by one whose step has it.
     fn meet_each(&mut self, packet: Range<usize>, near: &Near, asked: impl Fn(&Stride) -> bool) {
         for ray in packet {
-            let Walk { axes, seen, stride, .. } = &mut self.walks[ray];
+            let Walk { axes, seen, looks, stride, .. } = &mut self.walks[ray];
             if seen.is_none() && asked(stride) {
                 let segment = self.steps[stride.slot / LANES].lane(stride.slot % LANES);
                 let mut cross = |crossing| (self.cross)(ray, crossing);
-                *seen = self.world.meet(&segment, *axes, stride.swept, near, self.scope, &mut cross).map(Seen::Hit);
+                *seen = self.world.meet(&segment, *axes, stride.swept, near, self.scope, &mut cross, looks).map(Seen::Hit);
             }
         }
     }

@@ -15,7 +15,9 @@ const OLDEST: f64 = 1e5;
 /// A step of the walk, as a part of the radius or of the body's reach, whichever is more.
 const STEP: f64 = 0.25;
 /// How close to r = 1 (r_s) light that clings is followed: the gap is taken with which it is left soonest. Each costs it 4.6 r_s/c more than the one before.
-const GAPS: [f64; 5] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+const GAPS: [f64; 6] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
+/// Before a body that is held in place light stands still that moves by less than this part of its reach, in its axes.
+const STILL: f64 = 1e-3;
 
 /// What light to a camera at one radius may meet.
 #[derive(Clone, Debug)]
@@ -77,10 +79,10 @@ impl Scope {
             if clings {
                 let room = room(world.time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
                     let strays = 0.5 * strays + reach;
-                    (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays)
+                    Room { room: (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays), stands: 0.0 }
                 });
                 for (lingers, gap) in self.lingers.iter_mut().zip(GAPS) {
-                    if !(room > gap) {
+                    if !(room.room > gap || gap < room.stands) {
                         *lingers = delay;
                     }
                 }
@@ -113,9 +115,17 @@ impl Scope {
     }
 }
 
-/// How far from r = 1 a body stays between two delays (r_s/c) a step apart, at which it is at these places; below 0 where it may lie across it. None where it
-/// does not know how it moves. What hugs the horizon is contracted across it: followed backwards it comes as close to it as light that clings, and no closer.
-fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<f64> {
+/// What is between a body and r = 1 for a while.
+struct Room {
+    /// How far it stays from there, in r_s; below 0 where it may lie across it.
+    room: f64,
+    /// Light closer than this to r = 1 (r_s) stands still before it.
+    stands: f64,
+}
+
+/// Of a body between two delays (r_s/c) a step apart, at which it is at these places; None where it does not know how it moves. What hugs the horizon is
+/// contracted across it: followed backwards it comes as close to it as light that clings, and no closer.
+fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<Room> {
     let span = older.0 - newer.0;
     let sway = line.sway(time - older.0, time - newer.0)?;
     let moves = 0.5 * sway.velocity * span;
@@ -131,7 +141,9 @@ fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pos
         reach
     };
     let [r0, r1] = [newer.1, older.1].map(|pose| pose.position.length());
-    Some((r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent)
+    let held = sway.velocity == 0.0 && sway.force == 0.0 && sway.turning == 0.0;
+    let stands = if held { STILL * reach / gamma(older.1.momentum) } else { 0.0 };
+    Some(Room { room: (r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent, stands })
 }
 
 /// How far out light of this delay (r_s/c) to a camera at radius `camera` is at most, in r_s: dr/dτ ≤ 1 + r^{-1/2}.

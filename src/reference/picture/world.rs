@@ -1,7 +1,8 @@
 //! What the judge looks at: a scene's things with their models, places and worldlines.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::Instant;
 
 use glam::{DMat3, DQuat, DVec3};
 
@@ -135,6 +136,9 @@ pub struct World<'a> {
     pub(super) scope: Mutex<Option<Arc<Scope>>>,
     /// How many rays were given up.
     pub(super) given_up: AtomicUsize,
+    /// When there is no time left, and whether that is past.
+    deadline: Option<Instant>,
+    late: AtomicBool,
 }
 
 /// All triangles that are held in place, together.
@@ -192,7 +196,25 @@ impl<'a> World<'a> {
         }
         held.tree = Tree::new(&held.vertices, &held.triangles);
         let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None), given_up: AtomicUsize::new(0) }
+        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None), given_up: AtomicUsize::new(0), deadline: None, late: AtomicBool::new(false) }
+    }
+
+    /// From `deadline` on rays are left where they are: what they show then is nothing to go by, see [`World::is_late`].
+    pub fn stop_at(&mut self, deadline: Instant) {
+        self.deadline = Some(deadline);
+    }
+
+    /// Whether the deadline is past.
+    pub fn is_late(&self) -> bool {
+        let Some(deadline) = self.deadline else { return false };
+        if !self.late.load(Ordering::Relaxed) && Instant::now() >= deadline {
+            self.late.store(true, Ordering::Relaxed);
+        }
+        self.late.load(Ordering::Relaxed)
+    }
+
+    pub(super) fn count_given_up(&self, is: bool) {
+        self.given_up.fetch_add(usize::from(is), Ordering::Relaxed);
     }
 
     /// How many rays have been given up since the world was built: they wound at the photon sphere to within rounding, or took more looks at flying bodies than
