@@ -267,7 +267,7 @@ impl World<'_> {
         let ask = || line.sway(late - piece.to, late - piece.from);
         // Next to the horizon light and body creep, far below those bounds: there they are asked how they move.
         let (mut straying, mut light_speed, mut sway) = (most, light_speed, None);
-        if can_halve && most > 0.5 * flying.reach {
+        if self.hole && can_halve && most > 0.5 * flying.reach {
             let light_rate = piece.segment.velocity(middle).length();
             if light_rate + drift(&pose) < CREEPING * (light_speed + body_speed) {
                 sway = ask().filter(|sway| sway.velocity.is_finite());

@@ -82,7 +82,8 @@ impl World<'_> {
                 march.meet(packet.clone(), &everything);
             }
         }
-        let is_lost = |walk: &&Walk| walk.looks == 0 || walk.seen.is_some_and(|seen| seen == Seen::Captured) && walk.follower.end == Some(End::Steps);
+        let is_lost =
+            |walk: &&Walk| walk.looks == 0 || walk.seen.is_some_and(|seen| seen == Seen::Captured) && walk.follower.end == Some(End::Steps);
         self.given_up.fetch_add(march.walks.iter().filter(is_lost).count(), Ordering::Relaxed);
         // Every ray has ended, so every ray has seen something; or there is no time left for a picture.
         march.walks.iter().map(|walk| walk.seen.unwrap_or(Seen::Captured)).collect()

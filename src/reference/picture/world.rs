@@ -196,7 +196,19 @@ impl<'a> World<'a> {
         }
         held.tree = Tree::new(&held.vertices, &held.triangles);
         let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
-        World { models, things, time, hole, held, flying, held_radius, scope: Mutex::new(None), given_up: AtomicUsize::new(0), deadline: None, late: AtomicBool::new(false) }
+        World {
+            models,
+            things,
+            time,
+            hole,
+            held,
+            flying,
+            held_radius,
+            scope: Mutex::new(None),
+            given_up: AtomicUsize::new(0),
+            deadline: None,
+            late: AtomicBool::new(false),
+        }
     }
 
     /// From `deadline` on rays are left where they are: what they show then is nothing to go by, see [`World::is_late`].
