@@ -98,7 +98,7 @@ pub struct ChartTraceArgs {
 pub struct ChartBvhArgs {
     #[command(flatten)]
     chart: ChartArgs,
-    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny.
+    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, 200,000 long ones, which trees of boxes hold badly.
     #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
     scenes: Vec<String>,
     /// How often each method runs; the median counts.

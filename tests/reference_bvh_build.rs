@@ -152,3 +152,24 @@ proptest! {
         prop_assert_eq!(&tree, &build(&boxes, &Settings { max_leaf, ..Settings::default() }));
     }
 }
+
+#[test]
+fn long_needles_make_no_deep_tree_and_no_slow_one() {
+    use lensrunner::reference::scenes::needles;
+    let boxes: Vec<Bounds<f32>> = needles::needles(5000).iter().map(|corners| Bounds::around(*corners)).collect();
+    let tree = build(&boxes, &Settings::default());
+    validate(&tree, &boxes).unwrap();
+    // The heuristic finds hardly a plane that parts them, and might take one away at a time: each level looks at all of its needles again.
+    let mut looked = 0;
+    let mut open = vec![(0, 1)];
+    while let Some((at, level)) = open.pop() {
+        let node = &tree.nodes[at];
+        if node.is_leaf() {
+            looked += level * node.run().len();
+        } else {
+            open.extend(node.children().map(|child| (child, level + 1)));
+        }
+    }
+    let levels = looked as f64 / boxes.len() as f64;
+    assert!(levels < 40.0, "each needle is looked at in {levels} nodes");
+}

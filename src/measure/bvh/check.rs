@@ -87,7 +87,8 @@ pub fn check(job: &Job) -> usize {
 /// Hits of the others in the order of pixels.
 fn theirs(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
     #[allow(unused_mut)]
-    let mut all = vec![("obvhs".to_owned(), job.primary.iter().map(|ray| built.obvhs.closest(ray)).collect())];
+    let mut all: Vec<(String, Vec<Hit>)> =
+        built.obvhs.iter().map(|tree| ("obvhs".to_owned(), job.primary.iter().map(|ray| tree.closest(ray)).collect())).collect();
     #[cfg(feature = "embree")]
     for way in super::embree::WAYS {
         let (rays, starts) = tiled(&job.primary, job.size, way.tile());

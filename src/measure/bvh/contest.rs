@@ -1,6 +1,6 @@
 //! Who takes part, and with which rays.
 
-use super::others::{Obvhs, Svenstaro};
+use super::others::{Obvhs, Svenstaro, bearable, within};
 use super::rays::{Job, SIZES, tiled};
 use crate::reference::bvh::{EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Settings, Wide, order};
 
@@ -8,8 +8,10 @@ use crate::reference::bvh::{EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Sett
 pub struct Built {
     pub mesh: Mesh,
     pub wide: Wide,
-    pub obvhs: Obvhs,
-    pub svenstaro: Svenstaro,
+    /// None where its tree or its rays take too long.
+    pub obvhs: Option<Obvhs>,
+    /// The same.
+    pub svenstaro: Option<Svenstaro>,
     #[cfg(feature = "embree")]
     pub embree: super::embree::Embree,
 }
@@ -17,11 +19,14 @@ pub struct Built {
 impl Built {
     pub fn new(job: &Job) -> Built {
         let triangles = &job.scene.triangles;
+        let scene = job.scene.name;
+        let obvhs = within(scene, "obvhs", triangles, Obvhs::new);
+        let svenstaro = within(scene, "bvh", triangles, Svenstaro::new);
         Built {
             mesh: Mesh::new(triangles, &Settings::default()),
             wide: Wide::new(triangles),
-            obvhs: Obvhs::new(triangles),
-            svenstaro: Svenstaro::new(triangles),
+            obvhs: obvhs.filter(|tree| bearable(scene, "obvhs", &job.primary, |ray| tree.closest(ray))),
+            svenstaro: svenstaro.filter(|tree| bearable(scene, "bvh", &job.primary, |ray| tree.closest(ray))),
             #[cfg(feature = "embree")]
             embree: super::embree::Embree::new(triangles),
         }
@@ -72,8 +77,12 @@ pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
     let mut add = |kind, method: &str, packet, rays, run| all.push(Entry { kind, method: method.to_owned(), packet, rays, run });
     let primary = &job.primary;
     let number = primary.len();
-    add("primary", "obvhs", 1, number, each(primary, |ray| built.obvhs.closest(ray)));
-    add("primary", "bvh", 1, number, each(primary, |ray| built.svenstaro.closest(ray)));
+    if let Some(tree) = &built.obvhs {
+        add("primary", "obvhs", 1, number, each(primary, |ray| tree.closest(ray)));
+    }
+    if let Some(tree) = &built.svenstaro {
+        add("primary", "bvh", 1, number, each(primary, |ray| tree.closest(ray)));
+    }
     #[cfg(feature = "embree")]
     for way in super::embree::WAYS {
         let (rays, starts) = tiled(primary, job.size, way.tile());
@@ -100,12 +109,14 @@ pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
     add("walking", "split 16", 64, number, Box::new(walking));
     for (kind, rays) in &job.secondary {
         let shadow = *kind == "shadow";
-        let obvhs: Box<dyn FnMut() -> usize> = if shadow {
-            Box::new(|| rays.iter().filter(|ray| built.obvhs.occluded(ray)).count())
-        } else {
-            each(rays, |ray| built.obvhs.closest(ray))
-        };
-        add(kind, "obvhs", 1, rays.len(), obvhs);
+        if let Some(tree) = &built.obvhs {
+            let obvhs: Box<dyn FnMut() -> usize> = if shadow {
+                Box::new(|| rays.iter().filter(|ray| tree.occluded(ray)).count())
+            } else {
+                each(rays, |ray| tree.closest(ray))
+            };
+            add(kind, "obvhs", 1, rays.len(), obvhs);
+        }
         #[cfg(feature = "embree")]
         if shadow {
             add(kind, "Embree", 1, rays.len(), built.embree.occluded(rays.clone()));

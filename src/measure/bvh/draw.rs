@@ -2,11 +2,11 @@
 
 use super::super::chart::{Provenance, Sheet};
 use super::super::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
-use super::rays::{SCENES, SIZES};
+use super::rays::{ALL, SCENES, SIZES};
 
 /// Panels: figures 3.17 and 4.8, 4.9 to 4.14 (with 4.16 and 4.17 in castle and balls4A), then the comparisons.
 pub fn draw(sheet: &Sheet) -> Figure {
-    let scenes: Vec<&str> = SCENES.into_iter().filter(|name| sheet.rows.iter().any(|row| sheet.text(row, "scene") == *name)).collect();
+    let scenes: Vec<&str> = ALL.into_iter().filter(|name| sheet.rows.iter().any(|row| sheet.text(row, "scene") == *name)).collect();
     let mut panels: Vec<Panel> = scenes.iter().map(|scene| one_scene(sheet, scene)).collect();
     panels.push(one_method(sheet, &scenes, "Wald", "Packets of fixed size (figure 3.17)"));
     panels.push(one_method(sheet, &scenes, "split 4", "Split in 4 (figure 4.8)"));
@@ -60,7 +60,7 @@ fn curve(sheet: &Sheet, scene: &str, method: &str) -> Vec<[f64; 2]> {
 }
 
 fn one_scene(sheet: &Sheet, scene: &str) -> Panel {
-    let figure = SCENES.iter().position(|name| *name == scene).map_or(0, |i| 9 + i);
+    let figure = SCENES.iter().position(|name| *name == scene).map(|i| format!(" (figure 4.{}", 9 + i));
     let also = match scene {
         "castle" => " and 4.16",
         "balls4A" => " and 4.17",
@@ -80,7 +80,7 @@ fn one_scene(sheet: &Sheet, scene: &str) -> Panel {
         .filter(|guide| guide.at.is_finite())
         .collect();
     Panel::Lines(Lines {
-        title: format!("{scene} (figure 4.{figure}{also})"),
+        title: figure.map_or(scene.into(), |figure| format!("{scene}{figure}{also})")),
         x: sizes(),
         y: Axis::log("ms for a million rays"),
         lines: methods.into_iter().enumerate().map(line).collect(),

@@ -23,7 +23,7 @@ const MORE_ROUNDS: usize = 10;
 pub struct Request {
     /// Where it goes.
     pub output: Output,
-    /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny.
+    /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, which is not of paper 4.
     pub scenes: Vec<String>,
     /// Width and height in pixels.
     pub size: [usize; 2],
@@ -48,7 +48,7 @@ pub enum ChartError {
     #[error(transparent)]
     Ply(#[from] PlyError),
     /// An unknown scene.
-    #[error("--scenes {0}: unknown; there are {all}", all = rays::SCENES.join(", "))]
+    #[error("--scenes {0}: unknown; there are {all}", all = rays::ALL.join(", "))]
     Scene(String),
     /// A method gave an answer that rounding does not explain.
     #[error("{0} hits are wrong")]
@@ -64,7 +64,7 @@ impl ChartError {
 
 /// Measures (or reads) and draws; returns the files written.
 pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
-    if let Some(unknown) = request.scenes.iter().find(|name| !rays::SCENES.contains(&name.as_str())) {
+    if let Some(unknown) = request.scenes.iter().find(|name| !rays::ALL.contains(&name.as_str())) {
         return Err(ChartError::Scene(unknown.clone()));
     }
     if request.check {

@@ -1,15 +1,23 @@
 //! The scenes of the chart and the rays through them.
 
+use std::time::Instant;
+
 use glam::Vec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use super::{ChartError, Request};
 use crate::reference::bvh::{Hit, Ray, Wide, order};
-use crate::reference::scenes::{Scene, View, bunny, castle, spd};
+use crate::reference::scenes::{Scene, View, bunny, castle, needles, spd};
 
 /// Every scene of paper 4, in its order.
 pub const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];
+
+/// Every scene: those, and one that trees of boxes hold badly.
+pub const ALL: [&str; 7] = [SCENES[0], SCENES[1], SCENES[2], SCENES[3], SCENES[4], SCENES[5], "needles"];
+
+/// No method of ours should take longer than some times this (seconds of single rays in the tree of eight) for a picture: else the picture is made smaller.
+const LONGEST: f64 = 2.0;
 
 /// Edges of packets in pixels.
 pub const SIZES: [usize; 6] = [2, 4, 8, 16, 32, 64];
@@ -46,25 +54,49 @@ impl Job {
             "tree10" => (SCENES[2], spd::tree(10), spd::TREE_VIEW),
             "balls4A" => (SCENES[3], spd::balls(4), spd::BALLS_VIEW),
             "balls4B" => (SCENES[4], spd::balls(4), spd::BALLS_VIEW.from_distance(0.5)),
+            "needles" => (ALL[6], needles::needles(needles::COUNT), needles::VIEW),
             _ => (SCENES[5], spd::balls(4), spd::BALLS_VIEW.from_distance(4.0)),
         };
         let scene = Scene { name, triangles, view };
         let forward = (glam::DVec3::from(view.target) - glam::DVec3::from(view.eye)).normalize();
         let right = forward.cross(glam::DVec3::Z).normalize();
         let screen = [right, right.cross(forward)].map(|axis| axis.as_vec3().to_array());
-        let primary = rays_of(&view, request.size);
+        let wide = Wide::new(&scene.triangles);
+        let size = bearable(&scene, &wide, request.size);
+        let primary = rays_of(&view, size);
         let walk = (0..STEPS)
             .map(|step| {
                 // A slow circle around what is looked at.
                 let turn = glam::DQuat::from_rotation_z(0.01 * step as f64);
                 let from = turn * (glam::DVec3::from(view.eye) - glam::DVec3::from(view.target));
                 let eye = (glam::DVec3::from(view.target) + from).to_array();
-                rays_of(&View { eye, ..view }, request.size)
+                rays_of(&View { eye, ..view }, size)
             })
             .collect();
-        let secondary = secondary(&scene, &primary, request.size);
-        Ok(Job { scene, stand_in, screen, primary, walk, secondary, size: request.size })
+        let secondary = secondary(&scene, &wide, &primary, size);
+        Ok(Job { scene, stand_in, screen, primary, walk, secondary, size })
     }
+}
+
+/// The size of a picture that single rays make in [`LONGEST`], by rays through the middle; the one asked for, unless the scene is such a bad one. Says so.
+fn bearable(scene: &Scene, wide: &Wide, size: [usize; 2]) -> [usize; 2] {
+    let middle = rays_of(&scene.view, [32, 24]);
+    let mut hits = vec![Hit::MISS; middle.len()];
+    let started = Instant::now();
+    wide.closest_each(&middle, &mut hits);
+    let each = started.elapsed().as_secs_f64() / middle.len() as f64;
+    let mut found = size;
+    while (found[0] * found[1]) as f64 * each > LONGEST && found[1] > 32 {
+        found = found.map(|side| side / 2);
+    }
+    if found != size {
+        let seconds = each * (size[0] * size[1]) as f64;
+        eprintln!(
+            "{}: {} × {} pixels would take single rays {seconds:.0} s: the picture has {} × {}",
+            scene.name, size[0], size[1], found[0], found[1]
+        );
+    }
+    found
 }
 
 fn rays_of(view: &View, size: [usize; 2]) -> Vec<Ray> {
@@ -79,8 +111,7 @@ pub fn tiled(rays: &[Ray], picture: [usize; 2], size: usize) -> (Vec<Ray>, Vec<u
 }
 
 /// Shadow rays to a light, mirrored rays, and rays in random directions, from every first hit.
-fn secondary(scene: &Scene, primary: &[Ray], picture: [usize; 2]) -> Vec<(&'static str, Vec<Ray>)> {
-    let wide = Wide::new(&scene.triangles);
+fn secondary(scene: &Scene, wide: &Wide, primary: &[Ray], picture: [usize; 2]) -> Vec<(&'static str, Vec<Ray>)> {
     let (rays, _) = tiled(primary, picture, 32);
     let mut hits = vec![Hit::MISS; rays.len()];
     wide.closest_each(&rays, &mut hits);

@@ -4,6 +4,7 @@
 
 pub mod bunny;
 pub mod castle;
+pub mod needles;
 pub mod spd;
 
 /// Three corners.
