@@ -123,7 +123,23 @@ struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
     #[arg(long, value_name = "NAME|FILE|all")]
     #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
-    scene: String,
+    #[arg(required_unless_present_any = ["random", "case"], conflicts_with_all = ["random", "case"])]
+    scene: Option<String>,
+    /// Judges N scenes that nobody chose, half of them drawn where methods fail. Those that fail are left in the folder -o.
+    #[arg(long, value_name = "N", conflicts_with_all = ["case", "size", "at", "samples", "table"])]
+    random: Option<u64>,
+    /// Where the scenes of --random are drawn from.
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// The number of the first scene of --random: each can be drawn alone.
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    first: u64,
+    /// Judges case files, as --random leaves them, and those of folders: scene files whose first comment lines say size and T.
+    #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["size", "at", "samples", "table"])]
+    case: Vec<PathBuf>,
+    /// Seconds that the judge may take over each case of --random and --case, 0.1 to 86400.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, allow_negative_numbers = true)]
+    limit: f64,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
     size: [u32; 2],
@@ -134,18 +150,20 @@ struct CompareArgs {
     #[arg(long, value_name = "N", default_value_t = 9)]
     samples: u32,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
-    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
-    tolerance: f64,
-    /// The game's configuration [default: game.toml here, else the one that the game comes with].
+    /// [default: 1e-12, with --random and --case 1e-10]
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
+    tolerance: Option<f64>,
+    /// The game's configuration [default: game.toml here, else the one that the game comes with; with --random and --case every value its default].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
     /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it. `all` has a table of
     /// its own, in its folder.
     #[arg(long, value_name = "FILE.csv")]
     table: Option<PathBuf>,
-    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md.
-    #[arg(short, value_name = "FILE.png|DIR")]
-    output: PathBuf,
+    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md. For --random
+    /// and --case a folder for what fails.
+    #[arg(short, value_name = "FILE.png|DIR", required_unless_present_any = ["random", "case"])]
+    output: Option<PathBuf>,
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -308,27 +326,41 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
 
 #[cfg(feature = "game")]
 fn run_compare(args: &CompareArgs) -> ExitCode {
-    use lensrunner::measure::compare::command;
-    let request = trace::Request {
-        scene: args.scene.clone(),
-        size: args.size,
-        at: args.at,
-        samples: args.samples,
-        threads: 0,
-        tolerance: args.tolerance,
-        packet: lensrunner::reference::picture::DEFAULT_PACKET,
-    };
-    let (config, draw) = (args.config.as_deref(), &lensrunner::play::contestant::draw);
-    if args.scene == command::ALL && args.table.is_some() {
-        return fail(&"--table: not with --scene all, which writes verdict.csv in its folder", 2);
-    }
-    let judged = if args.scene == command::ALL {
-        command::run_all(&request, config, &args.output, draw)
+    use lensrunner::measure::compare::{command, judged::Terms, random};
+    let contestant = lensrunner::play::contestant::Contestant::default();
+    let (config, draw) = (args.config.as_deref(), |case: &trace::Case| contestant.draw(case));
+    let mut terms = Terms { seconds: args.limit, ..Terms::default() };
+    terms.tolerance = args.tolerance.unwrap_or(terms.tolerance);
+    let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
+    let judged = if let Some(count) = args.random {
+        let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
+        let request = random::command::Request { count, seed: args.seed, first: args.first, terms, config: args.config.clone(), output };
+        random::command::run(&request, &draw).map(failed)
+    } else if !args.case.is_empty() {
+        random::command::run_files(&args.case, config, &terms, args.output.as_deref(), &draw).map(failed)
     } else {
-        command::run(&request, config, &args.output, args.table.as_deref(), draw)
+        let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());
+        let request = trace::Request {
+            scene,
+            size: args.size,
+            at: args.at,
+            samples: args.samples,
+            threads: 0,
+            tolerance: args.tolerance.unwrap_or(trace::DEFAULT_TOLERANCE),
+            packet: lensrunner::reference::picture::DEFAULT_PACKET,
+        };
+        if request.scene == command::ALL && args.table.is_some() {
+            return fail(&"--table: not with --scene all, which writes verdict.csv in its folder", 2);
+        }
+        let judged = if request.scene == command::ALL {
+            command::run_all(&request, config, &output, &draw)
+        } else {
+            command::run(&request, config, &output, args.table.as_deref(), &draw)
+        };
+        judged.map(|faults| !faults.is_empty())
     };
     match judged {
-        Ok(faults) => ExitCode::from(u8::from(!faults.is_empty())),
+        Ok(failed) => ExitCode::from(u8::from(failed)),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }

@@ -100,9 +100,15 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     Ok(renderer.picture(&frame, request.layers)?)
 }
 
+/// A renderer without a window, for pictures of this size at first.
+pub fn renderer(size: [u32; 2]) -> Result<Renderer, ShotError> {
+    Ok(Renderer::new(&Gpu::headless()?, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size))
+}
+
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
 /// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
 pub fn for_comparison(
+    renderer: &mut Renderer,
     scene: &Scene,
     assembly: &Assembly,
     marks: [fn(&Model) -> Model; 2],
@@ -110,8 +116,7 @@ pub fn for_comparison(
     at: f64,
     size: [u32; 2],
 ) -> Result<[Picture; 4], ShotError> {
-    let gpu = Gpu::headless()?;
-    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    renderer.resize(size);
     let moment = Moment::new(scene, config, at, 0);
     let with = settings(config);
     let without = Settings { stars: false, milky_way: false, ..with };
@@ -120,7 +125,7 @@ pub fn for_comparison(
     let config = &config;
     let mut draw = |mark: Option<fn(&Model) -> Model>, settings: &Settings| {
         let layers = mark.is_some();
-        let stage = Stage::of(&mut renderer, scene, assembly.clone(), config, mark);
+        let stage = Stage::of(renderer, scene, assembly.clone(), config, mark);
         let camera = stage.camera(moment.time(), &moment.ships());
         let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, settings);
         renderer.picture(&frame, layers)

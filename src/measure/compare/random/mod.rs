@@ -1,0 +1,13 @@
+//! Scenes that nobody chose, judged as any other.
+//!
+//! - [`draw`]: a case from a seed and its number; [`place`] puts things where methods fail; [`text`] writes the scene.
+//! - [`case_file`]: a case as a scene file with its size and T.
+//! - [`outcome`]: what came of many.
+//! - [`command`]: `lensrunner compare --random` and `--case`.
+
+pub mod case_file;
+pub mod command;
+pub mod draw;
+pub mod outcome;
+pub mod place;
+pub mod text;
