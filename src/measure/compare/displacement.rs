@@ -63,19 +63,22 @@ impl Default for Effort {
     }
 }
 
-/// The pixels where both show the same object in the same order, for each image so many as are measured.
-fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<bool> {
+/// The pixels where both show the same object in the same order, for each image so many as are measured. They are in an order in which any first part is spread
+/// over the picture, so that little is lost where time runs out.
+fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<usize> {
     let mut images: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
     for (i, (layer, shown)) in judge.layers.iter().zip(&frame.shown).enumerate() {
         if layer.object > 0 && (layer.object, layer.order) == (shown.object, shown.order) {
             images.entry((layer.object, layer.order)).or_default().push(i);
         }
     }
-    let mut measured = vec![false; judge.layers.len()];
+    let mut measured: Vec<usize> = Vec::new();
     for pixels in images.values() {
         let count = pixels.len().min(most);
-        (0..count).for_each(|k| measured[pixels[k * pixels.len() / count]] = true);
+        measured.extend((0..count).map(|k| pixels[k * pixels.len() / count]));
     }
+    // Fibonacci's hash: neighbours come far apart.
+    measured.sort_by_key(|&i| (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     measured
 }
 
@@ -84,11 +87,11 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: 
     let width = judge.size[0] as usize;
     let measured = measurable(judge, frame, effort.pixels);
     let doubted: Mutex<BTreeMap<(u32, u32), usize>> = Mutex::default();
-    (0..judge.layers.len())
-        .into_par_iter()
-        .map(|i| {
+    let found: Vec<Option<Measured>> = measured
+        .par_iter()
+        .map(|&i| {
             let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
-            if !measured[i] || effort.deadline.is_over() {
+            if effort.deadline.is_over() {
                 return None;
             }
             let wanted = DVec3::from(shown.body.map(f64::from));
@@ -119,7 +122,10 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: 
             let Some(Measured::Pixels(d)) = there else { return there };
             Some(Measured::Pixels(found.fold(d, f64::min)))
         })
-        .collect()
+        .collect();
+    let mut all = vec![None; judge.layers.len()];
+    measured.into_iter().zip(found).for_each(|(i, found)| all[i] = found);
+    all
 }
 
 /// From this many pixels on a displacement is measured from several starts.

@@ -89,6 +89,9 @@ pub fn judge(case: &Case, terms: &Terms, contestant: &Contestant) -> Result<Judg
     })
 }
 
+/// The part of the judge's time that displacements may take besides.
+const MEASURING: f64 = 0.25;
+
 /// Sets the picture beside the judge's, which is looked at again where images are narrow.
 fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadline: &Deadline) -> Result<Verdict, GaveUp> {
     let probe = case.probe(terms.tolerance);
@@ -99,12 +102,9 @@ fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadl
         deadline.check("narrow images were looked at with nine rays a pixel")?;
     }
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    let effort = Effort { pixels: terms.pixels, doubtful: terms.doubtful, deadline: *deadline };
-    let verdict = compare_with(judge, frame, &probe, &names, &difference(judge, frame), &effort);
-    if gross.is_empty() {
-        deadline.check("displacements were measured")?;
-    }
-    Ok(verdict)
+    // A part of the pixels, spread over the picture, tells how far points are displaced: there is less time for them than for what is seen at all.
+    let effort = Effort { pixels: terms.pixels, doubtful: terms.doubtful, deadline: Deadline::after(MEASURING * terms.seconds) };
+    Ok(compare_with(judge, frame, &probe, &names, &difference(judge, frame), &effort))
 }
 
 /// The renderer's picture, or why there is none; a panic is a reason.

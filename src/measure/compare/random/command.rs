@@ -8,8 +8,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::case_file::CaseFile;
 use super::draw::draw;
 use super::outcome::{Outcome, Row, summary};
+use super::place;
+use super::reduce::reduce;
 use crate::measure::compare::command::{CompareError, Contestant, difference};
-use crate::measure::compare::fault::main_fault;
+use crate::measure::compare::deadline::Deadline;
+use crate::measure::compare::fault::{Fault, main_fault};
 use crate::measure::compare::judged::{Judged, Terms, judge};
 use crate::measure::compare::report::side_by_side;
 use crate::measure::picture_file::write_png;
@@ -126,8 +129,13 @@ pub fn one(
     let case = file.case(Path::new(&format!("{name}.toml")), config)?;
     let outcome = match judge(&case, terms, contestant) {
         Ok(judged) => {
-            if let (Some(output), false) = (output, judged.faults.is_empty()) {
-                leave(output, name, file, &case, &judged)?;
+            if let (Some(output), Some(fault)) = (output, main_fault(&judged.faults)) {
+                let reduced = reduced(file, fault, config, terms, contestant);
+                let (file, case, judged) = match &reduced {
+                    Some((file, case, judged)) => (file, case, judged),
+                    None => (file, &case, &judged),
+                };
+                leave(output, name, file, case, judged)?;
             }
             Outcome::of(&judged)
         }
@@ -135,6 +143,41 @@ pub fn one(
     };
     Ok(Row { name: name.to_owned(), corner: corner.to_owned(), size: file.size, outcome, seconds: started.elapsed().as_secs_f64() })
 }
+
+/// The case made smaller while it fails in the same way, with what came of it; None if that could not be done.
+fn reduced(
+    file: &CaseFile,
+    fault: &Fault,
+    config: &GameConfig,
+    terms: &Terms,
+    contestant: &Contestant,
+) -> Option<(CaseFile, Case, Judged)> {
+    let deadline = Deadline::after(REDUCTION * terms.seconds);
+    let path = Path::new("reduced.toml");
+    let is_fair = |case: &Case| place::is_fair(&case.scene, config, case.time);
+    let was_fair = file.case(path, config).is_ok_and(|case| is_fair(&case));
+    let mut last = None;
+    // A fault that is hardly one any more is another.
+    let least = fault.excess.sqrt();
+    let (mut best, asked) = reduce(file, &mut |smaller| {
+        if deadline.is_over() {
+            return None;
+        }
+        let Some(case) = smaller.case(path, config).ok().filter(|case| !was_fair || is_fair(case)) else { return Some(false) };
+        let Ok(judged) = judge(&case, terms, contestant) else { return Some(false) };
+        let same = main_fault(&judged.faults).is_some_and(|found| found.kind == fault.kind && found.excess >= least);
+        if same {
+            last = Some((case, judged));
+        }
+        Some(same)
+    });
+    let (case, judged) = last?;
+    best.notes.push(format!("reduced in {asked} steps from a case with the fault: {}: {fault}", fault.kind));
+    Some((best, case, judged))
+}
+
+/// Reducing a case may take so many times what the judge may take over one.
+const REDUCTION: f64 = 3.0;
 
 /// Writes the scene with its faults as comment lines, and the pictures side by side.
 fn leave(output: &Path, name: &str, file: &CaseFile, case: &Case, judged: &Judged) -> Result<(), CompareError> {

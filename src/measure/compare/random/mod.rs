@@ -2,6 +2,7 @@
 //!
 //! - [`draw`]: a case from a seed and its number; [`place`] puts things where methods fail; [`text`] writes the scene.
 //! - [`case_file`]: a case as a scene file with its size and T.
+//! - [`reduce`]: a failing case made smaller.
 //! - [`outcome`]: what came of many.
 //! - [`command`]: `lensrunner compare --random` and `--case`.
 
@@ -10,4 +11,5 @@ pub mod command;
 pub mod draw;
 pub mod outcome;
 pub mod place;
+pub mod reduce;
 pub mod text;
