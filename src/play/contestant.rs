@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use crate::measure::compare::command::MARKS;
 use crate::measure::compare::{Frame, Shown};
 use crate::measure::trace::Case;
-use crate::render::Renderer;
 use crate::render::readback::Picture;
-use crate::render::shot::{ShotError, for_comparison, renderer};
+use crate::render::shot::{Compared, ShotError, compared, for_comparison, renderer};
+use crate::render::{Renderer, frame};
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
@@ -16,16 +16,43 @@ pub struct Contestant(Mutex<Option<Renderer>>);
 impl Contestant {
     /// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
     pub fn draw(&self, case: &Case) -> Result<Frame, String> {
+        self.with_renderer(case, |renderer| {
+            let [sky, bare, first, second] = for_comparison(renderer, &compared_case(case), MARKS)?;
+            let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
+            let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
+            Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+        })
+    }
+
+    /// What its pixels show, and nothing of its light: a quarter of the work.
+    pub fn show(&self, case: &Case) -> Result<Vec<Shown>, String> {
+        self.with_renderer(case, |renderer| {
+            let layers = compared(renderer, &compared_case(case), Some(MARKS[0]), false)?;
+            Ok((0..layers.layers.len()).map(|i| shown(&layers, &layers, i)).collect())
+        })
+    }
+
+    fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, ShotError>) -> Result<T, String> {
         // After a panic or an error the next case gets a renderer of its own.
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
         let said = |error: ShotError| error.to_string();
         let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(said)?;
-        let drawn = for_comparison(&mut renderer, &case.scene, &case.assembly, MARKS, &case.config, case.time, case.camera.size);
-        let [sky, bare, first, second] = drawn.map_err(said)?;
+        let drawn = draw(&mut renderer).map_err(said)?;
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
-        let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
-        let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
-        Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+        Ok(drawn)
+    }
+}
+
+fn compared_case(case: &Case) -> Compared<'_> {
+    let eye = &case.camera;
+    Compared {
+        scene: &case.scene,
+        assembly: &case.assembly,
+        config: &case.config,
+        time: case.time,
+        histories: case.histories.iter().collect(),
+        camera: frame::Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view },
+        size: eye.size,
     }
 }
 

@@ -10,9 +10,10 @@ use crate::lensing;
 pub use crate::scene::picture_size as size;
 use crate::scene::viewpoint::CameraEnded;
 use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
+use crate::sim::History;
 pub use crate::sim::Moment;
 
-use super::frame::Settings;
+use super::frame::{Camera, Settings};
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
 use super::stage::{Stage, settings};
@@ -105,33 +106,46 @@ pub fn renderer(size: [u32; 2]) -> Result<Renderer, ShotError> {
     Ok(Renderer::new(&Gpu::headless()?, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size))
 }
 
+/// A scene at one moment, as it is compared with the judge's picture.
+pub struct Compared<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its models and objects.
+    pub assembly: &'a Assembly,
+    /// Its configuration.
+    pub config: &'a GameConfig,
+    /// T in r_s/c.
+    pub time: f64,
+    /// Worldlines of the ships, in scene order.
+    pub histories: Vec<&'a History>,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
 /// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
-pub fn for_comparison(
-    renderer: &mut Renderer,
-    scene: &Scene,
-    assembly: &Assembly,
-    marks: [fn(&Model) -> Model; 2],
-    config: &GameConfig,
-    at: f64,
-    size: [u32; 2],
-) -> Result<[Picture; 4], ShotError> {
-    renderer.resize(size);
-    let moment = Moment::new(scene, config, at, 0);
-    let with = settings(config);
-    let without = Settings { stars: false, milky_way: false, ..with };
-    let mut config = config.clone();
-    config.aurora.enabled = false;
-    let config = &config;
-    let mut draw = |mark: Option<fn(&Model) -> Model>, settings: &Settings| {
-        let layers = mark.is_some();
-        let stage = Stage::of(renderer, scene, assembly.clone(), config, mark);
-        let camera = stage.camera(moment.time(), &moment.ships());
-        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, settings);
-        renderer.picture(&frame, layers)
-    };
+pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
     let [first, second] = marks;
-    Ok([draw(None, &with)?, draw(None, &without)?, draw(Some(first), &without)?, draw(Some(second), &without)?])
+    Ok([
+        compared(renderer, what, None, true)?,
+        compared(renderer, what, None, false)?,
+        compared(renderer, what, Some(first), false)?,
+        compared(renderer, what, Some(second), false)?,
+    ])
+}
+
+/// One of those pictures: with layers where the models are marked, with the sky or without.
+pub fn compared(renderer: &mut Renderer, what: &Compared, mark: Option<fn(&Model) -> Model>, sky: bool) -> Result<Picture, ShotError> {
+    renderer.resize(what.size);
+    let with = settings(what.config);
+    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
+    let mut config = what.config.clone();
+    config.aurora.enabled = false;
+    let stage = Stage::of(renderer, what.scene, what.assembly.clone(), &config, mark);
+    let frame = stage.frame(what.camera, what.size, what.time, &what.histories, None, &settings);
+    Ok(renderer.picture(&frame, mark.is_some())?)
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -9,6 +9,7 @@
 //! - [`deadline`]: how long the judge may take.
 //! - [`judged`]: one case before the judge, from the picture to its faults.
 //! - [`random`]: scenes that nobody chose.
+//! - [`flight`]: moments of chases that the autopilot flies.
 //! - [`collect`]: verdicts of many scenes in one table.
 //! - [`command`]: `lensrunner compare`.
 
@@ -18,6 +19,7 @@ pub mod command;
 pub mod deadline;
 pub mod displacement;
 pub mod fault;
+pub mod flight;
 pub mod judged;
 pub mod metrics;
 pub mod narrow;

@@ -180,9 +180,11 @@ fn reduced(
 const REDUCTION: f64 = 3.0;
 
 /// Writes the scene with its faults as comment lines, and the pictures side by side.
-fn leave(output: &Path, name: &str, file: &CaseFile, case: &Case, judged: &Judged) -> Result<(), CompareError> {
+pub fn leave(output: &Path, name: &str, file: &CaseFile, case: &Case, judged: &Judged) -> Result<(), CompareError> {
     let path = output.join(format!("{name}.toml"));
     let mut file = file.clone();
+    // Those of an earlier verdict.
+    file.notes.retain(|note| !["judged by:", "main fault:", "fault:"].iter().any(|old| note.starts_with(old)));
     file.notes.push(format!("judged by: lensrunner compare --case {name}.toml"));
     file.notes.extend(main_fault(&judged.faults).map(|fault| format!("main fault: {}: {fault}", fault.kind)));
     file.notes.extend(judged.faults.iter().map(|fault| format!("fault: {}: {fault}", fault.kind)));
@@ -205,7 +207,8 @@ pub fn make_folder(path: &Path) -> Result<(), CompareError> {
     std::fs::create_dir_all(path).map_err(|error| CompareError::Output(path.to_path_buf(), error))
 }
 
-fn bar(count: u64) -> ProgressBar {
+/// A bar of so many cases.
+pub fn bar(count: u64) -> ProgressBar {
     let bar = ProgressBar::new(count);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases, {elapsed}, {eta} left  {msg}") {
         bar.set_style(style);
@@ -213,8 +216,8 @@ fn bar(count: u64) -> ProgressBar {
     bar
 }
 
-/// Says what a case came to, where something is to be said.
-fn tell(bar: &ProgressBar, row: &Row) {
+/// Moves the bar on, and says what a case came to, where something is to be said.
+pub fn tell(bar: &ProgressBar, row: &Row) {
     bar.inc(1);
     if let Some(line) = row.remark() {
         bar.println(line);

@@ -114,23 +114,9 @@ fn camera_text(chance: &mut StdRng, eye: DVec3, target: Option<DVec3>) -> String
     let mut text = Text::default();
     text.section("[camera]");
     text.vector("position", eye);
-    if let Some(momentum) = place::camera_momentum(chance, eye) {
+    let momentum = place::camera_momentum(chance, eye);
+    if let Some(momentum) = momentum {
         text.vector("momentum", momentum);
-    }
-    // Mostly to the hole or to something there is; the rest anywhere.
-    let towards = match chance.random_range(0..10) {
-        0..5 => None,
-        5..8 => target.map(|target| (target - eye).normalize_or(-eye.normalize())),
-        8 => Some(place::direction(chance)),
-        _ => Some(eye.normalize()),
-    };
-    if let Some(look) = towards {
-        text.vector("look", look + place::direction(chance) * 0.2);
-    } else if chance.random_bool(0.5) {
-        text.vector("look", -eye.normalize() + place::direction(chance) * 0.3);
-    }
-    if chance.random_bool(0.3) {
-        text.vector("up", place::direction(chance));
     }
     let fov: f64 = match chance.random_range(0..6) {
         0..3 => 60.0,
@@ -138,6 +124,21 @@ fn camera_text(chance: &mut StdRng, eye: DVec3, target: Option<DVec3>) -> String
         4 => chance.random_range(40.0..100.0),
         _ => chance.random_range(100.0..140.0),
     };
+    // Mostly to the hole, around which what is behind it is seen, or to where something there is would be seen by straight light; the rest anywhere.
+    let behind = target.is_none_or(|target| target.normalize_or_zero().dot(eye.normalize()) < -0.9);
+    let towards = match chance.random_range(0..12) {
+        0..9 => match target {
+            Some(target) if !behind => place::seen(eye, momentum, target),
+            _ => place::seen(eye, momentum, DVec3::ZERO),
+        },
+        9 => place::seen(eye, momentum, DVec3::ZERO),
+        10 => place::direction(chance),
+        _ => place::seen(eye, momentum, 2.0 * eye),
+    };
+    text.vector("look", towards + place::direction(chance) * chance.random_range(0.0..0.35) * fov.to_radians());
+    if chance.random_bool(0.3) {
+        text.vector("up", place::direction(chance));
+    }
     text.number("fov", fov);
     text.finish()
 }
