@@ -147,6 +147,9 @@ struct CompareArgs {
     /// At how many moments --flight judges each chase.
     #[arg(long, value_name = "N", default_value_t = 200)]
     moments: usize,
+    /// Adds what came of --random or --flight to this table, in the place of an earlier run of the same cases, and writes FILE.md beside it.
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["scene", "case"])]
+    collect: Option<PathBuf>,
     /// Seconds that the judge may take over each case of --random, --case and --flight, 0.1 to 86400.
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, allow_negative_numbers = true)]
     limit: f64,
@@ -345,15 +348,17 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
     let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
     let judged = if let Some(count) = args.random {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
-        let request = random::command::Request { count, seed: args.seed, first: args.first, terms, config: args.config.clone(), output };
+        let collected = args.collect.clone();
+        let request =
+            random::command::Request { count, seed: args.seed, first: args.first, terms, config: args.config.clone(), output, collected };
         random::command::run(&request, &draw).map(failed)
     } else if !args.case.is_empty() {
         random::command::run_files(&args.case, config, &terms, args.output.as_deref(), &draw).map(failed)
     } else if let Some(scene) = args.flight.clone() {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
-        let (size, config) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone());
+        let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output };
+        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output, collected };
         flight::command::run(&request, &draw, &|case: &trace::Case| contestant.show(case)).map(failed)
     } else {
         let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());

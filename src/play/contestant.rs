@@ -6,7 +6,7 @@ use crate::measure::compare::command::MARKS;
 use crate::measure::compare::{Frame, Shown};
 use crate::measure::trace::Case;
 use crate::render::readback::Picture;
-use crate::render::shot::{Compared, ShotError, compared, for_comparison, renderer};
+use crate::render::shot::{Compared, ShotError, for_comparison, marked, renderer};
 use crate::render::{Renderer, frame};
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
@@ -27,7 +27,7 @@ impl Contestant {
     /// What its pixels show, and nothing of its light: a quarter of the work.
     pub fn show(&self, case: &Case) -> Result<Vec<Shown>, String> {
         self.with_renderer(case, |renderer| {
-            let layers = compared(renderer, &compared_case(case), Some(MARKS[0]), false)?;
+            let layers = marked(renderer, &compared_case(case), MARKS[0])?;
             Ok((0..layers.layers.len()).map(|i| shown(&layers, &layers, i)).collect())
         })
     }

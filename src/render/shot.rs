@@ -127,25 +127,30 @@ pub struct Compared<'a> {
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
 /// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
 pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
-    let [first, second] = marks;
-    Ok([
-        compared(renderer, what, None, true)?,
-        compared(renderer, what, None, false)?,
-        compared(renderer, what, Some(first), false)?,
-        compared(renderer, what, Some(second), false)?,
-    ])
+    let stage = staged(renderer, what, None);
+    let [sky, bare] = [drawn(renderer, what, &stage, false, true)?, drawn(renderer, what, &stage, false, false)?];
+    let [first, second] = marks.map(|mark| marked(renderer, what, mark));
+    Ok([sky, bare, first?, second?])
 }
 
-/// One of those pictures: with layers where the models are marked, with the sky or without.
-pub fn compared(renderer: &mut Renderer, what: &Compared, mark: Option<fn(&Model) -> Model>, sky: bool) -> Result<Picture, ShotError> {
+/// The picture with layers, without the sky, of models marked so.
+pub fn marked(renderer: &mut Renderer, what: &Compared, mark: fn(&Model) -> Model) -> Result<Picture, ShotError> {
+    let stage = staged(renderer, what, Some(mark));
+    drawn(renderer, what, &stage, true, false)
+}
+
+fn staged(renderer: &mut Renderer, what: &Compared, mark: Option<fn(&Model) -> Model>) -> Stage {
     renderer.resize(what.size);
-    let with = settings(what.config);
-    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
     let mut config = what.config.clone();
     config.aurora.enabled = false;
-    let stage = Stage::of(renderer, what.scene, what.assembly.clone(), &config, mark);
+    Stage::of(renderer, what.scene, what.assembly.clone(), &config, mark)
+}
+
+fn drawn(renderer: &mut Renderer, what: &Compared, stage: &Stage, layers: bool, sky: bool) -> Result<Picture, ShotError> {
+    let with = settings(what.config);
+    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
     let frame = stage.frame(what.camera, what.size, what.time, &what.histories, None, &settings);
-    Ok(renderer.picture(&frame, mark.is_some())?)
+    Ok(renderer.picture(&frame, layers)?)
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use super::Frame;
-use super::command::{Contestant, difference};
+use super::command::Contestant;
 use super::deadline::{Deadline, GaveUp, trace_within};
 use super::displacement::Effort;
 use super::fault::{Fault, Kind, Limits};
@@ -104,7 +104,9 @@ fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadl
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
     // A part of the pixels, spread over the picture, tells how far points are displaced: there is less time for them than for what is seen at all.
     let effort = Effort { pixels: terms.pixels, doubtful: terms.doubtful, deadline: Deadline::after(MEASURING * terms.seconds) };
-    Ok(compare_with(judge, frame, &probe, &names, &difference(judge, frame), &effort))
+    // Colours are not judged with one ray a pixel.
+    let no_difference = vec![0.0; judge.light.len()];
+    Ok(compare_with(judge, frame, &probe, &names, &no_difference, &effort))
 }
 
 /// The renderer's picture, or why there is none; a panic is a reason.

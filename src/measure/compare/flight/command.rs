@@ -11,6 +11,7 @@ use crate::measure::compare::command::{CompareError, Contestant};
 use crate::measure::compare::fault::{Fault, Kind, main_fault};
 use crate::measure::compare::judged::{Judged, Terms, judge};
 use crate::measure::compare::random::case_file::CaseFile;
+use crate::measure::compare::random::collect;
 use crate::measure::compare::random::command::{bar, check_terms, configuration, leave, make_folder, one, tell};
 use crate::measure::compare::random::outcome::{Outcome, Row, summary};
 use crate::measure::trace::{Case, TraceError};
@@ -41,6 +42,8 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// The folder for what fails.
     pub output: PathBuf,
+    /// The table that the run is added to, a .csv.
+    pub collected: Option<PathBuf>,
 }
 
 impl Request {
@@ -69,6 +72,8 @@ pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Resul
     }
     let path = scene::path(&request.scene);
     let text = std::fs::read_to_string(&path).map_err(|source| TraceError::from(SceneError::Read { path, source }))?;
+    // Before the work of which it would lose the result.
+    request.collected.as_deref().map(collect::open).transpose()?;
     make_folder(&request.output)?;
     let count = request.at.map_or(request.moments, |_| 1) as u64;
     let bar = bar(request.seeds * count);
@@ -87,6 +92,10 @@ pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Resul
     }
     bar.finish_and_clear();
     print!("{}", summary(&flight.rows));
+    if let Some(csv) = &request.collected {
+        let seeds = format!("{} to {}", request.first, request.first + (request.seeds - 1));
+        collect::add(csv, &scene.name, &seeds, &request.terms, &flight.rows)?;
+    }
     Ok(flight.rows)
 }
 

@@ -6,6 +6,7 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::case_file::CaseFile;
+use super::collect;
 use super::draw::draw;
 use super::outcome::{Outcome, Row, summary};
 use super::place;
@@ -34,6 +35,8 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// The folder for what fails.
     pub output: PathBuf,
+    /// The table that the run is added to, a .csv.
+    pub collected: Option<PathBuf>,
 }
 
 impl Request {
@@ -68,6 +71,8 @@ pub fn configuration(named: Option<&Path>) -> Result<GameConfig, TraceError> {
 pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
     request.check()?;
     let config = configuration(request.config.as_deref())?;
+    // Before the work of which it would lose the result.
+    request.collected.as_deref().map(collect::open).transpose()?;
     make_folder(&request.output)?;
     let bar = bar(request.count);
     let mut rows = Vec::new();
@@ -83,6 +88,10 @@ pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, Compa
     }
     bar.finish_and_clear();
     print!("{}", summary(&rows));
+    if let Some(csv) = &request.collected {
+        let seed = if request.first == 0 { request.seed.to_string() } else { format!("{} from {}", request.seed, request.first) };
+        collect::add(csv, "random", &seed, &request.terms, &rows)?;
+    }
     Ok(rows)
 }
 

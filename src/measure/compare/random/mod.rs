@@ -4,9 +4,11 @@
 //! - [`case_file`]: a case as a scene file with its size and T.
 //! - [`reduce`]: a failing case made smaller.
 //! - [`outcome`]: what came of many.
+//! - [`collect`]: runs of many cases in one table.
 //! - [`command`]: `lensrunner compare --random` and `--case`.
 
 pub mod case_file;
+pub mod collect;
 pub mod command;
 pub mod draw;
 pub mod outcome;
