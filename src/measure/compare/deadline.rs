@@ -56,16 +56,17 @@ pub fn trace_within(case: &Case, quality: &Quality, deadline: &Deadline) -> Resu
     let total = u64::from(case.camera.size[0]) * u64::from(case.camera.size[1]);
     // The judge ends no ray early, so it is left between two bands of rows, by a jump that no panic hook hears of.
     let step = |pixels: u64| {
-        let done = done.fetch_add(pixels, Ordering::Relaxed) + pixels;
-        if done < total && deadline.is_over() {
+        let before = done.load(Ordering::Relaxed);
+        if before + pixels < total && deadline.is_over() {
             resume_unwind(Box::new(Over));
         }
+        done.fetch_add(pixels, Ordering::Relaxed);
     };
     catch_unwind(AssertUnwindSafe(|| case.trace(quality, false, &step))).map_err(|other| {
         if !other.is::<Over>() {
             resume_unwind(other);
         }
-        deadline.gave_up(format!("{} of {total} pixels were traced", done.load(Ordering::Relaxed)))
+        deadline.gave_up(format!("its picture was not finished ({} of {total} pixels were)", done.load(Ordering::Relaxed)))
     })
 }
 

@@ -118,24 +118,28 @@ fn camera_text(chance: &mut StdRng, eye: DVec3, target: Option<DVec3>) -> String
     if let Some(momentum) = momentum {
         text.vector("momentum", momentum);
     }
-    let fov: f64 = match chance.random_range(0..6) {
+    let mut fov: f64 = match chance.random_range(0..6) {
         0..3 => 60.0,
         3 => chance.random_range(8.0..40.0),
         4 => chance.random_range(40.0..100.0),
         _ => chance.random_range(100.0..140.0),
     };
-    // Mostly to the hole, around which what is behind it is seen, or to where something there is would be seen by straight light; the rest anywhere.
-    let behind = target.is_none_or(|target| target.normalize_or_zero().dot(eye.normalize()) < -0.9);
-    let towards = match chance.random_range(0..12) {
-        0..9 => match target {
-            Some(target) if !behind => place::seen(eye, momentum, target),
-            _ => place::seen(eye, momentum, DVec3::ZERO),
-        },
-        9 => place::seen(eye, momentum, DVec3::ZERO),
-        10 => place::direction(chance),
-        _ => place::seen(eye, momentum, 2.0 * eye),
+    // Mostly to the hole, around which what is behind it is seen, or to where something there is is seen; the rest anywhere.
+    let hole = place::seen(eye, momentum, DVec3::ZERO);
+    let towards = match (chance.random_range(0..14), target) {
+        (0..12, Some(target)) => {
+            let (seen, behind) = (place::seen(eye, momentum, target), target.normalize_or_zero().dot(eye.normalize()) < -0.9);
+            if behind {
+                // The whole ring, give or take.
+                fov = fov.max((2.5 * seen.angle_between(hole).to_degrees()).min(150.0));
+            }
+            if behind { hole } else { seen }
+        }
+        (12, _) => place::direction(chance),
+        (13, _) => -hole,
+        _ => hole,
     };
-    text.vector("look", towards + place::direction(chance) * chance.random_range(0.0..0.35) * fov.to_radians());
+    text.vector("look", towards + place::direction(chance) * chance.random_range(0.0..0.3) * fov.to_radians());
     if chance.random_bool(0.3) {
         text.vector("up", place::direction(chance));
     }

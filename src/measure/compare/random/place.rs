@@ -9,8 +9,8 @@ use rand::rngs::StdRng;
 use super::draw::Corner;
 use crate::scene::{Body, GameConfig, Scene};
 use crate::spacetime::frames::{rest_to_rain, seen_direction};
+use crate::spacetime::light::{Branch, connect, rain_angle};
 use crate::spacetime::matter::{ShipState, gamma};
-use crate::spacetime::metric::river_speed;
 use crate::spacetime::orbit::{circular_momentum, static_momentum};
 
 /// A direction, all alike.
@@ -72,16 +72,19 @@ pub fn camera_momentum(chance: &mut StdRng, eye: DVec3) -> Option<DVec3> {
     }
 }
 
-/// The direction, in the axes of a camera of this rain-frame momentum (None: held in place, or falling with the rain), in which it would see the point by light
-/// that goes straight.
+/// The direction, in the axes of a camera of this rain-frame momentum (None: held in place, or falling with the rain), in which it sees a point that stands still; the hole's
+/// for the origin, and where no light comes from the point.
 pub fn seen(eye: DVec3, momentum: Option<DVec3>, point: DVec3) -> DVec3 {
     let momentum = momentum.or_else(|| static_momentum(eye)).unwrap_or(DVec3::ZERO);
-    // Light is carried inwards with the space: its own direction makes up for that.
-    let (towards, river) = ((eye - point).normalize_or(eye.normalize()), -eye.normalize() * river_speed(eye.length()));
-    let along = river.dot(towards);
-    let root = (along * along + 1.0 - river.length_squared()).max(0.0).sqrt();
-    let travel = (towards * (along + root) - river).normalize_or(towards);
-    seen_direction(&ShipState::new(eye, momentum), travel)
+    let (n, u) = (eye.normalize(), 1.0 / eye.length());
+    let swept = point.angle_between(eye);
+    let across = (point - n * point.dot(n)).normalize_or(n.any_orthonormal_vector());
+    let ray = (point.length() > 1e-6 && swept > 1e-6).then(|| connect(1.0 / point.length(), swept, u, Branch::Plus)).flatten();
+    let look = ray.map_or(-n, |ray| {
+        let (sine, cosine) = rain_angle(ray.slope, ray.energy, u).sin_cos();
+        n * cosine + across * sine
+    });
+    seen_direction(&ShipState::new(eye, momentum), -look)
 }
 
 /// A ship's rain-frame momentum: hovering, falling, moving outwards, or at a speed of up to 0.99 c against who hovers there (or falls, inside).
