@@ -173,7 +173,7 @@ pub(super) fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin:
 }
 
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
-/// by coverage, if they hardly do: drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
+/// by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
 fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     // Pixels touched and pixels filled.
     let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
@@ -185,12 +185,14 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
     let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(|shown| (shown.object, shown.order));
     // What not one sample of the judge has met is narrow for sure.
-    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| MOSTLY * filled < *touched));
+    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| *filled <= FEW || MOSTLY * filled < *touched));
     nowhere.chain(hardly).collect()
 }
 
 /// A pixel is filled from this part on: all samples of any number but for rounding.
 pub(super) const FULL: f32 = 0.999;
+/// What fills no more pixels than this is nowhere two pixels wide.
+const FEW: usize = 1;
 /// One in so many pixels filled is still narrow: of a line one pixel wide, across any grid, none to a third is.
 const MOSTLY: usize = 3;
 
