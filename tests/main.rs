@@ -12,10 +12,12 @@ mod measure_aurora_pyramid;
 mod measure_charts;
 mod measure_compare;
 mod measure_displacement;
+mod measure_flight;
 mod measure_narrow;
 mod measure_project;
 mod measure_projection;
 mod measure_published;
+mod measure_random;
 mod measure_thin_disk;
 mod measure_verdicts;
 mod reference_bvh_build;
@@ -76,6 +78,8 @@ mod render_outside;
 mod render_pictures;
 #[cfg(feature = "game")]
 mod render_polygons;
+#[cfg(feature = "game")]
+mod render_random;
 #[cfg(feature = "game")]
 mod render_ration;
 #[cfg(feature = "game")]

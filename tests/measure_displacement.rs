@@ -1,7 +1,7 @@
 //! Where the judge is asked for a surface point.
 
 use glam::DVec3;
-use lensrunner::measure::compare::displacement::{Measured, Point, Probe, displacements};
+use lensrunner::measure::compare::displacement::{Effort, Measured, Point, Probe, displacements};
 use lensrunner::measure::compare::{Frame, Shown};
 use lensrunner::reference::picture::{Layer, Picture};
 
@@ -48,7 +48,7 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
         (0..25).map(|i| Shown { object: 1, order: 1, body: [centre(i)[0], centre(i)[1], 0.0], coverage: 1.0 }).collect();
     shown[12].body = [502.8, 2.5, 0.0];
     let frame = Frame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], shown };
-    let found = displacements(&judge, &frame, &Rod);
+    let found = displacements(&judge, &frame, &Rod, &Effort::default());
     let Some(Measured::Pixels(rod)) = found[12] else { panic!("{:?}", found[12]) };
     assert!((rod - 0.3).abs() < 1e-3, "{rod}");
     assert!(matches!(found[6], Some(Measured::Pixels(wall)) if wall < 1e-3), "{:?}", found[6]);

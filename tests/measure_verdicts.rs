@@ -32,6 +32,7 @@ fn verdict(orders: u32) -> Verdict {
         lit: 0,
         flip: 0.01,
         displaced: vec![],
+        areas: vec![],
     }
 }
 

@@ -190,6 +190,11 @@ impl Case {
     /// Plays `scene` to T = `at` and places its camera for a picture of `size` pixels.
     pub fn new(scene: Scene, config: GameConfig, at: f64, size: [u32; 2]) -> Case {
         let moment = Moment::new(&scene, &config, at, 0);
+        Case::of(scene, config, &moment, size)
+    }
+
+    /// The same of a scene that has been played to this moment.
+    pub fn of(scene: Scene, config: GameConfig, moment: &Moment, size: [u32; 2]) -> Case {
         let time = moment.time();
         let view = scene.camera.viewpoint(time, &moment.ships());
         let ended = scene.camera.check(time, &moment.ships());

@@ -1,18 +1,64 @@
 //! The game's renderer before the judge.
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::measure::compare::command::MARKS;
 use crate::measure::compare::{Frame, Shown};
 use crate::measure::trace::Case;
 use crate::render::readback::Picture;
-use crate::render::shot::for_comparison;
+use crate::render::shot::{Compared, ShotError, for_comparison, marked, renderer};
+use crate::render::{Renderer, frame};
 
-/// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
+/// The game's renderer, kept from case to case: its device and its passes are made once.
+#[derive(Default)]
+pub struct Contestant(Mutex<Option<Renderer>>);
+
+impl Contestant {
+    /// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
+    pub fn draw(&self, case: &Case) -> Result<Frame, String> {
+        self.with_renderer(case, |renderer| {
+            let [sky, bare, first, second] = for_comparison(renderer, &compared_case(case), MARKS)?;
+            let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
+            let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
+            Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+        })
+    }
+
+    /// What its pixels show, and nothing of its light: a quarter of the work.
+    pub fn show(&self, case: &Case) -> Result<Vec<Shown>, String> {
+        self.with_renderer(case, |renderer| {
+            let layers = marked(renderer, &compared_case(case), MARKS[0])?;
+            Ok((0..layers.layers.len()).map(|i| shown(&layers, &layers, i)).collect())
+        })
+    }
+
+    fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, ShotError>) -> Result<T, String> {
+        // After a panic or an error the next case gets a renderer of its own.
+        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let said = |error: ShotError| error.to_string();
+        let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(said)?;
+        let drawn = draw(&mut renderer).map_err(said)?;
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
+        Ok(drawn)
+    }
+}
+
+fn compared_case(case: &Case) -> Compared<'_> {
+    let eye = &case.camera;
+    Compared {
+        scene: &case.scene,
+        assembly: &case.assembly,
+        config: &case.config,
+        time: case.time,
+        histories: case.histories.iter().collect(),
+        camera: frame::Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view },
+        size: eye.size,
+    }
+}
+
+/// Draws the case on a device of its own.
 pub fn draw(case: &Case) -> Result<Frame, String> {
-    let [sky, bare, first, second] =
-        for_comparison(&case.scene, &case.assembly, MARKS, &case.config, case.time, case.camera.size).map_err(|error| error.to_string())?;
-    let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
-    let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
-    Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
+    Contestant::default().draw(case)
 }
 
 fn shown(first: &Picture, second: &Picture, i: usize) -> Shown {

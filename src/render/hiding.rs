@@ -3,6 +3,8 @@
 //! A thin image has no depth: it is drawn by the areas of its triangles, and of what stands inside or behind another part those would count too.
 //! So each triangle knows from where it is seen past the rest of its model, as a depth map from each direction tells.
 
+use std::sync::{Mutex, PoisonError};
+
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -45,9 +47,25 @@ pub fn direction_of(k: u32) -> Vec3 {
 pub fn seen_from(model: &Model) -> Vec<u32> {
     let corners: Vec<[Vec3; 3]> =
         model.triangles.iter().map(|triangle| triangle.map(|vertex| Vec3::from(model.vertices[vertex as usize].position))).collect();
+    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, known)) = lock().iter().find(|(other, _)| *other == corners) {
+        return known.clone();
+    }
     let seen: Vec<Vec<bool>> = (0..DIRECTIONS).into_par_iter().map(|k| seen_in(&corners, direction_of(k))).collect();
-    (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect()
+    let found: Vec<u32> = (0..corners.len()).map(|i| (0..DIRECTIONS).map(|k| u32::from(seen[k as usize][i]) << k).sum()).collect();
+    let mut known = lock();
+    known.truncate(MOST_KNOWN - 1);
+    known.insert(0, (corners, found.clone()));
+    found
 }
+
+/// Models that were looked at last, by their corners, with what was found: the same ones are uploaded again and again where many pictures are drawn.
+static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+/// How many are kept.
+const MOST_KNOWN: usize = 12;
+
+/// A model's corners, and for each triangle a bit for each direction.
+type Known = (Vec<[Vec3; 3]>, Vec<u32>);
 
 /// The part of a triangle that is seen from `direction`: the twin of `seen_part` in `shaders/functions/hiding.wgsl`.
 pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {

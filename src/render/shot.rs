@@ -10,9 +10,10 @@ use crate::lensing;
 pub use crate::scene::picture_size as size;
 use crate::scene::viewpoint::CameraEnded;
 use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
+use crate::sim::History;
 pub use crate::sim::Moment;
 
-use super::frame::Settings;
+use super::frame::{Camera, Settings};
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
 use super::stage::{Stage, settings};
@@ -100,33 +101,56 @@ pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError
     Ok(renderer.picture(&frame, request.layers)?)
 }
 
+/// A renderer without a window, for pictures of this size at first.
+pub fn renderer(size: [u32; 2]) -> Result<Renderer, ShotError> {
+    Ok(Renderer::new(&Gpu::headless()?, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size))
+}
+
+/// A scene at one moment, as it is compared with the judge's picture.
+pub struct Compared<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its models and objects.
+    pub assembly: &'a Assembly,
+    /// Its configuration.
+    pub config: &'a GameConfig,
+    /// T in r_s/c.
+    pub time: f64,
+    /// Worldlines of the ships, in scene order.
+    pub histories: Vec<&'a History>,
+    /// From where it is seen.
+    pub camera: Camera,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
 /// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
-pub fn for_comparison(
-    scene: &Scene,
-    assembly: &Assembly,
-    marks: [fn(&Model) -> Model; 2],
-    config: &GameConfig,
-    at: f64,
-    size: [u32; 2],
-) -> Result<[Picture; 4], ShotError> {
-    let gpu = Gpu::headless()?;
-    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
-    let moment = Moment::new(scene, config, at, 0);
-    let with = settings(config);
-    let without = Settings { stars: false, milky_way: false, ..with };
-    let mut config = config.clone();
+pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
+    let stage = staged(renderer, what, None);
+    let [sky, bare] = [drawn(renderer, what, &stage, false, true)?, drawn(renderer, what, &stage, false, false)?];
+    let [first, second] = marks.map(|mark| marked(renderer, what, mark));
+    Ok([sky, bare, first?, second?])
+}
+
+/// The picture with layers, without the sky, of models marked so.
+pub fn marked(renderer: &mut Renderer, what: &Compared, mark: fn(&Model) -> Model) -> Result<Picture, ShotError> {
+    let stage = staged(renderer, what, Some(mark));
+    drawn(renderer, what, &stage, true, false)
+}
+
+fn staged(renderer: &mut Renderer, what: &Compared, mark: Option<fn(&Model) -> Model>) -> Stage {
+    renderer.resize(what.size);
+    let mut config = what.config.clone();
     config.aurora.enabled = false;
-    let config = &config;
-    let mut draw = |mark: Option<fn(&Model) -> Model>, settings: &Settings| {
-        let layers = mark.is_some();
-        let stage = Stage::of(&mut renderer, scene, assembly.clone(), config, mark);
-        let camera = stage.camera(moment.time(), &moment.ships());
-        let frame = stage.frame(camera, size, moment.time(), &moment.histories(), None, settings);
-        renderer.picture(&frame, layers)
-    };
-    let [first, second] = marks;
-    Ok([draw(None, &with)?, draw(None, &without)?, draw(Some(first), &without)?, draw(Some(second), &without)?])
+    Stage::of(renderer, what.scene, what.assembly.clone(), &config, mark)
+}
+
+fn drawn(renderer: &mut Renderer, what: &Compared, stage: &Stage, layers: bool, sky: bool) -> Result<Picture, ShotError> {
+    let with = settings(what.config);
+    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
+    let frame = stage.frame(what.camera, what.size, what.time, &what.histories, None, &settings);
+    Ok(renderer.picture(&frame, layers)?)
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -135,13 +135,18 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
 
 /// Loads a scene by name (`chase`: from `assets/scenes/`) or by path (anything that ends in `.toml` or holds a separator).
 pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
-    let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-    let path = if by_path { PathBuf::from(name_or_path) } else { scenes_folder().join(format!("{name_or_path}.toml")) };
+    let path = path(name_or_path);
     if !path.is_file() {
         return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: names().join(", ") });
     }
     let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
     Scene::from_toml(&path, &text).map_err(SceneError::Invalid)
+}
+
+/// The file that a name or path stands for, whether it exists or not.
+pub fn path(name_or_path: &str) -> PathBuf {
+    let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
+    if by_path { PathBuf::from(name_or_path) } else { scenes_folder().join(format!("{name_or_path}.toml")) }
 }
 
 /// The names of the scenes in `assets/scenes/`, sorted.

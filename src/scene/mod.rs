@@ -31,7 +31,7 @@ pub use camera::{Camera, Mount, picture_size};
 pub use config::GameConfig;
 pub use config_fields::METHODS;
 pub use error::{Complaint, Complaints, ConfigError, SceneError};
-pub use load::{Scene, assets_folder, help, load, names};
+pub use load::{Scene, assets_folder, help, load, names, path};
 pub use model::{Image, Material, Model, Vertex};
 pub use planet::{Planet, SkySwitches};
 pub use prop::Prop;

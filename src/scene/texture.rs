@@ -1,7 +1,7 @@
 //! The procedural textures: a chequer, a spiral galaxy, a planet. Deterministic.
 
 use std::f32::consts::{PI, TAU};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::prelude::*;
 
@@ -40,8 +40,19 @@ pub fn galaxy() -> Arc<Image> {
         .clone()
 }
 
-/// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which.
+/// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which. The last one is kept.
 pub fn planet(seed: u32) -> Arc<Image> {
+    static LAST: Mutex<Option<(u32, Arc<Image>)>> = Mutex::new(None);
+    let lock = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((_, image)) = lock().as_ref().filter(|(last, _)| *last == seed) {
+        return image.clone();
+    }
+    let image = planet_image(seed);
+    *lock() = Some((seed, image.clone()));
+    image
+}
+
+fn planet_image(seed: u32) -> Arc<Image> {
     Arc::new(draw(1024, 512, |x, y| {
         let (longitude, colatitude) = (TAU * (x as f32 + 0.5) / 1024.0, PI * (y as f32 + 0.5) / 512.0);
         let (sine, cosine) = colatitude.sin_cos();

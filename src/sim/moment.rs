@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::ShipState;
 
-use super::{Clock, Fleet, History, ShipMotion, simulate};
+use super::{Clock, Fleet, History, ShipMotion, outcome, simulate};
 
 /// A scene with its ships at a time T.
 pub struct Moment {
@@ -16,13 +16,23 @@ pub struct Moment {
 impl Moment {
     /// Plays the scene from T = 0 to T = `at`.
     pub fn new(scene: &Scene, config: &GameConfig, at: f64, seed: u64) -> Moment {
-        let mut world = simulate::app_of(scene, config, seed);
-        let clock = *world.world().resource::<Clock>();
-        let steps = (at / clock.step).round() as u64;
+        let world = simulate::app_of(scene, config, seed);
+        let mut moment = Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
+        let step = moment.world.world().resource::<Clock>().step;
+        moment.advance((at / step).round() as u64);
+        moment
+    }
+
+    /// Plays on for so many steps of the clock.
+    pub fn advance(&mut self, steps: u64) {
         for _ in 0..steps {
-            world.world_mut().run_schedule(FixedUpdate);
+            self.world.world_mut().run_schedule(FixedUpdate);
         }
-        Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() }
+    }
+
+    /// Whether a chase has been decided.
+    pub fn is_decided(&self) -> bool {
+        outcome(self.world.world()).is_some()
     }
 
     /// The clock.

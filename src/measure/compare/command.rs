@@ -1,6 +1,6 @@
 //! `lensrunner compare`: a renderer's picture of a scene, handed in from above, against the judge's.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -32,6 +32,9 @@ pub enum CompareError {
     /// The table of verdicts cannot be read or written (exit code 1), or is another table (2).
     #[error(transparent)]
     Sheet(#[from] SheetError),
+    /// A file or folder cannot be written: exit code 1.
+    #[error("cannot write {}: {}", .0.display(), .1)]
+    Output(PathBuf, std::io::Error),
 }
 
 impl From<PictureFileError> for CompareError {

@@ -2,10 +2,14 @@
 //!
 //! Points are compared as points of the body, three coordinates in its own axes: texture coordinates have seams and poles.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Frame;
+use super::deadline::Deadline;
 use crate::reference::picture::{Layer, Picture};
 
 /// A point of a surface as the judge sees it.
@@ -42,14 +46,52 @@ pub enum Measured {
 /// three rounded products, are right to about 4e-7 of the radius in f32, a tenth of this.
 const RESOLUTION: f64 = 4e-6;
 
-/// The displacement at each pixel where both show the same object in the same order; None elsewhere.
-pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<Option<Measured>> {
+/// How much is asked of the judge between the pixels.
+#[derive(Clone, Debug)]
+pub struct Effort {
+    /// The most pixels of one image at which displacements are measured, evenly spread over it.
+    pub pixels: usize,
+    /// The most pixels of one image at which a doubtful displacement is measured from several starts.
+    pub doubtful: usize,
+    /// When it ends; what has not been measured by then is left out.
+    pub deadline: Deadline,
+}
+
+impl Default for Effort {
+    fn default() -> Effort {
+        Effort { pixels: usize::MAX, doubtful: usize::MAX, deadline: Deadline::never() }
+    }
+}
+
+/// The pixels where both show the same object in the same order, for each image so many as are measured. They are in an order in which any first part is spread
+/// over the picture, so that little is lost where time runs out.
+fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<usize> {
+    let mut images: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (i, (layer, shown)) in judge.layers.iter().zip(&frame.shown).enumerate() {
+        if layer.object > 0 && (layer.object, layer.order) == (shown.object, shown.order) {
+            images.entry((layer.object, layer.order)).or_default().push(i);
+        }
+    }
+    let mut measured: Vec<usize> = Vec::new();
+    for pixels in images.values() {
+        let count = pixels.len().min(most);
+        measured.extend((0..count).map(|k| pixels[k * pixels.len() / count]));
+    }
+    // Fibonacci's hash: neighbours come far apart.
+    measured.sort_by_key(|&i| (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    measured
+}
+
+/// The displacement at each pixel where both show the same object in the same order; None elsewhere, and where `effort` ends before.
+pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: &Effort) -> Vec<Option<Measured>> {
     let width = judge.size[0] as usize;
-    (0..judge.layers.len())
-        .into_par_iter()
-        .map(|i| {
+    let measured = measurable(judge, frame, effort.pixels);
+    let doubted: Mutex<BTreeMap<(u32, u32), usize>> = Mutex::default();
+    let found: Vec<Option<Measured>> = measured
+        .par_iter()
+        .map(|&i| {
             let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
-            if layer.object == 0 || (layer.object, layer.order) != (shown.object, shown.order) {
+            if effort.deadline.is_over() {
                 return None;
             }
             let wanted = DVec3::from(shown.body.map(f64::from));
@@ -58,6 +100,14 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<O
             let there = measure(probe, here, centre, centre, wanted);
             if !matches!(there, Some(Measured::Pixels(d)) if d > DOUBTFUL) {
                 return there;
+            }
+            if effort.doubtful < usize::MAX {
+                let mut doubted = doubted.lock().unwrap_or_else(PoisonError::into_inner);
+                let count = doubted.entry((layer.object, layer.order)).or_default();
+                *count += 1;
+                if *count > effort.doubtful {
+                    return there;
+                }
             }
             // Where one part of a body stands before another its map tears. The point is looked for from both sides of the tear.
             let around = |k: u32| DVec2::from_angle(std::f64::consts::FRAC_PI_4 * f64::from(k));
@@ -72,7 +122,10 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe) -> Vec<O
             let Some(Measured::Pixels(d)) = there else { return there };
             Some(Measured::Pixels(found.fold(d, f64::min)))
         })
-        .collect()
+        .collect();
+    let mut all = vec![None; judge.layers.len()];
+    measured.into_iter().zip(found).for_each(|(i, found)| all[i] = found);
+    all
 }
 
 /// From this many pixels on a displacement is measured from several starts.

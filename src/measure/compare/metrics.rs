@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use super::Frame;
-use super::displacement::{Measured, Probe, displacements};
+use super::area::{Area, areas};
+use super::displacement::{Effort, Measured, Probe, displacements};
+pub use super::fault::Limits;
 use crate::reference::picture::Picture;
 
 /// Displacements between the same surface points in the two pictures, in pixels.
@@ -65,93 +67,18 @@ pub struct Verdict {
     pub flip: f64,
     /// Displacement at each pixel, in pixels; not a number where it was not measured.
     pub displaced: Vec<f32>,
-}
-
-/// What a picture must keep to be taken as right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limits {
-    /// Of 99 in 100 displacements, in pixels.
-    pub most: f64,
-    /// Of every displacement, in pixels.
-    pub max: f64,
-    /// Of mismatched pixels, as a part of the object's pixels and its rim.
-    pub coverage: f64,
-    /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
-    /// triangles may make all or nothing, of a variance of 1/4 at most.
-    pub thin: f64,
-    /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours, or where surfaces are.
-    pub flip: Option<f64>,
-    /// Image orders that are drawn at all; higher ones are listed and not judged.
-    pub orders: u32,
-}
-
-impl Default for Limits {
-    fn default() -> Limits {
-        Limits { most: 0.5, max: 1.5, coverage: 0.002, thin: 3.0, flip: None, orders: 3 }
-    }
-}
-
-impl Verdict {
-    /// Whether there is anything to judge: an image of something solid, or colours that the judge knows.
-    pub fn is_judged(&self, limits: &Limits) -> bool {
-        limits.flip.is_some() || self.groups.iter().any(|group| group.order <= limits.orders)
-    }
-
-    /// What goes beyond the limits, in words; nothing if the picture is right.
-    pub fn faults(&self, limits: &Limits) -> Vec<String> {
-        let mut faults = Vec::new();
-        for group in self.groups.iter().filter(|group| group.order <= limits.orders) {
-            let who = format!("{} order {}", group.name, group.order);
-            let d = &group.displacement;
-            if d.most > limits.most {
-                faults.push(format!("{who}: 99 % of displacements are under {:.2} px, not {}", d.most, limits.most));
-            }
-            if d.max > limits.max {
-                let [x, y] = d.worst;
-                faults.push(format!("{who}: displacement up to {:.2} px (at {x}, {y}), more than {}", d.max, limits.max));
-            }
-            let allowed = limits.coverage * (group.pixels + group.rim) as f64;
-            // One pixel may always fall either way.
-            if group.mismatched as f64 > allowed.max(1.0) {
-                faults.push(format!("{who}: {} pixels differ, allowed {:.1}", group.mismatched, allowed.max(1.0)));
-            }
-        }
-        let allowed = |touched: usize| 0.5 * limits.thin * (touched.max(1) as f64).sqrt();
-        let drawn = self.groups.iter().filter(|group| group.order <= limits.orders);
-        for group in drawn.clone() {
-            let ([judge, shown], allowed) = (group.thin, allowed(group.touched));
-            if (judge - shown).abs() > allowed {
-                let who = format!("{} order {}", group.name, group.order);
-                faults.push(format!("{who}: thin images cover {shown:.1} px, not {judge:.1} (give or take {allowed:.1})"));
-            }
-        }
-        let [judge, shown] = drawn.clone().fold([0.0; 2], |sum, group| [sum[0] + group.thin[0], sum[1] + group.thin[1]]);
-        let allowed = allowed(drawn.map(|group| group.touched).sum());
-        if (judge - shown).abs() > allowed {
-            faults.push(format!("thin images cover {shown:.1} px together, not {judge:.1} (give or take {allowed:.1})"));
-        }
-        if let Some(allowed) = limits.flip
-            && self.flip > allowed
-        {
-            faults.push(format!("mean FLIP is {:.4}, not {allowed:.4}: more than half a pixel's shift makes", self.flip));
-        }
-        // A pixel that the border of two orders runs through is judged by coverage, like that of any border.
-        for (count, what) in [
-            (self.wrong_beyond_rim, "show an order that is nowhere near"),
-            (self.holes, "are holes"),
-            (self.lit, "are lit where there is no light"),
-        ] {
-            if count > 0 {
-                faults.push(format!("{count} pixels {what}"));
-            }
-        }
-        faults
-    }
+    /// How large each image of each object is, by number and order.
+    pub areas: Vec<Area>,
 }
 
 /// Compares. `probe` asks the judge between the pixels; `names` has the name of each object by number, from 1; `difference` is the ꟻLIP of
 /// each pixel.
 pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32]) -> Verdict {
+    compare_with(judge, frame, probe, names, difference, &Effort::default())
+}
+
+/// The same with no more effort for displacements than this.
+pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32], effort: &Effort) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
     let grid = Grid::of(judge.size);
     let thin = thin_images(judge, frame);
@@ -160,7 +87,7 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
     let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
     let (mut wrong_order, mut wrong_beyond_rim, mut holes, mut lit) = (0, 0, 0, 0);
     let mut displaced = vec![f32::NAN; width * height];
-    let measured = displacements(judge, frame, probe);
+    let measured = displacements(judge, frame, probe, effort);
     for i in 0..width * height {
         let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
         let around = grid.around(i);
@@ -229,12 +156,13 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
     }
     let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
-    Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced }
+    let areas = areas(judge, frame, names, &is_thin);
+    Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced, areas }
 }
 
 /// Whose the coverage is that a contestant shows in a pixel. Where several thin images cover one it knows their common area alone, and names the
 /// nearest: it counts for each as the judge sees them there. Each image with its part, of 1 in all.
-fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<((u32, u32), f64)> {
+pub(super) fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<((u32, u32), f64)> {
     let there: Vec<_> =
         shares.iter().filter(|share| is_thin(share.0, share.1)).map(|share| ((share.0, share.1), f64::from(share.2))).collect();
     if !there.iter().any(|(image, _)| *image == shown) {
@@ -245,7 +173,7 @@ fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u3
 }
 
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
-/// by coverage, if they hardly do: drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
+/// by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
 fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     // Pixels touched and pixels filled.
     let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
@@ -257,12 +185,14 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
     let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(|shown| (shown.object, shown.order));
     // What not one sample of the judge has met is narrow for sure.
-    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| MOSTLY * filled < *touched));
+    let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| *filled <= FEW || MOSTLY * filled < *touched));
     nowhere.chain(hardly).collect()
 }
 
 /// A pixel is filled from this part on: all samples of any number but for rounding.
-const FULL: f32 = 0.999;
+pub(super) const FULL: f32 = 0.999;
+/// What fills no more pixels than this is nowhere two pixels wide.
+const FEW: usize = 1;
 /// One in so many pixels filled is still narrow: of a line one pixel wide, across any grid, none to a third is.
 const MOSTLY: usize = 3;
 

@@ -4,14 +4,26 @@
 //! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
 //! - [`narrow`]: images narrower than a pixel, seen with more rays.
 //! - [`report`]: the numbers as text, the pictures side by side.
+//! - [`area`]: how large each image is.
+//! - [`fault`]: the limits and what is beyond them.
+//! - [`deadline`]: how long the judge may take.
+//! - [`judged`]: one case before the judge, from the picture to its faults.
+//! - [`random`]: scenes that nobody chose.
+//! - [`flight`]: moments of chases that the autopilot flies.
 //! - [`collect`]: verdicts of many scenes in one table.
 //! - [`command`]: `lensrunner compare`.
 
+pub mod area;
 pub mod collect;
 pub mod command;
+pub mod deadline;
 pub mod displacement;
+pub mod fault;
+pub mod flight;
+pub mod judged;
 pub mod metrics;
 pub mod narrow;
+pub mod random;
 pub mod report;
 
 use crate::measure::trace::Case;

@@ -1,0 +1,11 @@
+//! Chases flown by the autopilot, judged at many moments: those at which another ship is seen behind the hole among them.
+//!
+//! - [`moments`]: which moments are looked at.
+//! - [`freeze`]: a moment as a scene file of its own.
+//! - [`jump`]: whether images grow and shrink smoothly from frame to frame.
+//! - [`command`]: `lensrunner compare --flight`.
+
+pub mod command;
+pub mod freeze;
+pub mod jump;
+pub mod moments;

@@ -1,0 +1,27 @@
+//! The scenes in `tests/scenes`: each failed once and is judged as a whole, at the size and T that its first lines say.
+
+use std::path::Path;
+
+use lensrunner::measure::compare::judged::{Terms, judge};
+use lensrunner::measure::compare::random::case_file::{CaseFile, files};
+use lensrunner::play::contestant::Contestant;
+use lensrunner::scene::GameConfig;
+
+#[test]
+fn scenes_that_failed_once_are_right() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes");
+    let contestant = Contestant::default();
+    let paths = files(&[folder]).unwrap();
+    assert!(!paths.is_empty());
+    let mut wrong = Vec::new();
+    for path in paths {
+        let case = CaseFile::load(&path).unwrap().case(&path, &GameConfig::default()).unwrap();
+        let judged = judge(&case, &Terms { seconds: 600.0, ..Terms::default() }, &|case| contestant.draw(case));
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        match judged {
+            Ok(judged) => wrong.extend(judged.faults.iter().map(|fault| format!("{name}: {}: {fault}", fault.kind))),
+            Err(gave_up) => wrong.push(format!("{name}: {gave_up}")),
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
