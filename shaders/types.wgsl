@@ -50,7 +50,10 @@ const FLAG_HOLD_EXPOSURE: u32 = 32u;
 struct Placement {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
-    /// The same centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
+    /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the digits that it takes.
+    /// z: how far a point may be put beside its place by the rounding of f32; all in r_s. w unused.
+    axis: vec4<f32>,
+    /// The centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
     /// w: what its engines lack of their full light, as a share.
     position: vec4<f32>,
     /// dx/dT of the centre; w: r_s per unit of the model where the object moves or turns, else 0.
@@ -167,13 +170,15 @@ struct Piece {
 const PIECE_TRIANGLE: u32 = 0u;
 /// A triangle whose corner 0 is the axis: there its image is an arc, so it is tessellated as a quad (from the axis, along the edge).
 const PIECE_FAN: u32 = 1u;
+/// A triangle whose image is narrow between the edge opposite corner 0 and the other two: only its sides are cut, and joined across.
+const PIECE_STRIP: u32 = 2u;
 
 /// One block of at most 8 × 8 cells for a workgroup of the mesh stage.
 struct WorkItem {
     piece: Piece,
-    /// Levels of the sides. Triangle: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at corner 1 and 2.
+    /// Levels of the sides. Triangle and strip: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at corner 1 and 2.
     levels: vec4<u32>,
-    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y), z, w: first row and column of the block.
+    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y, a strip one row along the edge opposite corner 0), z, w: first row and column of the block.
     grid: vec4<u32>,
     /// x: first seen vertex, y: first index, z: vertices, w: triangles.
     place: vec4<u32>,

@@ -9,7 +9,7 @@
 /// Chunks of 64 threads of one placement, filled up to the size of the dispatch with NO_PLACEMENT.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
-/// Offset from the camera at emission (rain axes) of each model vertex; w: VERTEX_*.
+/// Place at emission of each model vertex by the axis, as `Answer.by_axis`; w: VERTEX_*.
 @group(1) @binding(6) var<storage, read_write> emitted: array<vec4<f32>>;
 /// x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction, w: error in radians.
 @group(1) @binding(7) var<storage, read_write> edge_states: array<vec4<f32>>;

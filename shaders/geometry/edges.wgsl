@@ -22,13 +22,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
 
-    // Does the axis cut the edge? Distance of the axis from the line, across the axis, and the foot on it.
-    if a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN {
-        let qa = across_plane(a.xyz);
-        let d = across_plane(b.xyz) - qa;
-        let t = clamp(-dot(qa, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
+    // Does the axis cut the edge, as far as f32 can tell? The foot of the axis on it, and how far that is.
+    let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
+    if plain {
+        let d = b.xy - a.xy;
+        let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
         let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
-        if length(qa + d * t) < axis_tolerance(foot) && axis_matters(dot(foot, frame.radial.xyz), order) {
+        if length(foot.xy) < placement.axis.z && axis_matters(foot.z, order) {
             edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), t, 0.0);
             return;
         }
@@ -41,8 +41,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
     let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
     let alone = edge.z == ALONE;
-    let limb = is_rim(placement, alone, p, q) || (!alone && MAY_FOLD && on_limb(placement, edge, leaving_a, leaving_b, a.xyz));
-    let closer = select(1.0, limb_strictness(placement), limb);
+    let limb = is_rim(placement, alone, p, q) || (!alone && MAY_FOLD && on_limb(placement, edge, leaving_a, leaving_b, offset_of(a.xyz)));
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
     var whole = true;
@@ -51,7 +50,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     // held under a quarter of the budget (of an outline's for one), the tide with another factor of 3 for the shear of images near the ring.
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
-    let nearest = min(length(across_plane(a.xyz)), length(across_plane(b.xyz)));
+    let nearest = min(length(a.xy), length(b.xy));
+    let closer = max(select(1.0, limb_strictness(placement), limb), ring_strictness(nearest, length(from_apparent), a.z, order));
     let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
     let quarter = 0.25 * frame.size.w / closer;
@@ -59,7 +59,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let short = seen_under < 2.0 * frame.size.w || (small && nearest > 4.0 * edge_length);
     if radial || !short {
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
-        let apex = apex_offset(select(b.xyz, a.xyz, a.w == VERTEX_ON_AXIS));
+        let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);
         let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);
         var points = array<vec3<f32>, 5>(from_apparent, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), to_apparent);
         for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
@@ -75,5 +75,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level_for(error * strictness(placement) * closer, 1.0)), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
+    var level = level_for(error * strictness(placement) * closer, 1.0);
+    if plain && turn_about_axis(a.xyz, b.xyz, order) > MOST_TURN {
+        error = MUST_SPLIT;
+        level = max(level, BLOCK + 1u);
+    }
+    level = select(level, 1u, is_point(placement, a.xyz, b.xyz));
+    edge_states[slot] = vec4<f32>(bitcast<f32>(level), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
 }

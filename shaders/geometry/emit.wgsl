@@ -135,7 +135,7 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<
 /// Room for the blocks of a piece is taken here, so that a full buffer is noticed while a coarser way is left. False if there is less than
 /// `most` allows.
 fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: vec4<u32>) -> bool {
-    let fan = piece.what.z == PIECE_FAN;
+    let fan = piece.what.z != PIECE_TRIANGLE;
     var row = 0u;
     loop {
         if row >= rows { break; }
@@ -226,7 +226,7 @@ fn emit_whole(placement: u32, triangle: u32) {
 fn hand_over(queue: u32) {
     for (var k = 0u; k < min(handed_count, 4u); k++) {
         let item = handed[k];
-        let piece = item.piece;
+        var piece = item.piece;
         let kind = item.grid.z;
         var done = false;
         if kind == HANDED_PIECE {
@@ -238,7 +238,7 @@ fn hand_over(queue: u32) {
                 atomicSub(&counters.pieces[queue], 1u);
             }
         }
-        let whole = piece.what.z == PIECE_TRIANGLE && piece.what.w == 0u;
+        let whole = piece.what.z != PIECE_FAN && piece.what.w == 0u;
         // First as asked, then as coarse as can be.
         for (var attempt = select(1u, 0u, kind == HANDED_WORK); attempt < 2u; attempt++) {
             if done || kind == HANDED_TRIANGLE {
@@ -250,6 +250,7 @@ fn hand_over(queue: u32) {
                 if whole {
                     break;
                 }
+                piece.what.z = select(piece.what.z, PIECE_TRIANGLE, piece.what.z == PIECE_STRIP);
             }
             let room = select(frame.capacity - frame.capacity / 5u, frame.capacity, coarse);
             let size = select(item.grid.xy, vec2<u32>(1u), coarse);

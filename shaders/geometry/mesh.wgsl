@@ -43,6 +43,9 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         let point = fan_point(item, item.grid.z + k / (w + 1u), item.grid.w + k % (w + 1u));
         corner = point.xyz;
         s = point.w;
+    } else if item.piece.what.z == PIECE_STRIP {
+        let w = min(BLOCK, item.grid.y - item.grid.w);
+        corner = strip_point(item, k / (w + 1u), item.grid.w + k % (w + 1u));
     } else {
         corner = triangle_point(item, k);
     }
@@ -72,7 +75,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let first = place.x;
     for (var k = lane; k < place.w; k += 32u) {
         var a: u32; var b: u32; var c: u32;
-        if what.z == PIECE_FAN {
+        if what.z != PIECE_TRIANGLE {
             let cell = k / 2u;
             let row = cell / w;
             let column = cell % w;
@@ -171,6 +174,23 @@ fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
     return vec4<f32>(side_point(c1, c2, column, columns, level), s);
 }
 
+/// A vertex of a strip, barycentric: row 1 runs along the edge opposite corner 0, row 0 along the other two.
+fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
+    let c0 = item.piece.corner_0.xyz;
+    let c1 = item.piece.corner_1.xyz;
+    let c2 = item.piece.corner_2.xyz;
+    let columns = item.grid.y;
+    if row == 1u {
+        return side_point(c1, c2, column, columns, item.levels.x);
+    }
+    // Neither side gets fewer cells than it has segments.
+    let first = item.levels.z + (columns - item.levels.z - item.levels.y) / 2u;
+    if column <= first {
+        return side_point(c1, c0, column, first, item.levels.z);
+    }
+    return side_point(c0, c2, column - first, columns - first, item.levels.y);
+}
+
 /// Texture coordinates of barycentric coordinates in a model triangle.
 fn texture_coordinates(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
     let first = placement.vertices.x;
@@ -190,7 +210,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
     }
     // Inside a fan: the axis point and the outer point at their emission times, then the place between them.
     let body = body_point(placement, triangle, point);
-    var apex = vec3<f32>(0.0);
+    var apex = 0.0;
     var apex_height = 0.0;
     var found: Answer;
     for (var k = select(0u, 1u, s == 1.0); k < select(3u, 2u, s == 1.0); k++) {
@@ -198,20 +218,20 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         if k == 0u {
             query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
         } else if k == 2u {
-            query = query_fan(apex, found.offset, s);
+            query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
             if s == 0.0 && axis_is_outside(query.height, placement.ids.x) {
                 // Past the axis, where the order before begins with arcs cut at other points: between two chords of one circle a pixel could
                 // be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more than they sag.
                 // Near the ring an image moves by half of what its source does, the third order's by a twentieth.
-                let past = 2.5 * ARC_SHARE * frame.size.w * length(apex) * select(1.0, 10.0, placement.ids.x == 3u);
-                fan_place = -min(past / max(query_fan(apex, found.offset, 1.0).across, 1e-9), 0.5);
+                let past = 2.5 * ARC_SHARE * frame.size.w * abs(apex) * select(1.0, 10.0, placement.ids.x == 3u);
+                fan_place = -min(past / max(length(found.by_axis.xy), 1e-9), 0.5);
                 query.across = -past;
             }
         }
         let next = answer(placement, query, placement.ids.x);
         if k == 0u {
-            apex = apex_offset(next.offset);
+            apex = next.by_axis.z;
             apex_height = dot(next.position, frame.radial.xyz);
         } else {
             found = next;

@@ -1,8 +1,7 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
-/// Deepest splitting. An edge passes the axis no nearer than a tenth of a pixel (else it is cut there), so 2^10 parts of up to 8 segments
-/// resolve it on a screen of 800 pixels' radius.
-const DEEPEST: u32 = 10u;
+/// Deepest splitting. A third of it is what an edge takes that passes the axis at a millionth of its length (`halfway`), and not all edges are halved at a time.
+const DEEPEST: u32 = 16u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
@@ -32,14 +31,50 @@ fn axis_matters(along: f32, order: u32) -> bool {
     return frame.radial.w + along < 0.0 || order >= 2u;
 }
 
-/// Nearer than this to the axis (a tenth of a pixel) is on it. The same rule for vertices and edges, so that neighbours agree.
-fn axis_tolerance(offset: vec3<f32>) -> f32 {
-    return 0.1 * frame.size.z * length(offset);
+/// The offset from the camera, rain axes, of a place given by the axis (`Answer.by_axis`).
+fn offset_of(by_axis: vec3<f32>) -> vec3<f32> {
+    return frame.side_a.xyz * by_axis.x + frame.side_b.xyz * by_axis.y + frame.radial.xyz * by_axis.z;
 }
 
-fn across_plane(offset: vec3<f32>) -> vec2<f32> {
-    return vec2<f32>(dot(offset, frame.side_a.xyz), dot(offset, frame.side_b.xyz));
+/// The cross product of two places across the axis: twice the area that they make with the axis, positive if b lies counterclockwise of a. Asked
+/// with the ends of an edge in the order of the model, its sign is the same for all triangles of the edge: then they agree on which side of the edge the
+/// axis is, and of a closed sheet round it exactly one triangle has it inside.
+fn area_with_axis(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    return fma(a.x, b.y, -(a.y * b.x));
 }
+
+/// Where the axis meets the triangle of three corners that are given by the axis, barycentric; negative where it does not. The corners in the
+/// order of the model. A zero counts as positive.
+fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32> {
+    let ab = area_with_axis(a.xy, b.xy);
+    let bc = area_with_axis(b.xy, c.xy);
+    let ac = area_with_axis(a.xy, c.xy);
+    let sum = ab + bc - ac;
+    let round = (ab >= 0.0) == (bc >= 0.0) && (ab >= 0.0) != (ac >= 0.0);
+    if !round || sum == 0.0 {
+        return vec3<f32>(-1.0);
+    }
+    let at = vec3<f32>(bc, -ac, ab) / sum;
+    return select(vec3<f32>(-1.0), at, axis_matters(dot(at, vec3<f32>(a.z, b.z, c.z)), order));
+}
+
+/// The most that a segment may turn about the axis, radians: more is split, whatever its error. Of a triangle whose sides turn by less than a third of a
+/// circle the inside cannot reach across the ring.
+const MOST_TURN: f32 = 0.5;
+
+/// By how much an edge between two places that are given by the axis turns about it, radians; 0 where the axis is a place as any other.
+fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
+    let turn = abs(atan2(area_with_axis(a.xy, b.xy), dot(a.xy, b.xy)));
+    return select(0.0, turn, axis_matters(a.z, order) || axis_matters(b.z, order));
+}
+
+/// Whether an edge between two places that are given by the axis is too short for f32 to tell a point within it from its ends.
+fn is_point(placement: Placement, a: vec3<f32>, b: vec3<f32>) -> bool {
+    return distance(a, b) < 32.0 * placement.axis.z;
+}
+
+/// Error of an edge that must be split, radians: a right angle and more.
+const MUST_SPLIT: f32 = 3.0;
 
 fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return atan2(length(cross(a, b)), dot(a, b));
@@ -81,6 +116,13 @@ const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
 fn limb_strictness(placement: Placement) -> f32 {
     return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
+}
+
+/// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows
+/// surface beyond it. `nearest` is the distance of the edge's ends from the axis, `delay` the light path to there.
+fn ring_strictness(nearest: f32, delay: f32, along: f32, order: u32) -> f32 {
+    let pixels_away = nearest / (frame.size.z * delay);
+    return select(1.0, clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS), axis_matters(along, order));
 }
 
 /// A triangle from which light leaves under a sine below this may be seen edge-on here or there: so far a ship may turn while light crosses it.
@@ -130,12 +172,17 @@ fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) 
 /// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
 /// zero where no side is outside, or both are drawn.
 fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
+    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
+    return plane_normal(placement, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+}
+
+/// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.
+fn plane_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let first = placement.vertices.x;
     let corner = model_vertices[first + triangle.vertices.x].position.xyz;
     let a = shaped(placement, model_vertices[first + triangle.vertices.y].position.xyz - corner);
     let b = shaped(placement, model_vertices[first + triangle.vertices.z].position.xyz - corner);
-    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    return at_rest(placement, cross(a, b), offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+    return at_rest(placement, cross(a, b), offset);
 }
 
 /// The sense in which the corners of a triangle run on the screen, +1 counterclockwise, where it shows its outer side; 0 where no side is outside.
@@ -172,15 +219,33 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
     return b + (a - b) * (1.0 - t);
 }
 
-/// A point of the fan round the axis: `outer` is an offset of its outer edge, `apex` the offset of the axis point, `s` runs from the
-/// axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis itself.
-fn query_fan(apex: vec3<f32>, outer: vec3<f32>, s: f32) -> Query {
-    let parts = split_offset(outer);
-    let along = dot(apex + (outer - apex) * s, frame.radial.xyz);
-    return Query(vec3<f32>(0.0), true, along, parts.across * s, frame.radial.w + along, parts.side);
+/// A point of the fan round the axis: `outer` is a point of its outer edge, by the axis, `apex` how far along the axis its innermost point is, `s` runs
+/// from the axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis itself.
+fn query_fan(apex: f32, outer: vec3<f32>, s: f32) -> Query {
+    let along = mix(apex, outer.z, s);
+    return Query(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.radial.w + along, side_towards(outer.xy));
 }
 
-/// The offset of the axis point: on the axis exactly, at the height of the barycentric point.
-fn apex_offset(offset: vec3<f32>) -> vec3<f32> {
-    return frame.radial.xyz * dot(offset, frame.radial.xyz);
+/// An edge that turns by less about the axis is as any other, radians.
+const LEAST_TURN: f32 = 0.05;
+
+/// Where an edge between two places is halved, as a part of the way from a to b. Beside the axis its image runs along the ring near the foot of the axis on
+/// it, and out along two radii beyond: where an edge turns about the axis, halves are equal in asinh of the distance from the foot over that of the axis, so
+/// that an edge that passes the axis at a millionth of its length takes five halvings and not twenty.
+fn halfway(a: vec2<f32>, b: vec2<f32>) -> f32 {
+    let area = abs(area_with_axis(a, b));
+    if dot(a, b) > 0.0 && area < LEAST_TURN * dot(a, b) {
+        return 0.5;
+    }
+    let d = b - a;
+    let reach = max(length(d), 1e-30);
+    let miss = max(area / reach, 1e-6 * reach);
+    let start = dot(a, d) / reach;
+    let middle = miss * sinh(0.5 * (inverse_sinh(start / miss) + inverse_sinh((start + reach) / miss)));
+    return clamp((middle - start) / reach, 1e-3, 0.999);
+}
+
+/// asinh, whose built-in is lost for large negative numbers.
+fn inverse_sinh(x: f32) -> f32 {
+    return sign(x) * log(abs(x) + sqrt(x * x + 1.0));
 }

@@ -38,31 +38,13 @@ fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elap
     return result;
 }
 
-/// Splits an offset from the camera into its part along the axis, its distance from the axis and the unit vector across.
-struct Split {
-    along: f32,
-    across: f32,
-    side: vec3<f32>,
-}
-
-fn split_offset(offset: vec3<f32>) -> Split {
-    return split_place(offset, offset);
-}
-
-/// The same of a place known both from the camera and, by `position`, from the hole: each number from where it has its digits.
-fn split_place(offset: vec3<f32>, position: vec3<f32>) -> Split {
-    let n = frame.radial.xyz;
-    let nearer = select(position, offset, dot(offset, offset) <= dot(position, position));
-    var result: Split;
-    result.along = dot(offset, n);
-    let q = vec2<f32>(dot(nearer, frame.side_a.xyz), dot(nearer, frame.side_b.xyz));
-    result.across = length(q);
-    if result.across > 0.0 {
-        result.side = (frame.side_a.xyz * q.x + frame.side_b.xyz * q.y) / result.across;
-    } else {
-        result.side = frame.side_a.xyz;
+/// The unit vector across the axis towards a place at `across` beside it, along `side_a` and `side_b`.
+fn side_towards(across: vec2<f32>) -> vec3<f32> {
+    let distance = length(across);
+    if distance > 0.0 {
+        return (frame.side_a.xyz * across.x + frame.side_b.xyz * across.y) / distance;
     }
-    return result;
+    return frame.side_a.xyz;
 }
 
 /// ν_observed/ν_emitted for an emitter of rain-frame momentum `momentum` (xyz, γ).
@@ -108,8 +90,9 @@ struct Query {
 
 struct Answer {
     ray: Sight,
-    /// Offset from the camera at emission, and the same place from the hole.
-    offset: vec3<f32>,
+    /// The place of emission by the axis of hole and camera. x, y: across it, along `side_a` and `side_b`; z: along it, from the camera outward.
+    by_axis: vec3<f32>,
+    /// The same place from the hole.
     position: vec3<f32>,
 }
 
@@ -145,17 +128,17 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         var height = query.height;
         var side = query.side;
         if query.fixed {
-            result.offset = frame.radial.xyz * along + side * across;
+            result.by_axis = vec3<f32>(dot(side, frame.side_a.xyz) * across, dot(side, frame.side_b.xyz) * across, along);
             result.position = frame.radial.xyz * height + side * across;
         } else {
             let swing = swing_at(placement, query.body, s);
-            result.offset = placement.offset.xyz + swing;
             result.position = placement.position.xyz + swing;
-            let parts = split_place(result.offset, result.position);
-            along = parts.along;
-            across = parts.across;
+            let beside = placement.axis.xy + vec2<f32>(dot(swing, frame.side_a.xyz), dot(swing, frame.side_b.xyz));
+            along = dot(placement.offset.xyz + swing, frame.radial.xyz);
+            across = length(beside);
             height = dot(result.position, frame.radial.xyz);
-            side = parts.side;
+            side = side_towards(beside);
+            result.by_axis = vec3<f32>(beside, along);
         }
         // What moves is seen by light of one age; what is held, by light of any: its placement says which is meant.
         let elapsed = select(select(YOUNG, OLD, (placement.triangles.w & PLACEMENT_MINUS) != 0u), placement.offset.w - s, moves);
@@ -175,8 +158,9 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         let missing = elapsed - result.ray.delay;
         let velocity = velocity_at(placement, result.position);
         let speed = length(velocity);
-        // A time in which the object moves less than a fiftieth of a pixel need not be found.
-        if i > 0u && abs(missing) * speed < 0.02 * frame.size.z * result.ray.delay {
+        // A time in which the image moves less than a fiftieth of a pixel need not be found. Round the axis it moves as the azimuth turns.
+        let seen_from = min(result.ray.delay, across);
+        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * seen_from, placement.axis.z) {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.

@@ -23,16 +23,18 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
     } else if piece.what.z == PIECE_FAN {
-        refine_fan(piece);
+        refine_fan(piece, placement);
     } else {
-        refine_triangle(piece);
+        refine_triangle(piece, placement);
     }
     hand_over(1u - queue);
 }
 
-/// What was measured of a piece: its points as they are seen, and for a fan their offsets.
+/// What was measured of a piece: its points as they are seen; its corners, and for a fan those of its outer edge, by the axis.
 var<private> points: array<vec3<f32>, 17>;
-var<private> offsets: array<vec3<f32>, 6>;
+var<private> by_axis: array<vec3<f32>, 6>;
+/// The sines over the triangle under which light leaves it at the corners.
+var<private> rising: vec3<f32>;
 /// Whether one of them is not seen.
 var<private> unseen: bool;
 
@@ -43,8 +45,47 @@ var<private> limb_strict: f32;
 var<private> model_levels: vec3<u32>;
 var<private> limb: array<bool, 3>;
 
-/// The level of the edge between two corners: a whole edge of the model has the level that its other triangle knows too.
-fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
+/// The level of the edge opposite corner `side` of a measured triangle, or of the outer edge (0) of a fan, and where it is halved: from the ends alone, in
+/// the order that both sides of the edge agree on.
+struct Side {
+    level: u32,
+    error: f32,
+    /// About the axis, radians.
+    turn: f32,
+    middle: vec3<f32>,
+}
+
+fn side_of(piece: Piece, side: u32, placement: Placement) -> Side {
+    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    var i = (side + 1u) % 3u;
+    var j = (side + 2u) % 3u;
+    if !comes_first(corners[i], corners[j]) {
+        let other = i;
+        i = j;
+        j = other;
+    }
+    let half = halfway(by_axis[i].xy, by_axis[j].xy);
+    var result: Side;
+    result.middle = corners[i] + (corners[j] - corners[i]) * half;
+    result.error = side_error(side);
+    // Beside the axis a small part of an edge may be a large part of the image.
+    let part = select(1.0, part_between(corners[i], corners[j]), half == 0.5);
+    let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
+    let closer = ring_strictness(nearest, length(points[i]), by_axis[i].z, placement.ids.x);
+    // Where light grazes a triangle its image folds inside it.
+    let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
+    result.level = level_between(corners[i], corners[j], result.error, closer, grazed, part);
+    result.turn = turn_about_axis(by_axis[i], by_axis[j], placement.ids.x);
+    if result.turn > MOST_TURN {
+        result.error = MUST_SPLIT;
+        result.level = max(result.level, BLOCK + 1u);
+    }
+    result.level = select(result.level, 1u, is_point(placement, by_axis[i], by_axis[j]));
+    return result;
+}
+
+/// The level of the edge between two corners, which is `part` of one of the model: a whole one has the level that its other triangle knows too.
+fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: bool, part: f32) -> u32 {
     let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
     // The edge of the model triangle that it lies on, opposite to the corner that has no weight.
     let absent = a + b;
@@ -53,10 +94,8 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32) -> u32 {
     if whole {
         return model_levels[min(edge, 2u)];
     }
-    // Where light grazes a triangle the image folds inside it: the outline comes in over one of its edges and leaves over another.
-    let fold = (limb[0] && limb[1]) || (limb[1] && limb[2]) || (limb[2] && limb[0]);
-    let closer = select(fold, limb[min(edge, 2u)], edge < 3u);
-    return level_for(error * strict * select(1.0, limb_strict, closer), part_between(a, b));
+    let closer = select(grazed, limb[min(edge, 2u)], edge < 3u);
+    return level_for(error * strict * max(least, select(1.0, limb_strict, closer)), part);
 }
 
 /// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
@@ -65,6 +104,7 @@ fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
     let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
     let fan = piece.what.z == PIECE_FAN;
     let count = select(12u, 17u, fan);
+    let normal = plane_normal(placement, triangle, placement.offset.xyz);
     for (var k = 0u; k < count; k++) {
         var corner = corners[min(k, 2u)];
         if k >= 3u && k < 12u {
@@ -73,20 +113,23 @@ fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
         }
         var query = query_body(body_point(placement, triangle, corner));
         if fan && k >= 6u {
-            let apex = apex_offset(offsets[0]);
+            let apex = by_axis[0].z;
             if k < 10u {
-                query = query_fan(apex, offsets[1], f32(k - 6u) * 0.25);
+                query = query_fan(apex, by_axis[1], f32(k - 6u) * 0.25);
             } else if k < 14u {
-                query = query_fan(apex, offsets[2], f32(k - 10u) * 0.25);
+                query = query_fan(apex, by_axis[2], f32(k - 10u) * 0.25);
             } else {
-                query = query_fan(apex, offsets[3u + k - 14u], 0.0);
+                query = query_fan(apex, by_axis[3u + k - 14u], 0.0);
             }
         }
         let found = answer(placement, query, placement.ids.x);
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
+        if k < 3u {
+            rising[k] = dot(normal, leaving_direction(found.ray.leaving, momentum_at(placement, found.position)));
+        }
         if k < 6u {
-            offsets[k] = found.offset;
+            by_axis[k] = found.by_axis;
         }
     }
 }
@@ -102,31 +145,123 @@ fn side_error(side: u32) -> f32 {
     return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
 }
 
-fn refine_triangle(piece: Piece) {
+/// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices.
+fn emit_leaf(piece: Piece, levels: vec3<u32>) {
+    let most = max(levels.x, max(levels.y, levels.z));
+    // Turned so that the side with most segments is opposite the first corner.
+    let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
+    let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
+    let columns = max(turned.x, turned.y + turned.z);
+    if most < 4u || columns > most + 2u || !is_narrow(turn, turned) {
+        emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
+        return;
+    }
+    let corners = array<vec4<f32>, 3>(piece.corner_0, piece.corner_1, piece.corner_2);
+    var strip = piece;
+    strip.what.z = PIECE_STRIP;
+    strip.corner_0 = corners[turn];
+    strip.corner_1 = corners[(turn + 1u) % 3u];
+    strip.corner_2 = corners[(turn + 2u) % 3u];
+    emit_work(strip, vec4<u32>(turned, 1u), 1u, columns);
+}
+
+/// Widest strip, pixels: over so little the image does not bend.
+const STRIP_WIDTH: f32 = 6.0;
+
+/// Whether the image of a measured triangle is narrow between the side opposite corner `turn` and the other two, points of which are compared as a strip joins
+/// them. `levels` from that corner on.
+fn is_narrow(turn: u32, levels: vec3<u32>) -> bool {
+    let columns = f32(levels.y + levels.z);
+    var widest = 0.0;
+    for (var k = 1u; k < 4u; k++) {
+        let at = 0.25 * f32(k) * columns;
+        let on_first = at <= f32(levels.z);
+        // From corner turn + 1 to corner `turn` on the side opposite turn + 2, then on to corner turn + 2; both sides count the other way.
+        let side = select((turn + 1u) % 3u, (turn + 2u) % 3u, on_first);
+        let t = select((at - f32(levels.z)) / f32(levels.y), at / f32(levels.z), on_first);
+        let other = point_of_side(side, 1.0 - t);
+        widest = max(widest, angle_between(other, points[3u + 3u * turn + k - 1u]));
+    }
+    return widest < STRIP_WIDTH * frame.size.z;
+}
+
+/// A measured point of the side opposite corner `side`, at t from corner side + 1 to side + 2: between those at quarters, straight.
+fn point_of_side(side: u32, t: f32) -> vec3<f32> {
+    let k = 3u + 3u * side;
+    let quarter = min(u32(4.0 * t), 3u);
+    let start = select(k + quarter - 1u, (side + 1u) % 3u, quarter == 0u);
+    let end = select(k + quarter, (side + 2u) % 3u, quarter == 3u);
+    return mix(points[start], points[end], vec3<f32>(4.0 * t - f32(quarter)));
+}
+
+/// Where a side turns farther than this about the axis no triangle is halved on all sides, radians.
+const SLICED: f32 = 0.1;
+
+/// Where the axis meets a measured triangle, as `meets_axis`.
+fn met(piece: Piece, order: u32) -> vec3<f32> {
+    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    // The corners in the order that the triangles of each edge agree on.
+    var rank = vec3<u32>(0u, 1u, 2u);
+    if !comes_first(corners[rank.x], corners[rank.y]) { rank = rank.yxz; }
+    if !comes_first(corners[rank.y], corners[rank.z]) { rank = rank.xzy; }
+    if !comes_first(corners[rank.x], corners[rank.y]) { rank = rank.yxz; }
+    let at = meets_axis(by_axis[rank.x], by_axis[rank.y], by_axis[rank.z], order);
+    var result: vec3<f32>;
+    result[rank.x] = at.x;
+    result[rank.y] = at.y;
+    result[rank.z] = at.z;
+    return result;
+}
+
+fn refine_triangle(piece: Piece, placement: Placement) {
     let c0 = piece.corner_0.xyz;
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let errors = vec3<f32>(side_error(0u), side_error(1u), side_error(2u));
-    if off_screen(points[0], points[1], points[2], max(errors.x, max(errors.y, errors.z))) {
+    let depth = piece.what.w;
+    // What moves is not flat when it is seen: the axis may meet a part of a triangle whose corners it passes by.
+    let at = met(piece, placement.ids.x);
+    if at.x >= 0.0 {
+        if depth >= DEEPEST {
+            atomicAdd(&counters.coarse, 1u);
+            return;
+        }
+        let apex = c0 * at.x + c1 * at.y + c2 * at.z;
+        atomicAdd(&counters.cut, 1u);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c1, c2);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c2, c0);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, apex, c0, c1);
         return;
     }
-    let levels = vec3<u32>(level_between(c1, c2, errors.x), level_between(c2, c0, errors.y), level_between(c0, c1, errors.z));
+    var sides: array<Side, 3>;
+    for (var k = 0u; k < 3u; k++) {
+        sides[k] = side_of(piece, k, placement);
+    }
+    if off_screen(points[0], points[1], points[2], max(sides[0].error, max(sides[1].error, sides[2].error))) {
+        return;
+    }
+    let levels = vec3<u32>(sides[0].level, sides[1].level, sides[2].level);
     let most = max(levels.x, max(levels.y, levels.z));
-    let depth = piece.what.w;
     if most <= BLOCK || depth >= DEEPEST {
         if most > BLOCK {
             atomicAdd(&counters.coarse, 1u);
         }
-        let held = min(levels, vec3<u32>(BLOCK));
-        emit_work(piece, vec4<u32>(held, 1u), max(held.x, max(held.y, held.z)), 1u);
+        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)));
         return;
     }
-    let split_0 = levels.x > BLOCK;
-    let split_1 = levels.y > BLOCK;
-    let split_2 = levels.z > BLOCK;
-    let m0 = edge_point(c1, c2, 0.5);
-    let m1 = edge_point(c2, c0, 0.5);
-    let m2 = edge_point(c0, c1, 0.5);
+    var split_0 = levels.x > BLOCK;
+    var split_1 = levels.y > BLOCK;
+    var split_2 = levels.z > BLOCK;
+    // Round the axis the image bends along the ring and hardly across it. Halved on all sides its parts would be as many as the square of what the longest
+    // side needs; so only that side is, and the parts lie side by side.
+    let farthest = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
+    if split_0 && split_1 && split_2 && farthest > SLICED {
+        split_0 = sides[0].turn == farthest;
+        split_1 = sides[1].turn == farthest && !split_0;
+        split_2 = !split_0 && !split_1;
+    }
+    let m0 = sides[0].middle;
+    let m1 = sides[1].middle;
+    let m2 = sides[2].middle;
     // The parts, three corners each.
     var parts = array<vec3<f32>, 12>(c0, m2, m1, m2, c1, m0, m1, m0, c2, m0, m1, m2);
     let count = u32(split_0) + u32(split_1) + u32(split_2);
@@ -147,13 +282,14 @@ fn refine_triangle(piece: Piece) {
     }
 }
 
-fn refine_fan(piece: Piece) {
+fn refine_fan(piece: Piece, placement: Placement) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let outer = level_between(c1, c2, chord_error(points[1], points[3], points[4], points[5], points[2]));
+    let side = side_of(piece, 0u, placement);
+    let outer = side.level;
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {
-        let m = edge_point(c1, c2, 0.5);
+        let m = side.middle;
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, c1, m);
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;

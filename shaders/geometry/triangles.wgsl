@@ -31,71 +31,52 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     if METHOD_FILTERS {
-        if area_ratio(slots, o0.xyz, o1.xyz, o2.xyz) <= LARGEST_AREA_RATIO {
+        if area_ratio(slots, offset_of(o0.xyz), offset_of(o1.xyz), offset_of(o2.xyz)) <= LARGEST_AREA_RATIO {
             emit_whole(chunk.placement, number);
         }
         return;
     }
-    if turned_away(placement, triangle, slots, o0.xyz) {
+    if turned_away(placement, triangle, slots, offset_of(o0.xyz)) {
         return;
     }
     let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
     let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
     let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
 
-    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans. `parts` of them, from `apex` over the edge
-    // first–second and on round.
+    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans, from `apex` over those of its edges in `fans`.
     var apex = vec3<f32>(0.0);
-    var first = corner_1;
-    var second = corner_2;
-    var parts = 0u;
+    var fans = vec3<bool>(false);
+    let on_axis = vec3<bool>(o0.w == VERTEX_ON_AXIS, o1.w == VERTEX_ON_AXIS, o2.w == VERTEX_ON_AXIS);
     let cuts = vec3<bool>((bitcast<u32>(e0.y) & EDGE_CUT) != 0u, (bitcast<u32>(e1.y) & EDGE_CUT) != 0u, (bitcast<u32>(e2.y) & EDGE_CUT) != 0u);
-    if o0.w == VERTEX_ON_AXIS {
-        apex = corner_0;
-        parts = 1u;
-    } else if o1.w == VERTEX_ON_AXIS {
-        apex = corner_1;
-        first = corner_2;
-        second = corner_0;
-        parts = 1u;
-    } else if o2.w == VERTEX_ON_AXIS {
-        apex = corner_2;
-        first = corner_0;
-        second = corner_1;
-        parts = 1u;
-    } else if cuts.x {
+    if any(on_axis) {
+        apex = select(vec3<f32>(0.0), vec3<f32>(1.0), on_axis);
+        // Along an edge that is on the axis there is no surface to see.
+        if dot(apex, vec3<f32>(1.0)) > 1.0 || any(cuts) {
+            return;
+        }
+        fans = on_axis;
+    } else if any(cuts) {
         // The fraction counts from the lower vertex of the edge.
-        apex = vec3<f32>(0.0, 1.0 - e0.z, e0.z);
-        first = corner_2;
-        second = corner_0;
-        parts = 2u;
-    } else if cuts.y {
-        apex = vec3<f32>(1.0 - e1.z, 0.0, e1.z);
-        first = corner_0;
-        second = corner_1;
-        parts = 2u;
-    } else if cuts.z {
         apex = vec3<f32>(1.0 - e2.z, e2.z, 0.0);
-        first = corner_1;
-        second = corner_2;
-        parts = 2u;
-    }
-    let q0 = across_plane(o0.xyz);
-    let q1 = across_plane(o1.xyz);
-    let q2 = across_plane(o2.xyz);
-    let s0 = q1.x * q2.y - q1.y * q2.x;
-    let s1 = q2.x * q0.y - q2.y * q0.x;
-    let s2 = q0.x * q1.y - q0.y * q1.x;
-    if parts == 0u && ((s0 > 0.0 && s1 > 0.0 && s2 > 0.0) || (s0 < 0.0 && s1 < 0.0 && s2 < 0.0)) {
-        let corner = vec3<f32>(s0, s1, s2) / (s0 + s1 + s2);
-        let height = dot(o0.xyz * corner.x + o1.xyz * corner.y + o2.xyz * corner.z, frame.radial.xyz);
-        if axis_matters(height, order) {
-            apex = corner;
-            parts = 3u;
+        apex = select(apex, vec3<f32>(1.0 - e1.z, 0.0, e1.z), cuts.y);
+        apex = select(apex, vec3<f32>(0.0, 1.0 - e0.z, e0.z), cuts.x);
+        fans = !cuts;
+    } else {
+        // What is lost in the rounding of f32 has no azimuth.
+        if max(length(o0.xy), max(length(o1.xy), length(o2.xy))) < 16.0 * placement.axis.z && axis_matters(o0.z, order) {
+            return;
+        }
+        let at = meets_axis(o0.xyz, o1.xyz, o2.xyz, order);
+        if at.x >= 0.0 {
+            apex = at;
+            fans = vec3<bool>(true);
         }
     }
-    if parts > 0u {
-        cut(chunk.placement, number, apex, first, second, parts);
+    if any(fans) {
+        atomicAdd(&counters.cut, 1u);
+        if fans.x { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_1, corner_2); }
+        if fans.y { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_2, corner_0); }
+        if fans.z { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_0, corner_1); }
         return;
     }
 
@@ -171,18 +152,4 @@ fn seen_straight(offset: vec3<f32>) -> vec3<f32> {
     let along = dot(offset, n);
     let rain = offset + n * (gamma * (along - beta * distance) - along);
     return (frame.camera_from_rain * vec4<f32>(rain, -gamma * (distance - beta * along))).xyz;
-}
-
-/// Fans from the axis point `apex`: over the edge first–second, and if the axis is on an edge (2) or inside (3), over the other edges too. For an
-/// edge cut the corners are: `first` the end after the cut, then the vertex opposite; the third is the remaining one.
-fn cut(placement: u32, number: u32, apex: vec3<f32>, first: vec3<f32>, second: vec3<f32>, parts: u32) {
-    atomicAdd(&counters.cut, 1u);
-    var a = first;
-    var b = second;
-    for (var k = 0u; k < parts; k++) {
-        emit_piece(placement, number, PIECE_FAN, 0u, apex, a, b);
-        let third = vec3<f32>(1.0) - a - b;
-        a = b;
-        b = third;
-    }
 }

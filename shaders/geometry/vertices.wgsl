@@ -16,15 +16,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let order = placement.ids.x;
     let slot = placement.ids.z + local;
     let found = answer(placement, query_body(vertex.position.xyz), order);
-    let offset = found.offset;
-    let parts = split_offset(offset);
-    let on_axis = parts.across < axis_tolerance(offset) && axis_matters(parts.along, order);
+    // What rounding may have put there is on it.
+    let on_axis = length(found.by_axis.xy) < placement.axis.z && axis_matters(found.by_axis.z, order);
     let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);
-    if !finite_vector(offset) || (ray.valid && !ok) {
+    if !finite_vector(found.by_axis) || (ray.valid && !ok) {
         atomicAdd(&counters.caught, 1u);
     }
     seen[slot] = seen_vertex(placement, chunk.placement, found, normal_of(placement, vertex.normal.xyz),
         vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
-    emitted[slot] = vec4<f32>(offset, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
+    emitted[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

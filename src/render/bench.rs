@@ -76,6 +76,9 @@ impl fmt::Display for FrameTimes {
             }
         }
         write!(f, "\n  {}", self.counters)?;
+        if let Some(complaint) = self.counters.complaint() {
+            write!(f, "\n  {complaint}")?;
+        }
         if let Some(disk) = &self.disk {
             write!(f, "\n  {disk}")?;
         }

@@ -44,6 +44,7 @@ pub mod flags {
 #[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
 pub struct Placement {
     pub offset: [f32; 4],
+    pub axis: [f32; 4],
     pub position: [f32; 4],
     pub velocity: [f32; 4],
     pub momentum: [f32; 4],
@@ -63,7 +64,7 @@ pub struct Placement {
 impl Placement {
     /// Whether every number of it is one.
     pub fn is_finite(&self) -> bool {
-        let rows = [self.offset, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force, self.snap];
+        let rows = [self.offset, self.axis, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force, self.snap];
         let matrices = [self.shape, self.turn, self.light];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }

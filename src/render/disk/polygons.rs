@@ -12,7 +12,7 @@ use crate::render::geometry::Geometry;
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
-use crate::render::placements::Placed;
+use crate::render::placements::{Placed, by_axis};
 use crate::render::shaders::{Pass, Worldlines};
 use crate::render::types::{ARGUMENTS_OPAQUE, Placement};
 use crate::scene::disk::polygons::{Ring, model, rings};
@@ -46,8 +46,7 @@ struct Part {
     rims: [Option<f64>; 2],
 }
 
-/// How far from the axis of hole and camera the triangles are kept behind the hole, in pixels: what is nearer than a tenth of one is on it, as in
-/// shaders/geometry/patch.wgsl.
+/// How far from the axis of hole and camera the triangles are kept behind the hole, in pixels: far against the rounding of f32, and not seen.
 const OFF_AXIS: f64 = 0.12;
 
 /// The height over the plane z = 0 at which the triangles are drawn, in r_s: none but for a camera that is nearly in that plane. From behind the hole light comes round it
@@ -112,6 +111,7 @@ impl PolygonPass {
         let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
         let momentum = [0.0, 0.0, 0.0, 1.0];
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
+        let axis = by_axis(&input.camera, 0.0, &Placement::default(), height * DVec3::Z, self.extent[1] + elapsed);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
         for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
@@ -121,6 +121,7 @@ impl PolygonPass {
                 let rate = part.rate.unwrap_or_default();
                 let placement = Placement {
                     offset,
+                    axis,
                     position: [0.0, 0.0, height as f32, 0.0],
                     velocity: [0.0, 0.0, 0.0, if part.rate.is_some() { 1.0 } else { 0.0 }],
                     momentum,
