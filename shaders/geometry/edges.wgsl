@@ -51,12 +51,14 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(a.xy), length(b.xy));
-    let closer = max(select(1.0, limb_strictness(placement), limb), ring_strictness(nearest, length(from_apparent), a.z, order));
+    let fineness = pixel_fineness(from_apparent, to_apparent);
+    let pixel = frame.size.z / fineness;
+    let closer = fineness * max(select(1.0, limb_strictness(placement), limb), ring_strictness(nearest, pixel * length(from_apparent), a.z, order));
     let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
     let quarter = 0.25 * frame.size.w / closer;
-    let small = (!limb && seen_under < 8.0 * frame.size.z) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
-    let short = seen_under < 2.0 * frame.size.w || (small && nearest > 4.0 * edge_length);
+    let small = (!limb && seen_under < 8.0 * pixel) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let short = seen_under < 2.0 * frame.size.w / fineness || (small && nearest > 4.0 * edge_length);
     if radial || !short {
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
         let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);
@@ -76,10 +78,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
     var level = level_for(error * strictness(placement) * closer, 1.0);
+    level = min(level, most_segments(placement, a.xyz, b.xyz, pixel * length(from_apparent)));
     if plain && turn_about_axis(a.xyz, b.xyz, order) > MOST_TURN {
         error = MUST_SPLIT;
         level = max(level, BLOCK + 1u);
     }
-    level = select(level, 1u, is_point(placement, a.xyz, b.xyz));
     edge_states[slot] = vec4<f32>(bitcast<f32>(level), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
 }

@@ -68,9 +68,21 @@ fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
     return select(0.0, turn, axis_matters(a.z, order) || axis_matters(b.z, order));
 }
 
-/// Whether an edge between two places that are given by the axis is too short for f32 to tell a point within it from its ends.
-fn is_point(placement: Placement, a: vec3<f32>, b: vec3<f32>) -> bool {
-    return distance(a, b) < 32.0 * placement.axis.z;
+/// Whether three places that are given by the axis are so near to it that f32 tells nothing of their azimuths. Between them there is nothing to see.
+fn is_lost(placement: Placement, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
+    return farthest < 8.0 * placement.axis.z && axis_matters(a.z, placement.ids.x);
+}
+
+/// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`. f32 tells no point of an edge from
+/// its ends that is as short as rounding; and within a fiftieth of a pixel of the axis, where azimuths are lost in rounding too, there is no more to see
+/// than that the ring is whole.
+fn most_segments(placement: Placement, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
+    if distance(a, b) < 2.0 * placement.axis.z {
+        return 1u;
+    }
+    let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, placement.ids.x);
+    return select(0xffffu, BLOCK, core);
 }
 
 /// Error of an edge that must be split, radians: a right angle and more.
@@ -119,9 +131,9 @@ fn limb_strictness(placement: Placement) -> f32 {
 }
 
 /// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows
-/// surface beyond it. `nearest` is the distance of the edge's ends from the axis, `delay` the light path to there.
-fn ring_strictness(nearest: f32, delay: f32, along: f32, order: u32) -> f32 {
-    let pixels_away = nearest / (frame.size.z * delay);
+/// surface beyond it. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there.
+fn ring_strictness(nearest: f32, pixel: f32, along: f32, order: u32) -> f32 {
+    let pixels_away = nearest / pixel;
     return select(1.0, clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS), axis_matters(along, order));
 }
 

@@ -160,7 +160,8 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         let speed = length(velocity);
         // A time in which the image moves less than a fiftieth of a pixel need not be found. Round the axis it moves as the azimuth turns.
         let seen_from = min(result.ray.delay, across);
-        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * seen_from, placement.axis.z) {
+        let finest = least_pixel();
+        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, placement.axis.z) {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.

@@ -30,9 +30,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     hand_over(1u - queue);
 }
 
-/// What was measured of a piece: its points as they are seen; its corners, and for a fan those of its outer edge, by the axis.
+/// What was measured of a piece: its points as they are seen, and those of them by the axis that are on the triangle.
 var<private> points: array<vec3<f32>, 17>;
-var<private> by_axis: array<vec3<f32>, 6>;
+var<private> by_axis: array<vec3<f32>, 12>;
 /// The sines over the triangle under which light leaves it at the corners.
 var<private> rising: vec3<f32>;
 /// Whether one of them is not seen.
@@ -71,16 +71,18 @@ fn side_of(piece: Piece, side: u32, placement: Placement) -> Side {
     // Beside the axis a small part of an edge may be a large part of the image.
     let part = select(1.0, part_between(corners[i], corners[j]), half == 0.5);
     let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
-    let closer = ring_strictness(nearest, length(points[i]), by_axis[i].z, placement.ids.x);
+    let fineness = pixel_fineness(points[i], points[j]);
+    let pixel = frame.size.z / fineness * length(points[i]);
+    let closer = ring_strictness(nearest, pixel, by_axis[i].z, placement.ids.x);
     // Where light grazes a triangle its image folds inside it.
     let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
-    result.level = level_between(corners[i], corners[j], result.error, closer, grazed, part);
+    result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
+    result.level = min(result.level, most_segments(placement, by_axis[i], by_axis[j], pixel));
     result.turn = turn_about_axis(by_axis[i], by_axis[j], placement.ids.x);
     if result.turn > MOST_TURN {
         result.error = MUST_SPLIT;
         result.level = max(result.level, BLOCK + 1u);
     }
-    result.level = select(result.level, 1u, is_point(placement, by_axis[i], by_axis[j]));
     return result;
 }
 
@@ -128,7 +130,7 @@ fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
         if k < 3u {
             rising[k] = dot(normal, leaving_direction(found.ray.leaving, momentum_at(placement, found.position)));
         }
-        if k < 6u {
+        if k < 12u {
             by_axis[k] = found.by_axis;
         }
     }
@@ -146,13 +148,13 @@ fn side_error(side: u32) -> f32 {
 }
 
 /// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices.
-fn emit_leaf(piece: Piece, levels: vec3<u32>) {
+fn emit_leaf(piece: Piece, levels: vec3<u32>, order: u32) {
     let most = max(levels.x, max(levels.y, levels.z));
     // Turned so that the side with most segments is opposite the first corner.
     let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
     let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
     let columns = max(turned.x, turned.y + turned.z);
-    if most < 4u || columns > most + 2u || !is_narrow(turn, turned) {
+    if most < 4u || columns > most + 2u || !is_narrow(turn, turned, order) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
@@ -168,11 +170,17 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>) {
 /// Widest strip, pixels: over so little the image does not bend.
 const STRIP_WIDTH: f32 = 6.0;
 
+/// The most that a point of a strip may be shown beside its place, pixels: beside the axis a step across a cell is a larger part of the distance from it on
+/// one side than on the other, and what lies between is not linear.
+const STRIP_SHEAR: f32 = 0.1;
+
 /// Whether the image of a measured triangle is narrow between the side opposite corner `turn` and the other two, points of which are compared as a strip joins
 /// them. `levels` from that corner on.
-fn is_narrow(turn: u32, levels: vec3<u32>) -> bool {
+fn is_narrow(turn: u32, levels: vec3<u32>, order: u32) -> bool {
     let columns = f32(levels.y + levels.z);
+    let pixel = frame.size.z / pixel_fineness(points[0], points[1]);
     var widest = 0.0;
+    var shear = 0.0;
     for (var k = 1u; k < 4u; k++) {
         let at = 0.25 * f32(k) * columns;
         let on_first = at <= f32(levels.z);
@@ -180,18 +188,29 @@ fn is_narrow(turn: u32, levels: vec3<u32>) -> bool {
         let side = select((turn + 1u) % 3u, (turn + 2u) % 3u, on_first);
         let t = select((at - f32(levels.z)) / f32(levels.y), at / f32(levels.z), on_first);
         let other = point_of_side(side, 1.0 - t);
-        widest = max(widest, angle_between(other, points[3u + 3u * turn + k - 1u]));
+        let here = 3u + 3u * turn + k - 1u;
+        widest = max(widest, angle_between(mix(points[other.start], points[other.end], vec3<f32>(other.t)), points[here]));
+        let distances = vec2<f32>(length(by_axis[here].xy), length(mix(by_axis[other.start].xy, by_axis[other.end].xy, vec2<f32>(other.t))));
+        shear = max(shear, abs(distances.x - distances.y) / max(min(distances.x, distances.y), 1e-20));
     }
-    return widest < STRIP_WIDTH * frame.size.z;
+    let cell = angle_between(points[(turn + 1u) % 3u], points[(turn + 2u) % 3u]) / columns;
+    return widest < STRIP_WIDTH * pixel && (0.25 * cell * shear < STRIP_SHEAR * pixel || !axis_matters(by_axis[0].z, order));
 }
 
-/// A measured point of the side opposite corner `side`, at t from corner side + 1 to side + 2: between those at quarters, straight.
-fn point_of_side(side: u32, t: f32) -> vec3<f32> {
+/// Between two measured points, by their numbers.
+struct Between {
+    start: u32,
+    end: u32,
+    t: f32,
+}
+
+/// The point of the side opposite corner `side`, at t from corner side + 1 to side + 2: between those at quarters, straight.
+fn point_of_side(side: u32, t: f32) -> Between {
     let k = 3u + 3u * side;
     let quarter = min(u32(4.0 * t), 3u);
     let start = select(k + quarter - 1u, (side + 1u) % 3u, quarter == 0u);
     let end = select(k + quarter, (side + 2u) % 3u, quarter == 3u);
-    return mix(points[start], points[end], vec3<f32>(4.0 * t - f32(quarter)));
+    return Between(start, end, 4.0 * t - f32(quarter));
 }
 
 /// Where a side turns farther than this about the axis no triangle is halved on all sides, radians.
@@ -218,6 +237,9 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
     let depth = piece.what.w;
+    if is_lost(placement, by_axis[0], by_axis[1], by_axis[2]) {
+        return;
+    }
     // What moves is not flat when it is seen: the axis may meet a part of a triangle whose corners it passes by.
     let at = met(piece, placement.ids.x);
     if at.x >= 0.0 {
@@ -245,7 +267,7 @@ fn refine_triangle(piece: Piece, placement: Placement) {
         if most > BLOCK {
             atomicAdd(&counters.coarse, 1u);
         }
-        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)));
+        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), placement.ids.x);
         return;
     }
     var split_0 = levels.x > BLOCK;
@@ -294,9 +316,10 @@ fn refine_fan(piece: Piece, placement: Placement) {
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
         return;
     }
-    let side_1 = level_for(strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
-    let side_2 = level_for(strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
-    let arc = level_for(CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
+    let fineness = pixel_fineness(points[1], points[2]);
+    let side_1 = level_for(fineness * strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
+    let side_2 = level_for(fineness * strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
+    let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

@@ -62,8 +62,7 @@ fn decide(chunk: Chunk, lane: u32) {
         apex = select(apex, vec3<f32>(0.0, 1.0 - e0.z, e0.z), cuts.x);
         fans = !cuts;
     } else {
-        // What is lost in the rounding of f32 has no azimuth.
-        if max(length(o0.xy), max(length(o1.xy), length(o2.xy))) < 16.0 * placement.axis.z && axis_matters(o0.z, order) {
+        if is_lost(placement, o0.xyz, o1.xyz, o2.xyz) {
             return;
         }
         let at = meets_axis(o0.xyz, o1.xyz, o2.xyz, order);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use crate::lensing::Slice;
 use crate::lensing::lookup::{OLD, lens_lookup_aged};
@@ -82,7 +82,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
         placement.ids = [u32::from(order.number()), object.id, 0, 0];
-        placement.axis = by_axis(camera, view.pixel, &placement, position, object.reach);
+        placement.axis = by_axis(camera, &placement, position, object.reach);
         // Within this of its centre are all points of it, each where its light leaves.
         let whole = position.z.abs() > MARGIN * object.reach;
         placement.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
@@ -97,7 +97,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
             return None;
         }
-        let width = extent.width / view.pixel;
+        let width = extent.width;
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
@@ -167,7 +167,7 @@ pub(super) struct Extent {
     look: DVec3,
     /// A cone about it, in radians, that holds the image.
     radius: f64,
-    /// Its extent in ψ, or its angular size if that is less, in radians.
+    /// How wide it is on the screen, in pixels, where that is the most: its extent in ψ, or its angular size if that is less.
     pub(super) width: f64,
 }
 
@@ -216,7 +216,7 @@ impl View<'_> {
         let n = self.camera.position / l;
         let phi = position.dot(n).clamp(-r, r) / r;
         let phi = phi.acos();
-        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI };
+        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI / self.pixel };
         let half = if reach < r { (reach / r).asin() } else { return anywhere };
         let seen = |r: f64, phi: f64| {
             let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
@@ -235,9 +235,30 @@ impl View<'_> {
         // Round the axis: a ball that meets it is seen all round.
         let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
         let turn = if order.flips() { -1.0 } else { 1.0 };
-        let look = n * centre.cos() + across * (turn * centre.sin() / distance.max(1e-300));
+        // On the axis any side will do; what is left of `across` there is rounding.
+        let side = if distance > 1e-9 * r { across * (turn / distance) } else { n.any_orthonormal_vector() };
+        let look = n * centre.cos() + side * centre.sin();
+        let width = (high - low).min(2.0 * reach / path.max(1e-9)) * self.enlargement(n, side, [low, high], round);
         let steepest = low.sin().max(high.sin()).max(if low < FRAC_PI_2 && high > FRAC_PI_2 { 1.0 } else { 0.0 });
-        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width: (high - low).min(2.0 * reach / path.max(1e-9)) }
+        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width }
+    }
+
+    /// How many pixels a radian of ψ takes on the screen, where that is the most: by the aberration of the camera's motion, and as a plane screen draws what
+    /// is seen beside its middle. For directions between two angles from outwards, n, and as far `round` n on both sides of `side` as an image reaches.
+    fn enlargement(&self, n: DVec3, side: DVec3, [low, high]: [f64; 2], round: f64) -> f64 {
+        let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(1e-4));
+        let edge = 1.1 * (0.5 * self.camera.field_of_view).tan() * self.aspect.unwrap_or(1.0).max(1.0);
+        let enlarged = |k: i32| {
+            let (sine, cosine) = (0.25 * f64::from(k) * round).sin_cos();
+            let side = side * cosine + n.cross(side) * sine;
+            let [a, b] = [middle - half, middle + half].map(|psi| self.camera.seen_direction(n * psi.cos() + side * psi.sin()));
+            let [p, q] = [a, b].map(|seen| DVec2::new(seen.x, seen.y) / -seen.z);
+            let on_screen = |seen: DVec3, at: DVec2| seen.z < 0.0 && at.abs().max_element() < edge;
+            // What is off the screen is not drawn out by it.
+            let length = if on_screen(a, p) || on_screen(b, q) { p.distance(q) } else { a.angle_between(b) };
+            length / (2.0 * half * self.pixel)
+        };
+        (-4..=4).map(enlarged).fold(0.0, f64::max)
     }
 }
 
@@ -261,19 +282,19 @@ fn light_rows(light: &Surroundings) -> [[f32; 4]; 3] {
     })
 }
 
-/// How far beside its place an object is drawn, in pixels, so that nothing that was put on the axis of hole and camera, or in a plane through it, is there
+/// How far beside its place an object is drawn, in roundings, so that nothing that was put on the axis of hole and camera, or in a plane through it, is there
 /// exactly: such a plane is seen as a ring, of which no point of it tells the azimuth.
-const BESIDE: f64 = 1e-3;
+const BESIDE: f64 = 4.0;
 /// Rounding of f32 in where a point of an object is, relative to the object's reach, and of its emission time, relative to the delay: some roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
 /// The row `axis` of a placement at `position`: where that is across the axis, and how far a point of the object may be put beside its place by rounding.
-pub(super) fn by_axis(camera: &Camera, pixel: f64, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
+pub(super) fn by_axis(camera: &Camera, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
     let [_, a, b] = camera.axis_frame();
     let [vx, vy, vz, moves] = placement.velocity.map(f64::from);
     let speed = if moves == 0.0 { 0.0 } else { DVec3::new(vx, vy, vz).length() };
     let rounding = ROUNDING * (reach + speed * f64::from(placement.offset[3]).abs());
-    let aside = BESIDE * pixel * (position - camera.position).length();
+    let aside = BESIDE * rounding;
     // In a direction that nobody chooses.
     [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 0.0]
 }

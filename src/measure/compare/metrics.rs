@@ -106,8 +106,8 @@ pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[
         };
         if layer.object > 0 && layer.object == shown.object && layer.order != shown.order {
             wrong_order += 1;
-            let near = around.iter().any(|&j| (judge.layers[j].object, judge.layers[j].order) == (shown.object, shown.order));
-            wrong_beyond_rim += usize::from(!near);
+            let near = around.iter().any(|&j| shares(j, shown.object, shown.order));
+            wrong_beyond_rim += usize::from(!near && !beside_thin);
         }
         // Not what is seen through a slit narrower than a pixel, which some of the judge's rays go through.
         let filled = |j: usize| judge.shares[j].iter().map(|share| share.2).sum::<f32>() >= FULL;

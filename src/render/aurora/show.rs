@@ -226,7 +226,7 @@ impl Show {
             let extent = view.extent(position, object.reach, order, 0.0);
             // Light of higher orders comes round the hole: from there even a near planet is far away.
             let near = distance < 2.0 * object.reach && order.number() == 1;
-            let width = if near { pixels } else { extent.width / view.pixel };
+            let width = if near { pixels } else { extent.width };
             // It comes and goes by degrees.
             let part = (width / LEAST_PIXELS - 1.0).min(1.0);
             if part > 0.0 && sight::may_be_seen(view, time, &history, order, object.reach) {

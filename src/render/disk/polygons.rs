@@ -111,7 +111,7 @@ impl PolygonPass {
         let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
         let momentum = [0.0, 0.0, 0.0, 1.0];
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let axis = by_axis(&input.camera, 0.0, &Placement::default(), height * DVec3::Z, self.extent[1] + elapsed);
+        let axis = by_axis(&input.camera, &Placement::default(), height * DVec3::Z, self.extent[1] + elapsed);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
         for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
