@@ -103,6 +103,10 @@ const PLACEMENT_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
 const PLACEMENT_NARROW: u32 = 16u;
 
+fn is_thin(placement: Placement) -> bool {
+    return (placement.triangles.w & PLACEMENT_THIN) != 0u;
+}
+
 fn two_sided(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;
 }

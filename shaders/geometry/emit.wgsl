@@ -59,7 +59,7 @@ fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
 /// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
 /// with the sense in which the corners run, and over all triangles what was covered twice cancels.
 fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) -> bool {
-    if (placement.triangles.w & PLACEMENT_THIN) == 0u {
+    if !is_thin(placement) {
         return false;
     }
     let c0 = clip_position(seen[i0].apparent.xyz);

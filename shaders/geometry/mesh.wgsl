@@ -23,6 +23,15 @@ fn axis_is_outside(height: f32, order: u32) -> bool {
     return (order == 2u && height < 0.0) || (order == 3u && height > 0.0);
 }
 
+/// How far past the axis a vertex is put that is nearer to it than that, in r_s; 0 where none is. The order before begins there with arcs that are cut at other
+/// points: between two chords of one circle a pixel could be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more
+/// than they sag. Near the ring an image moves by half of what its source does, the third order's by a twentieth. Thin images are sums of areas: they would
+/// be too bright by that.
+fn past_axis(placement: Placement, query: Query) -> f32 {
+    let past = 4.0 * ARC_SHARE * frame.size.w * abs(query.along) * select(1.0, 10.0, placement.ids.x == 3u);
+    return select(0.0, past, axis_is_outside(query.height, placement.ids.x) && !is_thin(placement));
+}
+
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
 /// served one item would leave most of its lanes idle.
 @compute @workgroup_size(64)
@@ -208,24 +217,23 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         let which = select(select(triangle.vertices.z, triangle.vertices.y, point.y == 1.0), triangle.vertices.x, point.x == 1.0);
         return seen[placement.ids.z + which];
     }
-    // Inside a fan: the axis point and the outer point at their emission times, then the place between them.
+    // Inside a fan: the axis point and the outer point at their emission times, then the place between them. Elsewhere the point alone, and again if it
+    // is put past the axis.
     let body = body_point(placement, triangle, point);
     var apex = 0.0;
     var apex_height = 0.0;
     var found: Answer;
-    for (var k = select(0u, 1u, s == 1.0); k < select(3u, 2u, s == 1.0); k++) {
+    var count = select(3u, 2u, s == 1.0);
+    for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
         var query = query_body(body);
         if k == 0u {
             query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
-            if s == 0.0 && axis_is_outside(query.height, placement.ids.x) {
-                // Past the axis, where the order before begins with arcs cut at other points: between two chords of one circle a pixel could
-                // be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more than they sag.
-                // Near the ring an image moves by half of what its source does, the third order's by a twentieth.
-                let past = 2.5 * ARC_SHARE * frame.size.w * abs(apex) * select(1.0, 10.0, placement.ids.x == 3u);
-                fan_place = -min(past / max(length(found.by_axis.xy), 1e-9), 0.5);
+            let past = past_axis(placement, query);
+            if query.across < past {
+                fan_place = select(s, -min(past / max(length(found.by_axis.xy), 1e-9), 0.5), s == 0.0);
                 query.across = -past;
             }
         }
@@ -235,6 +243,11 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
             apex_height = dot(next.position, frame.radial.xyz);
         } else {
             found = next;
+        }
+        if k == 1u && s == 1.0 {
+            let height = dot(found.position, frame.radial.xyz);
+            let here = Query(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
+            count = select(2u, 3u, found.ray.valid && here.across < past_axis(placement, here));
         }
     }
     let corner = mix(item.piece.corner_0.xyz, point, vec3<f32>(s));

@@ -1,7 +1,7 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
 /// Deepest splitting. A third of it is what an edge takes that passes the axis at a millionth of its length (`halfway`), and not all edges are halved at a time.
-const DEEPEST: u32 = 16u;
+const DEEPEST: u32 = 24u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
 
@@ -60,7 +60,7 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
 
 /// The most that a segment may turn about the axis, radians: more is split, whatever its error. Of a triangle whose sides turn by less than a third of a
 /// circle the inside cannot reach across the ring.
-const MOST_TURN: f32 = 0.5;
+const MOST_TURN: f32 = 0.25;
 
 /// By how much an edge between two places that are given by the axis turns about it, radians; 0 where the axis is a place as any other.
 fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
@@ -74,13 +74,9 @@ fn is_lost(placement: Placement, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bo
     return farthest < 8.0 * placement.axis.z && axis_matters(a.z, placement.ids.x);
 }
 
-/// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`. f32 tells no point of an edge from
-/// its ends that is as short as rounding; and within a fiftieth of a pixel of the axis, where azimuths are lost in rounding too, there is no more to see
-/// than that the ring is whole.
+/// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`: within a fiftieth of a pixel of the
+/// axis, where azimuths are lost in the rounding of f32, there is no more to see than that the ring is whole.
 fn most_segments(placement: Placement, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
-    if distance(a, b) < 2.0 * placement.axis.z {
-        return 1u;
-    }
     let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, placement.ids.x);
     return select(0xffffu, BLOCK, core);
 }
@@ -118,7 +114,7 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 /// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held four times closer, so that
 /// sag and growth together stay under a pixel.
 fn strictness(placement: Placement) -> f32 {
-    return select(1.0, 4.0, (placement.triangles.w & PLACEMENT_THIN) != 0u);
+    return select(1.0, 4.0, is_thin(placement));
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.

@@ -26,7 +26,7 @@ const LANES: u32 = 64;
 /// Groups along the first dimension of a dispatch (65,535 is the limit).
 const GROUPS: u32 = 32_768;
 /// Passes of splitting: one for each depth, and one for those at the last depth.
-const REFINE_PASSES: u32 = 17;
+const REFINE_PASSES: u32 = 25;
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
