@@ -147,14 +147,15 @@ fn side_error(side: u32) -> f32 {
     return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
 }
 
-/// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices.
-fn emit_leaf(piece: Piece, levels: vec3<u32>, order: u32) {
+/// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices. Not
+/// in thin images: a ring of theirs is broken where triangles are too narrow to be drawn.
+fn emit_leaf(piece: Piece, levels: vec3<u32>, placement: Placement) {
     let most = max(levels.x, max(levels.y, levels.z));
     // Turned so that the side with most segments is opposite the first corner.
     let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
     let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
     let columns = max(turned.x, turned.y + turned.z);
-    if most < 4u || columns > most + 2u || !is_narrow(turn, turned, order) {
+    if most < 4u || columns > most + 2u || is_thin(placement) || !is_narrow(turn, turned, placement.ids.x) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
@@ -276,7 +277,7 @@ fn refine_triangle(piece: Piece, placement: Placement) {
         if most > BLOCK && !sliver {
             atomicAdd(&counters.coarse, 1u);
         }
-        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), placement.ids.x);
+        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), placement);
         return;
     }
     var split_0 = levels.x > BLOCK;

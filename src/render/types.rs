@@ -64,7 +64,18 @@ pub struct Placement {
 impl Placement {
     /// Whether every number of it is one.
     pub fn is_finite(&self) -> bool {
-        let rows = [self.offset, self.axis, self.position, self.velocity, self.momentum, self.spin, self.spin_rate, self.jolt, self.force, self.snap];
+        let rows = [
+            self.offset,
+            self.axis,
+            self.position,
+            self.velocity,
+            self.momentum,
+            self.spin,
+            self.spin_rate,
+            self.jolt,
+            self.force,
+            self.snap,
+        ];
         let matrices = [self.shape, self.turn, self.light];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }
