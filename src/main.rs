@@ -348,9 +348,8 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
     use lensrunner::measure::compare::{command, flight, judged::Terms, random};
     let contestant = lensrunner::play::contestant::Contestant::default();
     let (config, draw) = (args.config.as_deref(), |case: &trace::Case| contestant.draw(case));
-    let mut terms = Terms::default();
-    terms.seconds = args.limit.unwrap_or(terms.seconds);
-    terms.tolerance = args.tolerance.unwrap_or(terms.tolerance);
+    let usual = Terms::default();
+    let terms = Terms { seconds: args.limit.unwrap_or(usual.seconds), tolerance: args.tolerance.unwrap_or(usual.tolerance), ..usual };
     let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
     let judged = if let Some(count) = args.random {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
