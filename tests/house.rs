@@ -28,7 +28,7 @@ fn sources(folder: &Path, found: &mut Vec<std::path::PathBuf>) {
 
 #[test]
 fn floors_know_only_the_floors_below() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let root = crate::support::root().join("src");
     let mut imports = 0;
     for (floor, allowed) in FLOORS {
         let mut files = Vec::new();

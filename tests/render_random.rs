@@ -1,7 +1,5 @@
 //! The scenes in `tests/scenes`: each failed once and is judged as a whole, at the size and T that its first lines say.
 
-use std::path::Path;
-
 use lensrunner::measure::compare::judged::{Terms, judge};
 use lensrunner::measure::compare::random::case_file::{CaseFile, files};
 use lensrunner::play::contestant::Contestant;
@@ -9,7 +7,7 @@ use lensrunner::scene::GameConfig;
 
 #[test]
 fn scenes_that_failed_once_are_right() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes");
+    let folder = crate::support::root().join("tests/scenes");
     let contestant = Contestant::default();
     let paths = files(&[folder]).unwrap();
     assert!(!paths.is_empty());

@@ -12,6 +12,11 @@ pub fn fixed(cases: u32) -> Config {
     Config { cases, rng_seed: RngSeed::Fixed(20_261_121), failure_persistence: None, ..Config::default() }
 }
 
+/// The project's folder. Asked at run time: tests that were built in another copy of the project read this one's files.
+pub fn root() -> PathBuf {
+    std::env::var_os("CARGO_MANIFEST_DIR").map_or_else(|| PathBuf::from("."), PathBuf::from)
+}
+
 /// A folder of its own for one test, removed at its end.
 pub struct Folder(PathBuf);
 
@@ -41,7 +46,5 @@ impl Drop for Folder {
 /// The committed table.
 pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
-    TABLE.get_or_init(|| {
-        Table::load(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tables/default.lut")), Scheme::Residual).expect("the committed table")
-    })
+    TABLE.get_or_init(|| Table::load(&root().join("tables/default.lut"), Scheme::Residual).expect("the committed table"))
 }

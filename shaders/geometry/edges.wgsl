@@ -22,13 +22,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
 
-    // Does the axis cut the edge, as far as f32 can tell? The foot of the axis on it, and how far that is.
+    // Does the axis cut the edge, as far as can be seen? The foot of the axis on it, and how far that is.
     let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
     if plain {
         let d = b.xy - a.xy;
         let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
         let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
-        if length(foot.xy) < placement.axis.z && axis_matters(foot.z, order) {
+        if length(foot.xy) < axis_core(placement, seen[placement.ids.z + edge.x].apparent.xyz) && axis_matters(foot.z, order) {
             edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), t, 0.0);
             return;
         }
@@ -79,7 +79,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     var level = level_for(error * strictness(placement) * closer, 1.0);
     level = min(level, most_segments(placement, a.xyz, b.xyz, pixel * length(from_apparent)));
-    if plain && turn_about_axis(a.xyz, b.xyz, order) > MOST_TURN {
+    if plain && turn_about_axis(a.xyz, b.xyz, order) > most_turn(placement) {
         error = MUST_SPLIT;
         level = max(level, BLOCK + 1u);
     }

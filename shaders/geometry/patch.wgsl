@@ -58,9 +58,12 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
     return select(vec3<f32>(-1.0), at, axis_matters(dot(at, vec3<f32>(a.z, b.z, c.z)), order));
 }
 
-/// The most that a segment may turn about the axis, radians: more is split, whatever its error. Of a triangle whose sides turn by less than a third of a
-/// circle the inside cannot reach across the ring.
-const MOST_TURN: f32 = 0.25;
+/// The most that an edge may turn about the axis, radians: one that turns farther is split, whatever its error. Of a triangle whose sides turn by less than a
+/// third of a circle the inside cannot reach across the ring; and where they turn much less, equal parts of them turn about equally. In thin and narrow images,
+/// most of which lies near the ring, they must do so the better.
+fn most_turn(placement: Placement) -> f32 {
+    return select(0.5, 0.25, (placement.triangles.w & (PLACEMENT_THIN | PLACEMENT_NARROW)) != 0u);
+}
 
 /// By how much an edge between two places that are given by the axis turns about it, radians; 0 where the axis is a place as any other.
 fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
@@ -72,6 +75,15 @@ fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
 fn is_lost(placement: Placement, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
     return farthest < 8.0 * placement.axis.z && axis_matters(a.z, placement.ids.x);
+}
+
+/// How far from the axis a vertex or an edge of a model counts as on it, in r_s: as far as rounding may have moved it, and so far that nobody sees the
+/// difference. It is the same for all triangles of the vertex or the edge, so what is drawn stays closed. A point beside the axis, moved so far, is turned about it
+/// and seen elsewhere on the ring: at a tenth of a pixel from the axis half a pixel at most, on a ring as wide as the screen. In a thin image areas count, and of
+/// its pixels the object may be a small part: there it is rounding alone.
+fn axis_core(placement: Placement, apparent: vec3<f32>) -> f32 {
+    let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
+    return max(placement.axis.z, select(0.1 * pixel / frame.size.x, 0.0, is_thin(placement)));
 }
 
 /// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`: within a fiftieth of a pixel of the

@@ -79,7 +79,7 @@ fn side_of(piece: Piece, side: u32, placement: Placement) -> Side {
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
     result.level = min(result.level, most_segments(placement, by_axis[i], by_axis[j], pixel));
     result.turn = turn_about_axis(by_axis[i], by_axis[j], placement.ids.x);
-    if result.turn > MOST_TURN {
+    if result.turn > most_turn(placement) {
         result.error = MUST_SPLIT;
         result.level = max(result.level, BLOCK + 1u);
     }
@@ -272,7 +272,7 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     let longest = max(lengths.x, max(lengths.y, lengths.z));
     let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
     let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
-    let sliver = depth >= SLIVER_DEPTH && base <= BLOCK && turned <= MOST_TURN;
+    let sliver = depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(placement);
     if most <= BLOCK || depth >= DEEPEST || sliver {
         if most > BLOCK && !sliver {
             atomicAdd(&counters.coarse, 1u);

@@ -16,8 +16,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let order = placement.ids.x;
     let slot = placement.ids.z + local;
     let found = answer(placement, query_body(vertex.position.xyz), order);
-    // What rounding may have put there is on it.
-    let on_axis = length(found.by_axis.xy) < placement.axis.z && axis_matters(found.by_axis.z, order);
+    let on_axis = length(found.by_axis.xy) < axis_core(placement, found.ray.apparent) && axis_matters(found.by_axis.z, order);
     let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);
     if !finite_vector(found.by_axis) || (ray.valid && !ok) {

@@ -48,18 +48,20 @@ impl Limits {
     /// How many pixels may differ, of an image of `pixels` with so many around it. One may always fall either way.
     pub fn differing(&self, pixels: usize, rim: usize) -> f64 {
         let expected = self.expected(pixels, rim);
-        (if self.outline > 0.0 { self.counted(expected) } else { expected }).max(1.0)
+        if self.outline > 0.0 { self.counted(expected) } else { expected.max(1.0) }
     }
 
-    /// The most that a count will be of which so much is expected, by the number of standard deviations that [`Limits::thin`] has.
+    /// The most that a count will be of which so much is expected: the quantile of Poisson's distribution that lies as far out as [`Limits::thin`] standard
+    /// deviations z of a normal one. The last term of λ + z √λ + (z² − 1)/6 is for its skewness (Cornish and Fisher 1938): where hardly one is expected,
+    /// three are not rare.
     pub fn counted(&self, expected: f64) -> f64 {
-        expected + self.thin * expected.sqrt()
+        expected + self.thin * expected.sqrt() + (self.thin * self.thin - 1.0) / 6.0
     }
 
     /// By how much the area of an image may differ, in pixels: by pixels that may differ, and by chance where it covers pixels in part; `variance` is that
     /// of those pixels together.
     pub fn area(&self, pixels: usize, rim: usize, variance: f64) -> f64 {
-        self.counted(self.expected(pixels, rim)).max(1.0) + self.thin * variance.sqrt()
+        self.counted(self.expected(pixels, rim)) + self.thin * variance.sqrt()
     }
 }
 
