@@ -81,6 +81,11 @@ struct Placement {
     light_red: vec4<f32>,
     light_green: vec4<f32>,
     light_blue: vec4<f32>,
+    /// Caps of directions, camera axes, that the image keeps to: by its farthest from outwards, its nearest, and about its middle. xyz: the cap's middle; w: the square of
+    /// the chord from there to its rim, positive if the image lies inside, negative if outside, 0 if it may lie anywhere.
+    bound_high: vec4<f32>,
+    bound_low: vec4<f32>,
+    bound_look: vec4<f32>,
     /// x: image order, y: object id, z: first out vertex, w: first edge state.
     ids: vec4<u32>,
     /// x: first model vertex, y: vertex count, z: first model edge, w: edge count.

@@ -41,6 +41,8 @@ mod render_aurora_rows;
 #[cfg(feature = "game")]
 mod render_aurora_sight;
 #[cfg(feature = "game")]
+mod render_bounds;
+#[cfg(feature = "game")]
 mod render_branches;
 #[cfg(feature = "game")]
 mod render_chords;

@@ -45,6 +45,8 @@ struct Counters {
     model_vertices: u32,
     /// Patches that found no room at all.
     lost: atomic<u32>,
+    /// Triangles outside of where their object's image can be, left out.
+    outside: atomic<u32>,
 }
 
 const NO_PLACEMENT: u32 = 0xffffffffu;

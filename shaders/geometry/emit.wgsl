@@ -119,7 +119,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
 
 /// Draws three seen vertices as they are.
 fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) {
-    if emit_thin(i0, i1, i2, placement, outward, turn, seen_from) {
+    if leaves_bounds(placement, i0, i1, i2) || emit_thin(i0, i1, i2, placement, outward, turn, seen_from) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);

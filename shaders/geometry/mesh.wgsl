@@ -108,8 +108,8 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
             }
         }
         let slot = place.y + 3u * k;
-        // A place in the index buffer is held for every triangle: one that is thin or unseen leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || emit_thin(a, b, c, placement, outward, turn, seen_from) {
+        // A place in the index buffer is held for every triangle: one that is thin, unseen or out of bounds leaves a point there.
+        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(placement, a, b, c) || emit_thin(a, b, c, placement, outward, turn, seen_from) {
             b = a;
             c = a;
         }

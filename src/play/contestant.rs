@@ -38,6 +38,10 @@ impl Contestant {
         let said = |error: ShotError| error.to_string();
         let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(said)?;
         let drawn = draw(&mut renderer).map_err(said)?;
+        let outside = renderer.counters().map_err(|error| error.to_string())?.outside;
+        if outside > 0 {
+            return Err(format!("{outside} triangles lay outside of where their object's image can be"));
+        }
         *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
         Ok(drawn)
     }

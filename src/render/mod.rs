@@ -6,6 +6,7 @@
 
 pub mod aurora;
 pub mod bench;
+mod bounds;
 pub mod coarse;
 pub mod develop;
 pub mod device;

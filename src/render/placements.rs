@@ -81,6 +81,8 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             }
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
+        let reach = object.reach * drawn_out(camera, &placement, position, order, age);
+        placement.bounds = view.bounds(position, reach, order, age);
         placement.ids = [u32::from(order.number()), object.id, 0, 0];
         placement.axis = by_axis(camera, &placement, position, object.reach);
         // Within this of its centre are all points of it, each where its light leaves.
@@ -199,7 +201,7 @@ impl View<'_> {
 
     /// The angle ψ from outwards at which a place is seen, and the length of the light's path: the place by how far it is outward of the camera, across the axis,
     /// and along the axis from the hole.
-    fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
+    pub(super) fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
         if !self.settings.method.bends() {
             return Some((across.atan2(along), along.hypot(across)));
         }
@@ -312,6 +314,21 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
         ..Placement::default()
     }
 }
+
+/// By how much farther from its centre, at the most, points of an object are where their light leaves than they are at one time: light leaves what is farther earlier by
+/// the delay's gradient ∇Δ, and as much earlier again for the way that it moved meanwhile, as v ∇Δ/(1 + v ∇Δ).
+fn drawn_out(camera: &Camera, placement: &Placement, position: DVec3, order: Order, age: f64) -> f64 {
+    let [x, y, z, moves] = placement.velocity.map(f64::from);
+    if moves == 0.0 {
+        return 1.0;
+    }
+    let velocity = DVec3::new(x, y, z);
+    let Some((_, gradient)) = light_path(camera, position, order, branch_of(camera, position, age)) else { return f64::INFINITY };
+    1.0 + ACCELERATES * velocity.length() * gradient.length() / (1.0 + velocity.dot(gradient)).max(1e-6)
+}
+
+/// What acceleration adds to that while light crosses the object, as a factor.
+const ACCELERATES: f64 = 1.5;
 
 /// When the light left by which the centre of what flies is seen at `time`, as the settings ask for; None if it is not seen.
 pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {

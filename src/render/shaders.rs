@@ -24,6 +24,7 @@ const SWING: &str = include_str!("../../shaders/geometry/swing.wgsl");
 const RING: &str = include_str!("../../shaders/geometry/ring.wgsl");
 const PROJECT: &str = include_str!("../../shaders/geometry/project.wgsl");
 const PATCH: &str = include_str!("../../shaders/geometry/patch.wgsl");
+const BOUNDS: &str = include_str!("../../shaders/geometry/bounds.wgsl");
 const EMIT: &str = include_str!("../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../shaders/geometry/clip.wgsl");
 const RANDOM: &str = include_str!("../../shaders/functions/random.wgsl");
@@ -219,7 +220,7 @@ impl Pass {
         };
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
-            Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, EMIT]).collect(),
+            Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, BOUNDS, EMIT]).collect(),
             Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, AURORA_LIGHT, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],

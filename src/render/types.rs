@@ -56,6 +56,7 @@ pub struct Placement {
     pub turn: [[f32; 4]; 3],
     pub snap: [f32; 4],
     pub light: [[f32; 4]; 3],
+    pub bounds: [[f32; 4]; 3],
     pub ids: [u32; 4],
     pub vertices: [u32; 4],
     pub triangles: [u32; 4],
@@ -76,7 +77,7 @@ impl Placement {
             self.force,
             self.snap,
         ];
-        let matrices = [self.shape, self.turn, self.light];
+        let matrices = [self.shape, self.turn, self.light, self.bounds];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }
 }
@@ -156,6 +157,7 @@ pub struct Counters {
     pub caught: u32,
     pub model_vertices: u32,
     pub lost: u32,
+    pub outside: u32,
 }
 
 impl Counters {
@@ -170,6 +172,9 @@ impl Counters {
         }
         if self.caught > 0 {
             parts.push(format!("{} results were not finite and are left out", self.caught));
+        }
+        if self.outside > 0 {
+            parts.push(format!("{} triangles lay outside of where their object's image can be and are left out", self.outside));
         }
         (!parts.is_empty()).then(|| parts.join("; "))
     }
