@@ -81,8 +81,6 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             }
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
-        let reach = object.reach * drawn_out(camera, &placement, position, order, age);
-        placement.bounds = view.bounds(position, reach, order, age);
         placement.ids = [u32::from(order.number()), object.id, 0, 0];
         placement.axis = by_axis(camera, &placement, position, object.reach);
         // Within this of its centre are all points of it, each where its light leaves.
@@ -108,6 +106,8 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         } else if width < NARROW_BELOW && order.number() > 1 {
             placement.triangles[3] |= NARROW;
         }
+        let reach = object.reach * drawn_out(camera, &placement, position, order, age);
+        placement.bounds = view.bounds(position, reach, order, age);
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
         let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
