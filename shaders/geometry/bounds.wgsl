@@ -2,6 +2,9 @@
 
 /// Whether three seen vertices are outside one of the placement's caps, or reach across one that they must keep out of. Then the triangle is counted.
 fn leaves_bounds(placement: Placement, i0: u32, i1: u32, i2: u32) -> bool {
+    if placement.bound_high.w == 0.0 && placement.bound_low.w == 0.0 && placement.bound_look.w == 0.0 {
+        return false;
+    }
     let a = normalize(seen[i0].apparent.xyz);
     let b = normalize(seen[i1].apparent.xyz);
     let c = normalize(seen[i2].apparent.xyz);
@@ -14,10 +17,13 @@ fn leaves_bounds(placement: Placement, i0: u32, i1: u32, i2: u32) -> bool {
 
 /// Of one cap, as `Bounds` of Rust. A cap is convex: a triangle whose corners are in it is in it. To keep out of one the nearest point of the triangle must.
 fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    if cap.w == 0.0 {
+        return false;
+    }
     let middle = cap.xyz;
     let chords = vec3<f32>(square(a - middle), square(b - middle), square(c - middle));
-    if cap.w >= 0.0 {
-        return cap.w > 0.0 && max(chords.x, max(chords.y, chords.z)) > cap.w;
+    if cap.w > 0.0 {
+        return max(chords.x, max(chords.y, chords.z)) > cap.w;
     }
     let corners = min(chords.x, min(chords.y, chords.z));
     let sides = min(nearest_on_side(middle, a, b), min(nearest_on_side(middle, b, c), nearest_on_side(middle, c, a)));

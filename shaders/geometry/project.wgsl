@@ -121,6 +121,7 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
     var late = NEVER;
     var back = 0.0;
     let moves = placement.velocity.w != 0.0;
+    let finest = least_pixel();
     let steps = select(0u, EMISSION_STEPS, moves);
     for (var i = 0u; i <= steps; i++) {
         var along = query.along;
@@ -160,7 +161,6 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         let speed = length(velocity);
         // A time in which the image moves less than a fiftieth of a pixel need not be found. Round the axis it moves as the azimuth turns.
         let seen_from = min(result.ray.delay, across);
-        let finest = least_pixel();
         if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, placement.axis.z) {
             break;
         }

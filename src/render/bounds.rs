@@ -1,7 +1,7 @@
 //! Where the image of an object can be: the image of a ball that holds it. `shaders/geometry/bounds.wgsl` leaves out what would be drawn outside.
 //!
 //! The image of a ball in one order lies between two angles ψ from outwards, and on one side of the axis as far round as the ball reaches. Each of the three is a
-//! cap of directions, the one about the axis or the one about the ball's middle; aberration turns caps into caps.
+//! cap of directions, the one about the axis or the one about the ball's middle; aberration turns caps into caps. Far from the axis and the horizon the last is enough.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,7 +11,7 @@ use crate::spacetime::light::Order;
 
 use super::frame::Camera;
 use super::method::Method;
-use super::placements::View;
+use super::placements::{Extent, MARGIN, View};
 
 /// Three caps of directions in camera axes, as `Placement.bounds` of WGSL: xyz their middle; w the square of the chord from there to their rim, positive if the image lies
 /// inside, negative if outside, 0 if it may lie anywhere.
@@ -21,16 +21,35 @@ pub type Bounds = [[f32; 4]; 3];
 const MARGIN_PIXELS: f64 = 2.0;
 /// By how much the ball is taken larger, for what lies between the places on it that are looked at: an octagon round a circle reaches 1.08 as far.
 const LARGER: f64 = 1.1;
+/// A ball this small, against its distances from the axis and from the horizon, is seen in one small patch, which its extent tells.
+const FAR: f64 = 0.3;
 /// Places that are looked at on the ball's circle in the plane of the axis.
 const PLACES: u32 = 8;
 /// Nearer to the hole nothing sends light to a camera outside, in r_s.
 const LEAST_RADIUS: f64 = 1.0001;
 
 impl View<'_> {
-    /// The bounds of the image of a ball of radius `reach` (r_s) at `position` (rain axes); `age` decides, inside the horizon, which light is meant. Without bounds if
-    /// the ball holds the hole or the camera, or part of it is not seen.
-    pub(super) fn bounds(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Bounds {
-        self.caps(position, LARGER * reach, order, age).unwrap_or_default()
+    /// The bounds of the image of a ball at `position` (rain axes), of `longer` times the radius `reach` (r_s) whose `extent` is given; `age` decides, inside the
+    /// horizon, which light is meant. Without bounds if the ball holds the hole or the camera, or part of it is not seen.
+    pub(super) fn bounds(&self, extent: &Extent, position: DVec3, reach: f64, longer: f64, order: Order, age: f64) -> Bounds {
+        let camera = self.camera;
+        let radius = LARGER * longer * reach;
+        // Approximations of light do not keep to where it is.
+        let exact = matches!(self.settings.method, Method::Table | Method::TableFull | Method::Newton | Method::Exact);
+        if !exact
+            || !radius.is_finite()
+            || camera.radius() < 1.0
+            || position.length() < radius
+            || position.distance(camera.position) < radius
+        {
+            return Bounds::default();
+        }
+        let from_axis = position.cross(camera.position).length() / camera.radius();
+        if radius < FAR * from_axis.min(position.length() - 1.0) {
+            let seen = seen_cap(camera, extent.look, MARGIN * longer * extent.radius, MARGIN_PIXELS * self.pixel);
+            return [[0.0; 4], [0.0; 4], seen];
+        }
+        self.caps(position, radius, order, age).unwrap_or_default()
     }
 
     fn caps(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Option<Bounds> {
@@ -39,12 +58,6 @@ impl View<'_> {
         let height = position.dot(n);
         let across = position - n * height;
         let distance = across.length();
-        // Approximations of light do not keep to where it is.
-        let exact = matches!(self.settings.method, Method::Table | Method::TableFull | Method::Newton | Method::Exact);
-        if !exact || !reach.is_finite() || camera.radius() < 1.0 || position.length() < reach || position.distance(camera.position) < reach
-        {
-            return None;
-        }
         let turn = (0..PLACES).map(|k| 2.0 * PI * f64::from(k) / f64::from(PLACES)).map(f64::sin_cos);
         let mut places: Vec<[f64; 2]> = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]).collect();
         let round = if reach < distance {

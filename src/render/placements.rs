@@ -106,8 +106,8 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         } else if width < NARROW_BELOW && order.number() > 1 {
             placement.triangles[3] |= NARROW;
         }
-        let reach = object.reach * drawn_out(camera, &placement, position, order, age);
-        placement.bounds = view.bounds(position, reach, order, age);
+        let longer = drawn_out(camera, &placement, position, order, age);
+        placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
         let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
@@ -166,15 +166,15 @@ pub struct View<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     /// The direction of its centre, a unit vector in rain axes.
-    look: DVec3,
+    pub(super) look: DVec3,
     /// A cone about it, in radians, that holds the image.
-    radius: f64,
+    pub(super) radius: f64,
     /// How wide it is on the screen, in pixels, where that is the most: its extent in ψ, or its angular size if that is less.
     pub(super) width: f64,
 }
 
 /// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
-const MARGIN: f64 = 3.0;
+pub(super) const MARGIN: f64 = 3.0;
 
 impl Extent {
     fn may_be_seen(&self, camera: &Camera, aspect: f64) -> bool {
@@ -260,7 +260,9 @@ impl View<'_> {
             let length = if on_screen(a, p) || on_screen(b, q) { p.distance(q) } else { a.angle_between(b) };
             length / (2.0 * half * self.pixel)
         };
-        (-4..=4).map(enlarged).fold(0.0, f64::max)
+        // A tenth of a radian is enlarged alike all along it.
+        let step = if round < 0.1 { 4 } else { 1 };
+        (-4..=4).step_by(step).map(enlarged).fold(0.0, f64::max)
     }
 }
 
