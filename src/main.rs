@@ -150,6 +150,9 @@ struct CompareArgs {
     /// At how many moments --flight judges each chase.
     #[arg(long, value_name = "N", default_value_t = 200)]
     moments: usize,
+    /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
+    #[arg(long, conflicts_with = "scene")]
+    whole: bool,
     /// Adds what came of --random or --flight to this table, in the place of an earlier run of the same cases, and writes FILE.md beside it.
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["scene", "case"])]
     collect: Option<PathBuf>,
@@ -350,20 +353,30 @@ fn run_compare(args: &CompareArgs) -> ExitCode {
     let (config, draw) = (args.config.as_deref(), |case: &trace::Case| contestant.draw(case));
     let usual = Terms::default();
     let terms = Terms { seconds: args.limit.unwrap_or(usual.seconds), tolerance: args.tolerance.unwrap_or(usual.tolerance), ..usual };
+    let reduce = !args.whole;
     let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
     let judged = if let Some(count) = args.random {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
         let collected = args.collect.clone();
-        let request =
-            random::command::Request { count, seed: args.seed, first: args.first, terms, config: args.config.clone(), output, collected };
+        let request = random::command::Request {
+            count,
+            seed: args.seed,
+            first: args.first,
+            terms,
+            config: args.config.clone(),
+            output,
+            reduce,
+            collected,
+        };
         random::command::run(&request, &draw).map(failed)
     } else if !args.case.is_empty() {
-        random::command::run_files(&args.case, config, &terms, args.output.as_deref(), &draw).map(failed)
+        let keep = args.output.as_deref().map(|folder| random::command::Keep { folder, reduce });
+        random::command::run_files(&args.case, config, &terms, keep, &draw).map(failed)
     } else if let Some(scene) = args.flight.clone() {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
         let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output, collected };
+        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
         flight::command::run(&request, &draw, &|case: &trace::Case| contestant.show(case)).map(failed)
     } else {
         let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());

@@ -33,17 +33,14 @@ impl Contestant {
     }
 
     fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, ShotError>) -> Result<T, String> {
-        // After a panic or an error the next case gets a renderer of its own.
+        // After a panic, or an error of the device, the next case gets a renderer of its own.
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let said = |error: ShotError| error.to_string();
-        let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(said)?;
-        let drawn = draw(&mut renderer).map_err(said)?;
-        let outside = renderer.counters().map_err(|error| error.to_string())?.outside;
-        if outside > 0 {
-            return Err(format!("{outside} triangles lay outside of where their object's image can be"));
+        let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(|error| error.to_string())?;
+        let drawn = draw(&mut renderer);
+        if matches!(drawn, Ok(_) | Err(ShotError::Outside(_))) {
+            *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
         }
-        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
-        Ok(drawn)
+        drawn.map_err(|error| error.to_string())
     }
 }
 

@@ -41,6 +41,9 @@ pub enum ShotError {
     /// The camera sees nothing then.
     #[error(transparent)]
     Camera(#[from] CameraEnded),
+    /// The guard left out so many triangles.
+    #[error("{0} triangles lay outside of where their object's image can be")]
+    Outside(u32),
 }
 
 /// What to draw.
@@ -125,7 +128,7 @@ pub struct Compared<'a> {
 }
 
 /// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
-/// the models, finer and coarser ones. Auroras have a judge of their own and are left out.
+/// the models, finer and coarser ones. Auroras have a judge of their own and are left out. An error if the guard had to leave a triangle out.
 pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
     let stage = staged(renderer, what, None);
     let [sky, bare] = [drawn(renderer, what, &stage, false, true)?, drawn(renderer, what, &stage, false, false)?];
@@ -150,7 +153,11 @@ fn drawn(renderer: &mut Renderer, what: &Compared, stage: &Stage, layers: bool, 
     let with = settings(what.config);
     let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
     let frame = stage.frame(what.camera, what.size, what.time, &what.histories, None, &settings);
-    Ok(renderer.picture(&frame, layers)?)
+    let picture = renderer.picture(&frame, layers)?;
+    match renderer.counters()?.outside {
+        0 => Ok(picture),
+        count => Err(ShotError::Outside(count)),
+    }
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -12,7 +12,7 @@ use crate::measure::compare::fault::{Fault, Kind, main_fault};
 use crate::measure::compare::judged::{Judged, Terms, judge};
 use crate::measure::compare::random::case_file::CaseFile;
 use crate::measure::compare::random::collect;
-use crate::measure::compare::random::command::{bar, check_terms, configuration, leave, make_folder, one, tell};
+use crate::measure::compare::random::command::{Keep, bar, check_terms, configuration, leave, make_folder, one, tell};
 use crate::measure::compare::random::outcome::{Outcome, Row, summary};
 use crate::measure::trace::{Case, TraceError};
 use crate::scene::{self, GameConfig, Scene, SceneError};
@@ -42,6 +42,8 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// The folder for what fails.
     pub output: PathBuf,
+    /// Whether what fails is made smaller before it is left there.
+    pub reduce: bool,
     /// The table that the run is added to, a .csv.
     pub collected: Option<PathBuf>,
 }
@@ -216,7 +218,8 @@ impl Flight<'_> {
         let notes = vec![format!("T = {} of the flight of {} with seed {seed}: {command}", case.time, self.scene.name)];
         let Some(text) = freeze(self.text, case) else { return Ok(()) };
         let file = CaseFile { notes, text, at: 0.0, size: self.request.size };
-        let frozen = one(name, "flight", &file, self.config, &self.request.terms, Some(&self.request.output), self.contestant)?;
+        let keep = Keep { folder: &self.request.output, reduce: self.request.reduce };
+        let frozen = one(name, "flight", &file, self.config, &self.request.terms, Some(keep), self.contestant)?;
         if !frozen.failed() {
             // The ships have coasted to here in the file, and not in the flight.
             let mut file = file;

@@ -35,6 +35,8 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// The folder for what fails.
     pub output: PathBuf,
+    /// Whether what fails is made smaller before it is left there.
+    pub reduce: bool,
     /// The table that the run is added to, a .csv.
     pub collected: Option<PathBuf>,
 }
@@ -67,6 +69,15 @@ pub fn configuration(named: Option<&Path>) -> Result<GameConfig, TraceError> {
     Ok(named.map(scene::config::load).transpose()?.unwrap_or_default())
 }
 
+/// How failing cases are kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Keep<'a> {
+    /// The folder for them.
+    pub folder: &'a Path,
+    /// Whether they are made smaller first, which takes many times as long as to judge one.
+    pub reduce: bool,
+}
+
 /// Judges cases that nobody chose; leaves each that fails in the folder; prints a table. Gives a row for each case.
 pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
     request.check()?;
@@ -82,7 +93,8 @@ pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, Compa
         let command = format!("lensrunner compare --random 1 --seed {} --first {number}", request.seed);
         let notes = vec![format!("case {number} of seed {} ({}): {command}", request.seed, drawn.corner.word())];
         let file = CaseFile { notes, text: drawn.text, at: drawn.at, size: drawn.size };
-        let row = one(&name, drawn.corner.word(), &file, &config, &request.terms, Some(&request.output), contestant)?;
+        let keep = Keep { folder: &request.output, reduce: request.reduce };
+        let row = one(&name, drawn.corner.word(), &file, &config, &request.terms, Some(keep), contestant)?;
         tell(&bar, &row);
         rows.push(row);
     }
@@ -100,7 +112,7 @@ pub fn run_files(
     paths: &[PathBuf],
     config: Option<&Path>,
     terms: &Terms,
-    output: Option<&Path>,
+    keep: Option<Keep>,
     contestant: &Contestant,
 ) -> Result<Vec<Row>, CompareError> {
     check_terms(terms)?;
@@ -108,14 +120,14 @@ pub fn run_files(
     // All are read before the first is judged.
     let files = super::case_file::files(paths)?;
     let cases = files.iter().map(|path| Ok((path, CaseFile::load(path)?))).collect::<Result<Vec<_>, TraceError>>()?;
-    if let Some(output) = output {
-        make_folder(output)?;
+    if let Some(keep) = keep {
+        make_folder(keep.folder)?;
     }
     let bar = bar(cases.len() as u64);
     let mut rows = Vec::new();
     for (path, file) in cases {
         let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-        let row = one(&name, "file", &file, &config, terms, output, contestant)?;
+        let row = one(&name, "file", &file, &config, terms, keep, contestant)?;
         tell(&bar, &row);
         rows.push(row);
     }
@@ -131,20 +143,20 @@ pub fn one(
     file: &CaseFile,
     config: &GameConfig,
     terms: &Terms,
-    output: Option<&Path>,
+    keep: Option<Keep>,
     contestant: &Contestant,
 ) -> Result<Row, CompareError> {
     let started = Instant::now();
     let case = file.case(Path::new(&format!("{name}.toml")), config)?;
     let outcome = match judge(&case, terms, contestant) {
         Ok(judged) => {
-            if let (Some(output), Some(fault)) = (output, main_fault(&judged.faults)) {
-                let reduced = reduced(file, fault, config, terms, contestant);
+            if let (Some(keep), Some(fault)) = (keep, main_fault(&judged.faults)) {
+                let reduced = if keep.reduce { reduced(file, fault, config, terms, contestant) } else { None };
                 let (file, case, judged) = match &reduced {
                     Some((file, case, judged)) => (file, case, judged),
                     None => (file, &case, &judged),
                 };
-                leave(output, name, file, case, judged)?;
+                leave(keep.folder, name, file, case, judged)?;
             }
             Outcome::of(&judged)
         }
@@ -229,6 +241,7 @@ pub fn bar(count: u64) -> ProgressBar {
 pub fn tell(bar: &ProgressBar, row: &Row) {
     bar.inc(1);
     if let Some(line) = row.remark() {
-        bar.println(line);
+        // Also where there is no terminal for the bar.
+        bar.suspend(|| println!("{line}"));
     }
 }
