@@ -71,6 +71,8 @@ struct Placement {
     /// A jump of the angular velocity; w: when after T₀.
     jolt: vec4<f32>,
     force: vec4<f32>,
+    /// d²p/dT² of that momentum; w unused.
+    surge: vec4<f32>,
     /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,
@@ -107,6 +109,8 @@ const PLACEMENT_MINUS: u32 = 8u;
 const PLACEMENT_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
 const PLACEMENT_NARROW: u32 = 16u;
+/// Its image, of any order, is hardly wider than a pixel: all of it is outline.
+const PLACEMENT_SLIM: u32 = 64u;
 
 fn is_thin(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_THIN) != 0u;

@@ -26,6 +26,10 @@ impl Probe for Rod {
     fn radius(&self, _: u32) -> f64 {
         1.0
     }
+
+    fn is_dark(&self, _: f64, _: f64) -> bool {
+        false
+    }
 }
 
 #[test]

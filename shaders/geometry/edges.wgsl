@@ -57,7 +57,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
     let quarter = 0.25 * frame.size.w / closer;
-    let small = (!limb && seen_under < 8.0 * pixel) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let small = (!limb && seen_under < 8.0 * pixel / slimness(placement)) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     let short = seen_under < 2.0 * frame.size.w / fineness || (small && nearest > 4.0 * edge_length);
     if radial || !short {
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.

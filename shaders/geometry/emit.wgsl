@@ -53,12 +53,11 @@ fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
 }
 
 /// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
-/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `outward` is its
-/// `outward_normal`, `turn` its `turn_on_screen`, `seen_from` tells which directions see it.
+/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `seen_from` tells which directions see it.
 ///
 /// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
 /// with the sense in which the corners run, and over all triangles what was covered twice cancels.
-fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) -> bool {
+fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, seen_from: u32) -> bool {
     if !is_thin(placement) {
         return false;
     }
@@ -79,7 +78,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
     }
     // Coverage adds up to the truth only if each line of sight meets one layer: back faces of closed bodies are left out.
     let leaving = seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz;
-    if dot(outward, leaving) < 0.0 {
+    let from_behind = dot(facing.normal, leaving) < 0.0;
+    if facing.closed && from_behind {
         return true;
     }
     let a = p1 - p0;
@@ -94,10 +94,11 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
         return true;
     }
     direction = direction / along;
-    let sense = select(1.0, sign(turned) * turn, turn != 0.0);
+    let towards_eye = select(1.0, -1.0, from_behind);
+    let sense = select(1.0, sign(turned) * facing.turn * towards_eye, facing.turn != 0.0);
     let stretch = stretched(along, height);
     // What it truly covers of what is drawn; and of one layer, as far as no other part of the model stands before it.
-    let part = seen_part(seen_from, in_body_axes(placement, outward), in_body_axes(placement, leaving / max(length(leaving), 1e-20)));
+    let part = seen_part(seen_from, in_body_axes(placement, facing.normal * towards_eye), in_body_axes(placement, leaving / max(length(leaving), 1e-20)));
     let coverage = sense * part / (stretch.x * stretch.y);
     if coverage == 0.0 {
         return true;
@@ -118,8 +119,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, outward: vec3<f32>, turn: f32, seen_from: u32) {
-    if leaves_bounds(placement, i0, i1, i2) || emit_thin(i0, i1, i2, placement, outward, turn, seen_from) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, seen_from: u32) {
+    if leaves_bounds(placement, i0, i1, i2) || emit_thin(i0, i1, i2, placement, facing, seen_from) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
@@ -260,7 +261,7 @@ fn hand_over(queue: u32) {
             let placement = placement_at(piece.what.x);
             let triangle = model_triangles[piece.what.y];
             let corners = triangle.vertices.xyz + vec3<u32>(placement.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, placement, outward_normal(placement, triangle, placement.offset.xyz), turn_on_screen(placement, triangle), triangle.edges.w);
+            emit_triangle(corners.x, corners.y, corners.z, placement, facing_of(placement, triangle, placement.offset.xyz), triangle.edges.w);
         }
     }
 }

@@ -26,9 +26,10 @@ fn axis_is_outside(height: f32, order: u32) -> bool {
 /// How far past the axis a vertex is put that is nearer to it than that, in r_s; 0 where none is. The order before begins there with arcs that are cut at other
 /// points: between two chords of one circle a pixel could be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more
 /// than they sag. Near the ring an image moves by half of what its source does, the third order's by a twentieth. Thin images are sums of areas: they would
-/// be too bright by that.
-fn past_axis(placement: Placement, query: Query) -> f32 {
-    let past = 4.0 * ARC_SHARE * frame.size.w * abs(query.along) * select(1.0, 10.0, placement.ids.x == 3u);
+/// be too bright by that. `apparent` is where the fan's outer point is seen: arcs are cut by the budget of that place on the screen.
+fn past_axis(placement: Placement, query: Query, apparent: vec3<f32>) -> f32 {
+    let budget = frame.size.w / pixel_fineness(apparent, apparent);
+    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, placement.ids.x == 3u);
     return select(0.0, past, axis_is_outside(query.height, placement.ids.x) && !is_thin(placement));
 }
 
@@ -77,8 +78,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let what = work[index].piece.what;
     let grid = work[index].grid;
     let placement = placement_at(what.x);
-    let outward = outward_normal(placement, model_triangles[what.y], placement.offset.xyz);
-    let turn = turn_on_screen(placement, model_triangles[what.y]);
+    let facing = facing_of(placement, model_triangles[what.y], placement.offset.xyz);
     let seen_from = model_triangles[what.y].edges.w;
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
@@ -109,7 +109,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
         }
         let slot = place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin, unseen or out of bounds leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(placement, a, b, c) || emit_thin(a, b, c, placement, outward, turn, seen_from) {
+        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(placement, a, b, c) || emit_thin(a, b, c, placement, facing, seen_from) {
             b = a;
             c = a;
         }
@@ -231,7 +231,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
-            let past = past_axis(placement, query);
+            let past = past_axis(placement, query, found.ray.apparent);
             if query.across < past {
                 fan_place = select(s, -min(past / max(length(found.by_axis.xy), 1e-9), 0.5), s == 0.0);
                 query.across = -past;
@@ -247,7 +247,7 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         if k == 1u && s == 1.0 {
             let height = dot(found.position, frame.radial.xyz);
             let here = Query(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
-            count = select(2u, 3u, found.ray.valid && here.across < past_axis(placement, here));
+            count = select(2u, 3u, found.ray.valid && here.across < past_axis(placement, here, found.ray.apparent));
         }
     }
     let corner = mix(item.piece.corner_0.xyz, point, vec3<f32>(s));

@@ -124,9 +124,13 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 }
 
 /// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held four times closer, so that
-/// sag and growth together stay under a pixel.
+/// sag and growth together stay under a pixel. In a slim image every edge is near an outline and would bulge over it.
 fn strictness(placement: Placement) -> f32 {
-    return select(1.0, 4.0, is_thin(placement));
+    return select(slimness(placement), 4.0, is_thin(placement));
+}
+
+fn slimness(placement: Placement) -> f32 {
+    return select(1.0, 3.0, (placement.triangles.w & PLACEMENT_SLIM) != 0u);
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
@@ -134,8 +138,10 @@ const LIMB_STRICTNESS: f32 = 9.0;
 /// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
 const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
+/// By how much closer outlines are held than other edges of the same image.
 fn limb_strictness(placement: Placement) -> f32 {
-    return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
+    let narrow = (placement.triangles.w & (PLACEMENT_NARROW | PLACEMENT_SLIM)) != 0u;
+    return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS / slimness(placement), narrow);
 }
 
 /// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows
@@ -205,11 +211,22 @@ fn plane_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>
     return at_rest(placement, cross(a, b), offset);
 }
 
-/// The sense in which the corners of a triangle run on the screen, +1 counterclockwise, where it shows its outer side; 0 where no side is outside.
-/// Light that has passed the axis once shows what it left mirrored: even orders.
-fn turn_on_screen(placement: Placement, triangle: ModelTriangle) -> f32 {
-    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u) * select(1.0, -1.0, placement.ids.x == 2u);
-    return select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+/// The side of a model triangle by which it is told whether its image is turned over.
+struct Facing {
+    /// A unit normal in the rest frame: outward of a closed body, else to that side from which the corners run counterclockwise.
+    normal: vec3<f32>,
+    /// The sense in which the corners run on the screen where that side is seen, +1 counterclockwise; 0 where it cannot be told.
+    turn: f32,
+    /// Whether the other side is never seen.
+    closed: bool,
+}
+
+/// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once shows what it left mirrored: even orders.
+fn facing_of(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
+    let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
+    let mirrored = select(1.0, -1.0, placement.ids.x == 2u);
+    let both = two_sided(placement);
+    return Facing(plane_normal(placement, triangle, offset) * sign, select(sign * mirrored, 0.0, both), triangle.vertices.w != SIDE_OPEN && !both);
 }
 
 /// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times

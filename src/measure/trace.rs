@@ -338,7 +338,8 @@ impl Case {
     /// The judge, to be asked anywhere on the screen.
     pub fn probe(&self, tolerance: f64) -> impl Probe + '_ {
         let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
-        Asked { case: self, world: self.world(&ships), tolerance }
+        let gas = self.scene.disk(&self.config).map(|disk| Gas::new(&disk, self.config.hole.mass_solar).extent());
+        Asked { case: self, world: self.world(&ships), gas, tolerance }
     }
 
     /// How the game develops its pictures.
@@ -356,6 +357,8 @@ impl Case {
 struct Asked<'a> {
     case: &'a Case,
     world: World<'a>,
+    /// From where to where the disk has gas, in r_s.
+    gas: Option<[f64; 2]>,
     tolerance: f64,
 }
 
@@ -379,6 +382,16 @@ impl Probe for Asked<'_> {
     fn radius(&self, object: u32) -> f64 {
         let thing = self.world.things.iter().find(|thing| thing.id == object);
         thing.map_or(1.0, |thing| f64::from(self.case.assembly.models[thing.model].radius()))
+    }
+
+    fn is_dark(&self, x: f64, y: f64) -> bool {
+        let camera = &self.case.camera;
+        let mut clear = true;
+        let seen = self.world.look_through(camera.position, camera.look(x, y).0, self.tolerance, &mut |crossing| {
+            let r = crossing.position.length();
+            clear &= self.gas.is_none_or(|[start, end]| r < start || r > end);
+        });
+        clear && matches!(seen, Seen::Captured)
     }
 }
 

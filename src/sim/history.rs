@@ -1,19 +1,23 @@
-//! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit.
+//! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit. Where that came out of the
+//! hole, the ship hovered until then.
 
 use bevy::prelude::Component;
 use glam::{DQuat, DVec3};
 
-use crate::spacetime::matter::{STEP_SHARE, ShipState, gamma, has_ended, rate, runge_kutta, step, velocity};
+use crate::spacetime::matter::{STEP_SHARE, ShipState, came_out_of_the_hole, gamma, has_ended, rate, runge_kutta, step, velocity};
 use crate::spacetime::metric::river_speed;
+use crate::spacetime::orbit::static_momentum;
 
 use super::flight::Command;
 
-/// Backwards in T, ingoing coordinates do not reach the white hole: a ship that came out of it hugs r = 1 with momentum growing as
+/// Backwards in T, ingoing coordinates do not reach the white hole: a ship inside the horizon that came out of it hugs r = 1 with momentum growing as
 /// exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
 pub const MAX_PAST_MOMENTUM: f64 = 1e6;
 
 /// The longest span between two nodes of the past, in r_s/c.
 const MAX_PAST_STEP: f64 = 4.0;
+/// In this time, in r_s/c, a ship that hovered takes up the motion that it starts with.
+const START: f64 = 1.0 / 32.0;
 
 /// A ship at one instant T.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,21 +54,34 @@ struct Node {
     /// dp/dT just before and just after the node: they differ where the thrust changes.
     force_before: DVec3,
     force_after: DVec3,
+    /// Whether it was here, at rest, at all times before.
+    held: bool,
 }
 
 impl Node {
     fn coasting(time: f64, state: &ShipState) -> Self {
         let force = rate(state, DVec3::ZERO, DVec3::ZERO).momentum;
-        Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force }
+        Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force, held: false }
     }
 
-    /// Held in place from here backwards.
+    /// Held in place from here backwards, by its engines where anything can hover.
     fn held(time: f64, state: &ShipState) -> Self {
-        Node { time, state: *state, velocity: DVec3::ZERO, force_before: DVec3::ZERO, force_after: DVec3::ZERO }
+        let hovers = if is_frozen(state) { None } else { static_momentum(state.position) };
+        let state = ShipState { momentum: hovers.unwrap_or(state.momentum), ..*state };
+        Node { time, state, velocity: DVec3::ZERO, force_before: DVec3::ZERO, force_after: DVec3::ZERO, held: true }
     }
 
-    fn is_held(&self) -> bool {
-        self.velocity == DVec3::ZERO && is_frozen(&self.state)
+    /// The node before this one, of the past; of one that is held there is none.
+    fn before(&self) -> Node {
+        if is_frozen(&self.state) {
+            // It comes to rest within a step: what holds between nodes holds here too.
+            Node::held(self.time - past_step(&self.state), &self.state)
+        } else if came_out_of_the_hole(&self.state) {
+            Node::held(self.time - START, &self.state)
+        } else {
+            let h = past_step(&self.state);
+            Node::coasting(self.time - h, &runge_kutta(&self.state, -h, DVec3::ZERO, DVec3::ZERO))
+        }
     }
 }
 
@@ -147,7 +164,7 @@ impl History {
             self.past.clear();
         }
         let force = force(state);
-        self.nodes.push(Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force });
+        self.nodes.push(Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force, held: false });
     }
 
     /// From now on keeps at least the last `keep` r_s/c and lets go what is older than twice that; a look farther back then shows a free
@@ -174,20 +191,14 @@ impl History {
     /// Integrates the past back to T = `time` (or to where it freezes), so that [`History::at`] is quick from there on.
     pub fn reach_back(&mut self, time: f64) {
         let mut oldest = *self.oldest();
-        while oldest.time > time && !oldest.is_held() {
-            let h = past_step(&oldest.state);
-            oldest = if is_frozen(&oldest.state) {
-                // It comes to rest within a step: what holds between nodes holds here too.
-                Node::held(oldest.time - h, &oldest.state)
-            } else {
-                Node::coasting(oldest.time - h, &runge_kutta(&oldest.state, -h, DVec3::ZERO, DVec3::ZERO))
-            };
+        while oldest.time > time && !oldest.held {
+            oldest = oldest.before();
             self.past.push(oldest);
         }
     }
 
     /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there (integrated on the spot: slower than
-    /// after [`History::reach_back`], and the same to 1e-6 r_s).
+    /// after [`History::reach_back`], and the same).
     pub fn at(&self, time: f64) -> Sample {
         let (first, last) = (self.nodes[0], self.last());
         if time >= last.time {
@@ -203,17 +214,15 @@ impl History {
             let later = if after == 0 { &first } else { &self.past[after - 1] };
             return between(&self.past[after], later, time);
         }
-        let (mut state, mut now) = (oldest.state, oldest.time);
-        while now > time && !is_frozen(&state) {
-            let h = past_step(&state).min(now - time);
-            state = runge_kutta(&state, -h, DVec3::ZERO, DVec3::ZERO);
-            now = if h == now - time { time } else { now - h };
+        let mut later = *oldest;
+        while !later.held {
+            let earlier = later.before();
+            if earlier.time <= time {
+                return between(&earlier, &later, time);
+            }
+            later = earlier;
         }
-        let mut sample = Sample::from(&state);
-        if now > time {
-            sample.velocity = DVec3::ZERO;
-        }
-        sample
+        Sample { velocity: DVec3::ZERO, ..Sample::from(&later.state) }
     }
 
     /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the momentum of free fall.
@@ -243,7 +252,7 @@ impl History {
     /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is held in place.
     pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
         let oldest = self.oldest();
-        if from < oldest.time && oldest.is_held() {
+        if from < oldest.time && oldest.held {
             let p = oldest.state.momentum.length();
             let held = Bounds { momentum: [p, p], ..Bounds::default() };
             if to <= oldest.time {

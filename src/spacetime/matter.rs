@@ -203,6 +203,24 @@ pub fn boosted_acceleration(momentum: DVec3, acceleration: DVec3) -> DVec3 {
     acceleration + momentum * (momentum.dot(acceleration) / (1.0 + gamma(momentum)))
 }
 
+/// Whether a free orbit through this state, followed backwards, goes down to r = 1 without turning: outside the horizon it came out of the white hole, which no ship
+/// in this game did. It rises, (dr/dτ)² = E² − V(r) with V = (1 − 1/r)(1 + L²/r²), and V has no peak below it that is higher than E²; the peak of V lies at
+/// r = L² − L√(L² − 3) (Chandrasekhar 1983, section 19).
+pub fn came_out_of_the_hole(state: &ShipState) -> bool {
+    let r = state.position.length();
+    let rising = state.momentum.dot(state.position) / r - river_speed(r) * gamma(state.momentum);
+    if r <= 1.0 || rising < 0.0 {
+        return false;
+    }
+    let squared = angular_momentum(state).length_squared();
+    let peak = squared - (squared * (squared - 3.0).max(0.0)).sqrt();
+    if squared <= 3.0 || r <= peak {
+        return true;
+    }
+    let e = energy(state);
+    e * e > (1.0 - 1.0 / peak) * (1.0 + squared / (peak * peak))
+}
+
 /// Energy per mass E = −u·∂_T = γ − βn·p, constant without thrust.
 pub fn energy(state: &ShipState) -> f64 {
     let r = state.position.length();
