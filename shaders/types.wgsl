@@ -51,7 +51,7 @@ struct Placement {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
     /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the digits that it takes.
-    /// z: how far a point may be put beside its place by the rounding of f32; all in r_s. w unused.
+    /// z: how far a point may be put beside its place by the rounding of f32; all in r_s. w: how much closer chords of a slim image are held, else 1.
     axis: vec4<f32>,
     /// The centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
     /// w: what its engines lack of their full light, as a share.
@@ -109,8 +109,6 @@ const PLACEMENT_MINUS: u32 = 8u;
 const PLACEMENT_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
 const PLACEMENT_NARROW: u32 = 16u;
-/// Its image, of any order, is hardly wider than a pixel: all of it is outline.
-const PLACEMENT_SLIM: u32 = 64u;
 
 fn is_thin(placement: Placement) -> bool {
     return (placement.triangles.w & PLACEMENT_THIN) != 0u;

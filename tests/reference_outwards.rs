@@ -1,4 +1,4 @@
-//! The judge before ships that came out of the hole: work counted, not timed; and what it says where it gives up.
+//! The judge before ships that move outwards: work counted, not timed; and what it says where it gives up.
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
@@ -38,10 +38,10 @@ const BEHIND: &str = "position = [6.0, 0.0146, 0.0153]";
 const BESIDE: &str = "position = [-0.850279, -0.599375, -0.369218]\nfov = 30.0";
 
 #[test]
-fn what_came_out_of_the_hole_is_asked_a_few_times_a_ray() {
+fn what_moves_outwards_is_asked_a_few_times_a_ray() {
     const SIZE: [usize; 2] = [32, 18];
-    // Followed backwards each of these hugs r = 1, with a momentum that grows without end, and so does light in the shadow. Before, it took some ten
-    // thousand questions a ray, and for the last a hundred and fifty thousand.
+    // Light in the shadow hugs r = 1 with a frequency that grows without end. The ships outside hovered there before they started; the last one, inside, hugs r = 1 as
+    // light does.
     let at_rest = 6f64.powf(-0.5) / (5f64 / 6.0).sqrt();
     let cases = [
         (BEHIND, [-6.0, 0.0, 0.0], [-at_rest, 0.0, 0.0]),

@@ -4,6 +4,7 @@ use glam::DVec3;
 use lensrunner::sim::history::rotation;
 use lensrunner::sim::{Command, History};
 use lensrunner::spacetime::matter::{ShipState, step};
+use lensrunner::spacetime::orbit::static_momentum;
 
 /// A ship that falls, thrusts and turns by commands that change every few steps, its past known for ten r_s/c.
 fn flown() -> History {
@@ -66,16 +67,8 @@ fn a_ship_moves_within_its_bounds() {
     assert_eq!(history.bounds(-1e3, 0.0), None);
 }
 
-/// Followed backwards what moves outwards comes from r = 1, with a momentum that grows until it is held there: it goes over into rest within its bounds.
-#[test]
-fn what_came_out_of_the_hole_is_held_in_the_end_and_knows_it() {
-    let state = ShipState::new(DVec3::new(3.0, 0.0, 0.0), DVec3::new(1.0, 0.2, 0.0));
-    let mut history = History::new(0.0, &state);
-    history.reach_back(-1e4);
-    let last = history.at(-1e4);
-    assert!((last.position.length() - 1.0).abs() < 1e-5 && last.momentum.length() > 1e6, "{last:?}");
-    let held = history.bounds(-1e3, -500.0).unwrap();
-    assert_eq!((held.velocity, held.force, held.turning, held.momentum), (0.0, 0.0, 0.0, [last.momentum.length(); 2]));
+/// What is asked of a history over a while before its first node holds within its bounds.
+fn moves_within_bounds(history: &History) {
     for k in 0..200 {
         let (from, span) = (-60.0 + 0.3 * f64::from(k), 0.25);
         let bounds = history.bounds(from, from + span).unwrap();
@@ -88,4 +81,51 @@ fn what_came_out_of_the_hole_is_held_in_the_end_and_knows_it() {
             assert!(p >= bounds.momentum[0] - rounding && p <= bounds.momentum[1] + rounding, "{from}: {p} {bounds:?}");
         }
     }
+}
+
+/// Outside nothing comes out of the white hole: a ship whose orbit would have hovered, at its start or, of one that falls, where it began to.
+#[test]
+fn what_would_have_come_out_of_the_hole_hovered() {
+    let thrown = ShipState::new(DVec3::new(3.0, 0.0, 0.0), DVec3::new(1.0, 0.2, 0.0));
+    let hovering = ShipState::new(DVec3::new(0.0, 6.0, 0.0), static_momentum(DVec3::Y * 6.0).unwrap());
+    for state in [thrown, hovering] {
+        let mut history = History::new(0.0, &state);
+        let unreached = history.clone();
+        history.reach_back(-1e4);
+        for time in [-1e5, -40.0, -0.5, -0.03125] {
+            let before = history.at(time);
+            assert_eq!((before.position, before.velocity), (state.position, DVec3::ZERO), "{time}");
+            assert_eq!(before.momentum, static_momentum(state.position).unwrap());
+            assert_eq!(unreached.at(time), before);
+        }
+        // It takes up its motion in a thirty-second of r_s/c.
+        assert!(history.at(-0.001).momentum.distance(state.momentum) < 0.01);
+        moves_within_bounds(&history);
+    }
+    // Dropped from r = 8 so long ago that it is at r = 4 now.
+    let mut state = ShipState::new(DVec3::X * 8.0, static_momentum(DVec3::X * 8.0).unwrap());
+    let mut fallen = 0.0;
+    while state.position.length() > 4.0 {
+        state = step(&state, 1.0 / 32.0, DVec3::ZERO, DVec3::ZERO);
+        fallen += 1.0 / 32.0;
+    }
+    let mut history = History::new(0.0, &state);
+    history.reach_back(-1e3);
+    let start = history.at(-1e3).position;
+    // The turning point is found to a step of the past.
+    assert!((start.x - 8.0).abs() < 0.02 && start.truncate().y == 0.0, "{start}");
+    assert!(history.at(-fallen + 2.0).position.x < 7.99);
+}
+
+/// Inside the horizon nothing hovers: followed backwards such a ship hugs r = 1, with a momentum that grows until it is held there.
+#[test]
+fn what_came_out_of_the_hole_inside_is_held_in_the_end_and_knows_it() {
+    let state = ShipState::new(DVec3::new(-0.337928, -0.133675, -0.199831), DVec3::new(-1.506309, 0.064824, -1.116405));
+    let mut history = History::new(0.0, &state);
+    history.reach_back(-1e4);
+    let last = history.at(-1e4);
+    assert!((last.position.length() - 1.0).abs() < 1e-5 && last.momentum.length() > 1e6, "{last:?}");
+    let held = history.bounds(-1e3, -500.0).unwrap();
+    assert_eq!((held.velocity, held.force, held.turning, held.momentum), (0.0, 0.0, 0.0, [last.momentum.length(); 2]));
+    moves_within_bounds(&history);
 }

@@ -6,10 +6,12 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3, DVec4};
 use lensrunner::spacetime::frames::{boost, dot, four_velocity, rain_to_ship, relative_velocity, ship_to_rain};
 use lensrunner::spacetime::matter::{
-    ShipState, angular_momentum, boosted_acceleration, energy, has_ended, momentum_of, rate, static_speed, step, step_until, velocity,
+    ShipState, angular_momentum, boosted_acceleration, came_out_of_the_hole, energy, has_ended, momentum_of, rate, runge_kutta, static_speed, step, step_until, velocity,
 };
 use lensrunner::spacetime::orbit::{Elements, circular_orbit, orbital_frequency, static_momentum};
 use proptest::prelude::*;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
 
 /// Rounding over some 10⁴ steps of order one.
 const ROUNDING: f64 = 1e-12;
@@ -327,4 +329,30 @@ fn relative_velocity_adds_as_in_special_relativity() {
     let p = |v: f64| DVec3::X * (v / (1.0 - v * v).sqrt());
     close(relative_velocity(p(0.5), p(-0.5)).x, -0.8, ROUNDING, "(0.5 + 0.5)/(1 + 0.25)");
     close(velocity(&resting_at(3.0)).length(), 0.0, ROUNDING, "a static observer stays");
+}
+
+/// The closed form against the orbit itself, followed backwards until it turns or is at the horizon.
+#[test]
+fn what_came_out_of_the_hole_is_known_by_its_constants() {
+    let mut random = StdRng::seed_from_u64(7);
+    let mut direction = move || DVec3::from_array([0; 3].map(|_| random.random_range(-1.0..1.0)));
+    let mut counts = [0; 2];
+    for _ in 0..400 {
+        let position = direction() * 12.0;
+        if position.length() < 1.05 {
+            continue;
+        }
+        let state = ShipState::new(position, direction() * 3.0);
+        let rising = |state: &ShipState| velocity(state).dot(state.position) > 0.0;
+        let mut now = state;
+        // Followed backwards what rises comes from below.
+        while rising(&now) && now.position.length() > 1.001 {
+            let h = 0.01 * (now.position.length() - 1.0).min(1.0) / (1.0 + now.momentum.length()).min(4.0);
+            now = runge_kutta(&now, -h, DVec3::ZERO, DVec3::ZERO);
+        }
+        let came_out = rising(&state) && now.position.length() <= 1.001;
+        assert_eq!(came_out_of_the_hole(&state), came_out, "{state:?}");
+        counts[usize::from(came_out)] += 1;
+    }
+    assert!(counts.into_iter().min() > Some(20), "{counts:?}");
 }

@@ -19,7 +19,7 @@ struct ArcGas {
 struct AcrossRing {
     /// 0 on one of the ring's circles and 1 on the other.
     @location(5) across: f32,
-    /// By how much the ring's middle is beyond the straight line between its circles: height in the pattern, log₂ of light over its slope, optical depth. An arc's
+    /// By how much the ring's middle is beyond the straight line between its circles: height in the pattern, log₂ of light over its slope, optical depth over that of the line. An arc's
     /// triangles begin with a vertex of the inner circle, which has it.
     @location(6) @interpolate(flat) bend: vec3<f32>,
 }
@@ -48,7 +48,7 @@ fn of_ring(in: Gas, ring: AcrossRing) -> OfRing {
     // A sliver that hardly touches a pixel may have anything at its centre.
     let t = saturate(ring.across);
     let bent = 4.0 * (t - t * t) * ring.bend;
-    return OfRing(max(in.slope.w + bent.x, 0.0), bent.y, max(in.light.w + bent.z, 0.0));
+    return OfRing(max(in.slope.w + bent.x, 0.0), bent.y, max(in.light.w * (1.0 + bent.z), 0.0));
 }
 
 /// From far: the slant is in the vertices. Order 1 is wide; where gaps are closed gas has a part of its place.

@@ -294,7 +294,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
     let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
     let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, s < 0.0) * apart * (bend.y - bend.w);
-    vertex.bend = vec4<f32>(bend.x, own * brighter, own * along_ray * bend.z, f32((row - circle.rows.y) & 1u));
+    vertex.bend = vec4<f32>(bend.x, own * brighter, own * bend.z, f32((row - circle.rows.y) & 1u));
     return vertex;
 }
 

@@ -51,7 +51,7 @@ struct DiskVertex {
     /// place that gas has, w: 10⁶.
     more: vec4<f32>,
     /// Of the ring that begins here, by how much its middle is beyond the straight line between its circles: x: height in the pattern; y: logarithm of light, over itself with
-    /// its sign turned; z: optical depth along the ray (close look: straight through). w: 0 and 1 by turns from row to row, so that over a ring it is the share of its
+    /// its sign turned; z: optical depth, over that of the line, so that it holds at any slant. w: 0 and 1 by turns from row to row, so that over a ring it is the share of its
     /// width, from one side or the other.
     bend: vec4<f32>,
 }

@@ -47,7 +47,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     var whole = true;
     // A short edge needs no measuring. Away from the axis it bends for two reasons: aberration and delay are not linear, by θ²/8 at most for an
     // edge seen under θ; and light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both are
-    // held under a quarter of the budget (of an outline's for one), the tide with another factor of 3 for the shear of images near the ring.
+    // held under a quarter of the budget (of an outline's for one), the tide with another factor of 3 for the shear of images near the ring. Beside the axis
+    // it also runs along the ring, and bends by an eighth of the square of the angle by which it turns, at most.
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(a.xy), length(b.xy));
@@ -56,9 +57,10 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let closer = fineness * max(select(1.0, limb_strictness(placement), limb), ring_strictness(nearest, pixel * length(from_apparent), a.z, order));
     let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.size.w / closer;
-    let small = (!limb && seen_under < 8.0 * pixel / slimness(placement)) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
-    let short = seen_under < 2.0 * frame.size.w / fineness || (small && nearest > 4.0 * edge_length);
+    let quarter = 0.25 * frame.size.w / (closer * slimness(placement));
+    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(a.z, order) && !is_thin(placement));
+    let small = (!limb && seen_under < 8.0 * pixel * inverseSqrt(slimness(placement))) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let short = seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
     if radial || !short {
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
         let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);

@@ -123,14 +123,18 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return max(d.x, max(d.y, d.z));
 }
 
-/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held four times closer, so that
-/// sag and growth together stay under a pixel. In a slim image every edge is near an outline and would bulge over it.
+/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that
+/// sag and growth together stay under a pixel.
+const THIN_STRICTNESS: f32 = 4.0;
+
+/// How much closer all chords of an image are held than the budget says.
 fn strictness(placement: Placement) -> f32 {
-    return select(slimness(placement), 4.0, is_thin(placement));
+    return select(slimness(placement), THIN_STRICTNESS, is_thin(placement));
 }
 
+/// The same for images that are a few pixels wide, told by how wide they are: there every edge is near an outline and would bulge over it.
 fn slimness(placement: Placement) -> f32 {
-    return select(1.0, 3.0, (placement.triangles.w & PLACEMENT_SLIM) != 0u);
+    return placement.axis.w;
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
@@ -138,10 +142,13 @@ const LIMB_STRICTNESS: f32 = 9.0;
 /// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
 const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
-/// By how much closer outlines are held than other edges of the same image.
+/// By how much closer outlines are held than other edges of the same image. A thin one has no outline: its area counts.
 fn limb_strictness(placement: Placement) -> f32 {
-    let narrow = (placement.triangles.w & (PLACEMENT_NARROW | PLACEMENT_SLIM)) != 0u;
-    return select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS / slimness(placement), narrow);
+    if is_thin(placement) {
+        return 1.0;
+    }
+    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
+    return max(outline / slimness(placement), 1.0);
 }
 
 /// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows

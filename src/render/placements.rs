@@ -106,7 +106,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         } else {
             placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-            placement.triangles[3] |= if width < SLIM_BELOW { SLIM } else { 0 };
+            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
         }
         placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
@@ -143,14 +143,15 @@ pub const THIN: u32 = 4;
 const MINUS: u32 = 8;
 /// An image of a higher order of a few pixels' width, drawn out along the ring; as in shaders/types.wgsl.
 const NARROW: u32 = 16;
-/// An image hardly wider than a pixel; as in shaders/types.wgsl.
-const SLIM: u32 = 64;
 /// The player's own ship; as in shaders/types.wgsl.
 pub const OWN: u32 = 32;
 /// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
 const NARROW_BELOW: f64 = 10.0;
-/// Images narrower than this are slim ones, in pixels: an edge that may sag by a quarter of a pixel reaches over a third of the outlines there.
-const SLIM_BELOW: f64 = 3.0;
+/// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is
+/// that where it is the most; a ring is a tenth as wide elsewhere.
+const SLIM_BELOW: f64 = 16.0;
+/// But no closer than by this factor: a model of ten thousand triangles on the axis fills the buffers.
+const MOST_SLIM: f64 = 4.0;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]
@@ -305,7 +306,7 @@ pub(super) fn by_axis(camera: &Camera, placement: &Placement, position: DVec3, r
     let rounding = ROUNDING * (reach + speed * f64::from(placement.offset[3]).abs());
     let aside = BESIDE * rounding;
     // In a direction that nobody chooses.
-    [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 0.0]
+    [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 1.0]
 }
 
 fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> Placement {

@@ -208,8 +208,10 @@ pub fn boosted_acceleration(momentum: DVec3, acceleration: DVec3) -> DVec3 {
 /// r = L² − L√(L² − 3) (Chandrasekhar 1983, section 19).
 pub fn came_out_of_the_hole(state: &ShipState) -> bool {
     let r = state.position.length();
-    let rising = state.momentum.dot(state.position) / r - river_speed(r) * gamma(state.momentum);
-    if r <= 1.0 || rising < 0.0 {
+    let g = gamma(state.momentum);
+    let rising = state.momentum.dot(state.position) / r - river_speed(r) * g;
+    // What hovers, or turns here, does so to rounding.
+    if r <= 1.0 || rising < -1e-14 * g {
         return false;
     }
     let squared = angular_momentum(state).length_squared();

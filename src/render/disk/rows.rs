@@ -47,6 +47,8 @@ pub const AZIMUTHS: usize = 12;
 const GREEN: f64 = 26_160.0;
 /// Light of gas as dark as this, in its logarithm, is none.
 const LEAST_LOG_LIGHT: f64 = -690.0;
+/// Gas of an optical depth below this stops nothing and sends out nothing.
+const LEAST_DEPTH: f64 = 1e-9;
 /// Light in the middle of a ring is at most this far from the straight line, in its logarithm: the colours go with the slopes of Planck's law at the circles, which
 /// is good for no more.
 const MOST_BENT: f64 = 0.7;
@@ -179,7 +181,7 @@ impl Look<'_> {
             if aside * across >= within.across || ahead * along * wide.min(1.0) >= within.along {
                 return false;
             }
-            let depth = (straight(a.depth, b.depth) + middle * bend.depth).max(0.0);
+            let depth = (straight(a.depth, b.depth) * (1.0 + middle * bend.depth)).max(0.0);
             let drawn = slants.map(|slant| stopped(depth, slant));
             (0..2).all(|n| (drawn[n] - here.stopped[n]).abs() * shown < within.stopped)
                 && (0..2).all(|side| {
@@ -248,7 +250,7 @@ pub struct Bend {
     height: f64,
     /// The logarithm of light, over itself with its sign turned; where the azimuth is positive and where it is negative.
     light: [f64; 2],
-    /// Optical depth straight through.
+    /// Optical depth, over that of the line.
     depth: f64,
 }
 
@@ -268,7 +270,11 @@ impl Bend {
                 let line = straight(from, to);
                 ((1.0 - through / line) * weight).clamp(MOST_BENT / line, -MOST_BENT / line)
             }),
-            depth: (middle.depth - straight(a.depth, b.depth)) * weight,
+            depth: {
+                let line = straight(a.depth, b.depth);
+                // Where there is as good as no gas nothing is bent.
+                if line > LEAST_DEPTH { (middle.depth / line - 1.0) * weight } else { 0.0 }
+            },
         })
     }
 
