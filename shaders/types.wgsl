@@ -71,8 +71,6 @@ struct Placement {
     /// A jump of the angular velocity; w: when after T₀.
     jolt: vec4<f32>,
     force: vec4<f32>,
-    /// d²p/dT² of that momentum; w unused.
-    surge: vec4<f32>,
     /// Columns of the rotation from body axes to rain axes, for normals; w: d³x/dT³ of the centre.
     turn_x: vec4<f32>,
     turn_y: vec4<f32>,

@@ -115,7 +115,8 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
                     let wide = a.angle_to(b, k) / pixel;
                     worst[0] = worst[0].max(aside * wide / (b.radius - a.radius));
                     worst[1] = worst[1].max(ahead * r / place.length() / pixel * wide.min(1.0));
-                    let drawn = (radial.depth(r) + of(&|r| radial.depth(r), depth)).max(0.0);
+                    let line = parabola(radial.depth(a.radius), radial.depth(b.radius), 0.0);
+                    let drawn = (line * (1.0 + 4.0 * t * (1.0 - t) * depth)).max(0.0);
                     for slant in slants {
                         let [got, want] = [drawn, radial.depth(r)].map(|depth| 1.0 - (-slant * depth).exp());
                         worst[3] = worst[3].max((got - want).abs() * wide.min(1.0));

@@ -94,7 +94,8 @@ fn what_would_have_come_out_of_the_hole_hovered() {
         history.reach_back(-1e4);
         for time in [-1e5, -40.0, -0.5, -0.03125] {
             let before = history.at(time);
-            assert_eq!((before.position, before.velocity), (state.position, DVec3::ZERO), "{time}");
+            assert_eq!(before.position, state.position, "{time}");
+            assert!(before.velocity.length() < 1e-15, "{time}");
             assert_eq!(before.momentum, static_momentum(state.position).unwrap());
             assert_eq!(unreached.at(time), before);
         }

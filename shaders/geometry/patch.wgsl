@@ -142,10 +142,13 @@ const LIMB_STRICTNESS: f32 = 9.0;
 /// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
 const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
-/// By how much closer outlines are held than other edges of the same image. A thin one has no outline: its area counts.
+/// The same for thin images, on top of their own: what counts is their area and that they are whole.
+const THIN_LIMB_STRICTNESS: f32 = 3.0;
+
+/// By how much closer outlines are held than other edges of the same image.
 fn limb_strictness(placement: Placement) -> f32 {
     if is_thin(placement) {
-        return 1.0;
+        return THIN_LIMB_STRICTNESS;
     }
     let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
     return max(outline / slimness(placement), 1.0);

@@ -18,7 +18,7 @@ fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = cross(turned, straight);
     let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = vec3<f32>(placement.spin.w, placement.spin_rate.w, placement.force.w) + (placement.force.xyz + placement.surge.xyz * (0.5 * s)) * s;
+    let p = vec3<f32>(placement.spin.w, placement.spin_rate.w, placement.force.w) + placement.force.xyz * s;
     let gamma = sqrt(1.0 + dot(p, p));
     let contracted = rest - p * (dot(p, rest) / (gamma * (1.0 + gamma)));
     let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);

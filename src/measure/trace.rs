@@ -391,7 +391,7 @@ impl Probe for Asked<'_> {
             let r = crossing.position.length();
             clear &= self.gas.is_none_or(|[start, end]| r < start || r > end);
         });
-        clear && matches!(seen, Seen::Captured)
+        clear && !matches!(seen, Seen::Hit(_))
     }
 }
 

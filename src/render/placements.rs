@@ -8,7 +8,6 @@ use crate::lensing::Slice;
 use crate::lensing::lookup::{OLD, lens_lookup_aged};
 pub use crate::scene::lighting::Surroundings;
 use crate::sim::History;
-use crate::sim::history::Sample;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
@@ -74,11 +73,11 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
-        let (mut placement, position, age, longer) = match object.motion {
+        let (mut placement, position, age) = match object.motion {
             // From inside, higher orders show only what is outside.
             Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
             Motion::Held { position, attitude } => {
-                (held(camera, position, attitude, object), position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 }, 1.0)
+                (held(camera, position, attitude, object), position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 })
             }
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
@@ -106,8 +105,10 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         } else {
             placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
+            let most = if object.model.triangles[1] < FINE_MODEL { MOST_SLIM } else { 1.0 };
+            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
         }
+        let longer = drawn_out(camera, &placement, position, order, age);
         placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
@@ -150,8 +151,10 @@ const NARROW_BELOW: f64 = 10.0;
 /// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is
 /// that where it is the most; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
-/// But no closer than by this factor: a model of ten thousand triangles on the axis fills the buffers.
+/// But no closer than by this factor.
 const MOST_SLIM: f64 = 4.0;
+/// Models of so many triangles have short edges, which hardly sag; held closer, ships behind the hole filled the buffers.
+const FINE_MODEL: u32 = 2000;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]
@@ -298,7 +301,8 @@ const BESIDE: f64 = 4.0;
 /// Rounding of f32 in where a point of an object is, relative to the object's reach, and of its emission time, relative to the delay: some roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
-/// The row `axis` of a placement at `position`: where that is across the axis, and how far a point of the object may be put beside its place by rounding.
+/// The row `axis` of a placement at `position`: where that is across the axis, how far a point of the object may be put beside its place by rounding, and 1 for an image
+/// that is not slim.
 pub(super) fn by_axis(camera: &Camera, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
     let [_, a, b] = camera.axis_frame();
     let [vx, vy, vz, moves] = placement.velocity.map(f64::from);
@@ -323,41 +327,16 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
     }
 }
 
-/// For how long before and after that of its centre light leaves the points of what flies, in r_s/c: what is farther away by the delay's gradient ∇Δ sends it
-/// earlier by that, and as much earlier again for the way that it moved meanwhile, as ∇Δ/(1 + v ∇Δ). Where that is much longer than the body is wide it is no
-/// longer a matter of gradients (a ship that climbs away from the horizon was close to it for long), and both ends are looked for.
-fn crossing(view: &View, time: f64, history: &History, order: Order, object: &Object, emission: f64) -> [f64; 2] {
-    let camera = view.camera;
-    let sample = history.at(emission);
-    let reach = object.reach;
-    if !view.settings.light_delay || !view.settings.method.bends() {
-        return [reach; 2];
+/// By how much farther from its centre, at the most, points of an object are where their light leaves than they are at one time: light leaves what is farther earlier by
+/// the delay's gradient ∇Δ, and as much earlier again for the way that it moved meanwhile, as v ∇Δ/(1 + v ∇Δ).
+fn drawn_out(camera: &Camera, placement: &Placement, position: DVec3, order: Order, age: f64) -> f64 {
+    let [x, y, z, moves] = placement.velocity.map(f64::from);
+    if moves == 0.0 {
+        return 1.0;
     }
-    let Some((_, gradient)) = light_path(camera, sample.position, order, branch_of(camera, sample.position, time - emission)) else {
-        return [reach; 2];
-    };
-    let stretch = gradient.length() / (1.0 + sample.velocity.dot(gradient)).max(1e-3);
-    if !stretch.is_finite() || stretch < STRETCHED {
-        return [reach; 2];
-    }
-    let away = gradient.normalize_or_zero() * reach;
-    let [earlier, later] = [away, -away].map(|offset| {
-        let found = leaves(camera, time, history, order, |sample| contraction(sample.momentum) * offset);
-        found.map_or(reach * stretch.min(MOST_STRETCH), |t| (t - emission).abs()).max(reach)
-    });
-    [earlier * BESIDE_ENDS, later * BESIDE_ENDS]
-}
-
-/// Up to this stretch light crosses a body in about the time that its size says: it does at speeds up to 0.3 c.
-const STRETCHED: f64 = 1.5;
-/// The farthest that an end that is seen at no time is taken to be away, in radii of the body.
-const MOST_STRETCH: f64 = 10.0;
-/// Points off the line of both ends send their light a little earlier or later still.
-const BESIDE_ENDS: f64 = 1.1;
-
-/// By how much farther from its centre, at the most, points of what flies are where their light leaves than they are at one time, as a factor.
-fn drawn_out(crossing: [f64; 2], velocity: DVec3, reach: f64) -> f64 {
-    1.0 + ACCELERATES * velocity.length() * crossing[0].max(crossing[1]) / reach.max(1e-9)
+    let velocity = DVec3::new(x, y, z);
+    let Some((_, gradient)) = light_path(camera, position, order, branch_of(camera, position, age)) else { return f64::INFINITY };
+    1.0 + ACCELERATES * velocity.length() * gradient.length() / (1.0 + velocity.dot(gradient)).max(1e-6)
 }
 
 /// What acceleration adds to that while light crosses the object, as a factor.
@@ -372,14 +351,13 @@ pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Opt
     }
 }
 
-/// The placement, where the object then is, the age of its light, and by how much farther its points are from there than at one time.
-fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3, f64, f64)> {
+/// The placement, where the object then is, and the age of its light.
+fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3, f64)> {
     let camera = view.camera;
     let emission = departure(view, time, history, order)?;
     let sample = history.at(emission);
     let turn = DMat3::from_quat(sample.attitude);
-    let crossing = crossing(view, time, history, order, object, emission);
-    let swing = Swing::new(history, emission, crossing);
+    let swing = Swing::new(history, emission, object.reach);
     let still = !view.settings.light_delay;
     let p = sample.momentum;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
@@ -393,14 +371,12 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         spin_rate: row(swing.spin_rate, p.y),
         jolt: row(swing.jolt, swing.jolt_after),
         force: row(swing.force, p.z),
-        surge: row(swing.surge, 0.0),
         turn: columns_and(turn, swing.jerk),
         snap: row(swing.snap, 0.0),
         light: light_rows(&object.light),
         ..Placement::default()
     };
-    let longer = drawn_out(crossing, sample.velocity, object.reach);
-    Some((placement, sample.position, time - emission, longer))
+    Some((placement, sample.position, time - emission))
 }
 
 /// The momentum against what hovers there, which takes the part of the rain where light is drawn straight; inside nothing hovers.
@@ -444,16 +420,10 @@ pub fn branch_of(camera: &Camera, position: DVec3, age: f64) -> Branch {
 /// E > 0 and decreases for E < 0. A worldline leaves the camera's past only once, so there is one root on both branches together.
 /// None if the object is seen at no time.
 pub fn emission_time(camera: &Camera, time: f64, history: &History, order: Order) -> Option<f64> {
-    leaves(camera, time, history, order, |_| DVec3::ZERO)
-}
-
-/// The same for what is `beside` the history's place, by the sample there.
-fn leaves(camera: &Camera, time: f64, history: &History, order: Order, beside: impl Fn(&Sample) -> DVec3) -> Option<f64> {
     leaving(time, |t| {
         let sample = history.at(t);
-        let position = sample.position + beside(&sample);
-        let branch = branch_of(camera, position, time - t);
-        let (delay, gradient) = light_path(camera, position, order, branch)?;
+        let branch = branch_of(camera, sample.position, time - t);
+        let (delay, gradient) = light_path(camera, sample.position, order, branch)?;
         let sign = if branch == Branch::Minus { -1.0 } else { 1.0 };
         Some((sign * (t + delay - time), sign * (1.0 + gradient.dot(sample.velocity))))
     })

@@ -1,11 +1,11 @@
 //! How a moving body swings while its light crosses it: its centre to fourth order, its attitude to second order in the rotation vector and
-//! with one jump of the angular velocity, its contraction by the momentum, to second order, at each moment. The coefficients go to the GPU with the placement;
+//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the placement;
 //! [`swing_at`] is the twin of the shader's.
 
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DVec3, Vec3};
 
 use crate::sim::History;
-use crate::sim::history::rotation;
+use crate::sim::history::{Sample, rotation};
 
 use super::types::Placement;
 
@@ -28,57 +28,39 @@ pub struct Swing {
     pub jolt_after: f64,
     /// dp/dT, p being the rain-frame momentum per mass, in c²/r_s.
     pub force: DVec3,
-    /// d²p/dT², in c³/r_s².
-    pub surge: DVec3,
 }
 
 impl Swing {
-    /// Fitted through the places, attitudes and momenta of T₀, of the ends of `crossing`, the while before and after T₀ (r_s/c) in which light of the body's
-    /// points leaves, and through the places halfway. The fourth order is for what falls inside the horizon beside the camera: the fall of a ship of 0.16 r_s at
+    /// Fitted through the places and attitudes of T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c), and the places halfway: light crosses a body of that
+    /// radius in such a while. The fourth order is for what falls inside the horizon beside the camera: the fall of a ship of 0.16 r_s at
     /// r = 0.6 is off by 10⁻⁴ r_s without it, a pixel where that is a thirtieth of r_s away.
     /// A Taylor series about T₀ would be off by the most where it matters, at the ends; and where the turning of a ship jumps, which one of a hundred
     /// pixels shows by two, there are no derivatives to take.
-    pub fn new(history: &History, emission: f64, crossing: [f64; 2]) -> Swing {
+    pub fn new(history: &History, emission: f64, reach: f64) -> Swing {
         // Of what is smaller than a thousandth of r_s differences would be lost in rounding, and no motion is seen.
-        let [w, v] = crossing.map(|span| span.max(1e-3));
-        let [earlier, now, later] = [emission - w, emission, emission + v].map(|t| history.at(t));
+        let w = reach.max(1e-3);
+        let [earlier, now, later] = [emission - w, emission, emission + w].map(|t| history.at(t));
         // In what approaches or recedes light takes longer to cross it.
-        let (after, jolt) = history.jolt(emission - 2.0 * w, emission + 2.0 * v).unwrap_or((emission, DVec3::ZERO));
+        let (after, jolt) = history.jolt(emission - 2.0 * w, emission + 2.0 * w).unwrap_or((emission, DVec3::ZERO));
         let jolt_after = after - emission;
         let [back, on] =
-            [(earlier, -w), (later, v)].map(|(sample, s)| rotation(now.attitude, sample.attitude) - jolt * jolted(s, jolt_after));
-        // A quantity that is 0 at T₀ and has these values at both ends: its first two derivatives at T₀.
-        let parabola = |back: DVec3, on: DVec3| {
-            let scale = 1.0 / (v * w * (v + w));
-            ((on * (w * w) - back * (v * v)) * scale, (on * w + back * v) * (2.0 * scale))
-        };
-        let (spin, spin_rate) = parabola(back, on);
-        let (force, surge) = parabola(earlier.momentum - now.momentum, later.momentum - now.momentum);
-        let moved = |s: f64| (s, history.at(emission + s).position - now.position - now.velocity * s);
-        let [acceleration, jerk, snap] = fitted([-w, -0.5 * w, 0.5 * v, v].map(moved));
-        Swing { acceleration, jerk, snap, spin, spin_rate, jolt, jolt_after, force, surge }
-    }
-}
-
-/// The second to fourth derivatives at 0 of a motion that is at these places at these times and starts from 0 at rest: the least squares.
-fn fitted(places: [(f64, DVec3); 4]) -> [DVec3; 3] {
-    // In units of the longest of these times, so that powers of it do not spoil the system.
-    let scale = places.iter().fold(0.0f64, |most, (s, _)| most.max(s.abs()));
-    let mut squares = DMat3::ZERO;
-    let mut products = [DVec3::ZERO; 3];
-    for (s, place) in places {
-        let t = s / scale;
-        let powers = DVec3::new(t * t / 2.0, t * t * t / 6.0, t * t * t * t / 24.0);
-        squares += DMat3::from_cols(powers * powers.x, powers * powers.y, powers * powers.z);
-        for (k, product) in products.iter_mut().enumerate() {
-            *product += place * powers[k];
+            [(earlier, -w), (later, w)].map(|(sample, s)| rotation(now.attitude, sample.attitude) - jolt * jolted(s, jolt_after));
+        let moved = |sample: &Sample, s: f64| sample.position - now.position - now.velocity * s;
+        let (moved_back, moved_on) = (moved(&earlier, -w), moved(&later, w));
+        let [half_back, half_on] = [-0.5 * w, 0.5 * w].map(|s| moved(&history.at(emission + s), s));
+        // What is even in s is a s² + k s⁴/12.
+        let (even, even_half) = (moved_on + moved_back, half_on + half_back);
+        Swing {
+            acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
+            jerk: (moved_on - moved_back) * (3.0 / (w * w * w)),
+            snap: (even - even_half * 4.0) * (16.0 / (w * w * w * w)),
+            spin: (on - back) / (2.0 * w),
+            spin_rate: (on + back) / (w * w),
+            jolt,
+            jolt_after,
+            force: (later.momentum - earlier.momentum) / (2.0 * w),
         }
     }
-    let inverse = squares.inverse();
-    std::array::from_fn(|k| {
-        let row = inverse.row(k);
-        (products[0] * row.x + products[1] * row.y + products[2] * row.z) / scale.powi(k as i32 + 2)
-    })
 }
 
 /// For how long a jump at `after` has gone on at `s`, counted from 0: so that nothing is turned at 0.
@@ -107,7 +89,7 @@ pub fn swing_at(placement: &Placement, body: Vec3, s: f32) -> Vec3 {
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = turned.cross(rest);
     let rest = rest + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + turned.cross(once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = Vec3::new(placement.spin[3], placement.spin_rate[3], placement.force[3]) + (xyz(placement.force) + xyz(placement.surge) * (0.5 * s)) * s;
+    let p = Vec3::new(placement.spin[3], placement.spin_rate[3], placement.force[3]) + xyz(placement.force) * s;
     let gamma = (1.0 + p.length_squared()).sqrt();
     let contracted = rest - p * (p.dot(rest) / (gamma * (1.0 + gamma)));
     let jerk = last(placement.turn) + xyz(placement.snap) * (0.25 * s);

@@ -53,7 +53,6 @@ pub struct Placement {
     pub spin_rate: [f32; 4],
     pub jolt: [f32; 4],
     pub force: [f32; 4],
-    pub surge: [f32; 4],
     pub turn: [[f32; 4]; 3],
     pub snap: [f32; 4],
     pub light: [[f32; 4]; 3],
@@ -76,7 +75,6 @@ impl Placement {
             self.spin_rate,
             self.jolt,
             self.force,
-            self.surge,
             self.snap,
         ];
         let matrices = [self.shape, self.turn, self.light, self.bounds];

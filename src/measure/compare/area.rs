@@ -83,7 +83,8 @@ pub fn areas(judge: &Picture, frame: &Frame, names: &[String], is_thin: &dyn Fn(
             });
         }
         // What a thin image leaves free shows what is behind, which is not told: that is as the judge sees it there.
-        let behind = judge.shares[i].iter().filter(|share| shown.coverage < 1.0 && !is_thin(share.0, share.1));
+        let other = |share: &(u32, u32, f32)| (share.0, share.1) != (shown.object, shown.order) && !is_thin(share.0, share.1);
+        let behind = judge.shares[i].iter().filter(|share| shown.coverage < 1.0 && other(share));
         let thin: f64 = judge.shares[i].iter().filter(|share| is_thin(share.0, share.1)).map(|share| f64::from(share.2)).sum();
         for &(object, order, share) in behind {
             let part = (1.0 - coverage) * f64::from(share) / (1.0 - thin).max(f64::from(share));

@@ -31,7 +31,7 @@ pub trait Probe: Sync {
     fn body(&self, layer: &Layer) -> DVec3;
     /// The greatest distance of a point of the body from its centre, in the model's unit.
     fn radius(&self, object: u32) -> f64;
-    /// Whether a ray from there ends in the hole and meets neither a thing nor gas on its way.
+    /// Whether a ray from there meets neither a thing nor gas.
     fn is_dark(&self, x: f64, y: f64) -> bool;
 }
 
