@@ -83,3 +83,36 @@ fn few_arcs_draw_the_picture_of_many() {
         assert!(error.flip < 0.02, "{arcs} arcs: {error:?}");
     }
 }
+
+/// The thin second image as it is seen from within the plane, falling at r = 1.6: across it light rises and falls once. It had a row of holes in its middle, as long as what a ring's
+/// middle lacks of optical depth was told for the slant at one of its circles.
+#[test]
+fn thin_images_from_within_the_plane_have_no_holes() {
+    const WIDTH: u32 = 960;
+    const HEIGHT: u32 = 540;
+    let mut renderer = renderer([WIDTH, HEIGHT]);
+    let config = GameConfig::default();
+    renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
+    let still = static_camera(DVec3::X * 1.6, DVec3::NEG_X, DVec3::Z, 120f64.to_radians());
+    let camera = Camera { momentum: DVec3::ZERO, ..still };
+    let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
+    let linear = renderer.picture(&input, false).unwrap().linear;
+    let light = |x: f64, y: f64| f64::from(linear[(y as u32 * WIDTH + x as u32) as usize][1]);
+    let (mut rings, mut holes) = (0, 0);
+    for k in 0..720 {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 720.0).sin_cos();
+        // From inside the thin ring to the wide one.
+        let across: Vec<f64> = (0..120)
+            .map(|i| 165.0 + 0.5 * f64::from(i))
+            .map(|r| light(0.5 * f64::from(WIDTH) + r * cosine, 0.5 * f64::from(HEIGHT) + r * sine))
+            .collect();
+        let most = across[..90].iter().copied().fold(0.0, f64::max);
+        let [first, last] =
+            [across.iter().position(|l| *l > 0.5 * most), across[..90].iter().rposition(|l| *l > 0.5 * most)].map(Option::unwrap);
+        rings += usize::from(last - first < 12);
+        holes += usize::from(across[first..=last].iter().any(|l| *l < 0.25 * most));
+    }
+    println!("{rings} of 720 cuts show a thin ring, {holes} a hole");
+    assert!(rings > 700, "{rings} of 720 cuts show a thin ring");
+    assert_eq!(holes, 0);
+}
