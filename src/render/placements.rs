@@ -105,7 +105,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             placement.triangles[3] |= THIN;
         } else {
             placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-            let most = if object.model.triangles[1] < FINE_MODEL { MOST_SLIM } else { 1.0 };
+            let most = if object.model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
             placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
         }
         let longer = drawn_out(camera, &placement, position, order, age);
@@ -153,8 +153,10 @@ const NARROW_BELOW: f64 = 10.0;
 const SLIM_BELOW: f64 = 16.0;
 /// But no closer than by this factor.
 const MOST_SLIM: f64 = 4.0;
-/// Models of so many triangles have short edges, which hardly sag; held closer, ships behind the hole filled the buffers.
+/// Models of so many triangles have short edges, which sag less; held as close, ships behind the hole filled the buffers.
 const FINE_MODEL: u32 = 2000;
+/// What such models are held closer by.
+const MOST_SLIM_FINE: f64 = 2.0;
 
 /// A camera with what is needed to say how wide an image is.
 #[derive(Clone, Copy, Debug)]

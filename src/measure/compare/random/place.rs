@@ -10,7 +10,7 @@ use super::draw::Corner;
 use crate::scene::{Body, GameConfig, Scene};
 use crate::spacetime::frames::{rest_to_rain, seen_direction};
 use crate::spacetime::light::{Branch, connect, rain_angle};
-use crate::spacetime::matter::{ShipState, gamma};
+use crate::spacetime::matter::{ShipState, energy, gamma};
 use crate::spacetime::orbit::{circular_momentum, static_momentum};
 
 /// A direction, all alike.
@@ -142,7 +142,8 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, held: b
     }
 }
 
-/// Whether a scene can be judged: the camera sees something and is in no thing, and what is held in place is outside the horizon as a whole.
+/// Whether a scene can be judged: the camera sees something and is in no thing, what is held in place is outside the horizon as a whole, and no ship inside has an energy E ≤ 0:
+/// followed backwards such a one hugs r = 1 from within for ever, half of it outside, which nothing that fell in does.
 pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
     let assembly = scene.assemble(config);
     let Ok(eye) = (if at == 0.0 { eye_at_start(scene) } else { eye_at(scene, config, at) }) else { return false };
@@ -150,7 +151,10 @@ pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
         let reach = 1.02 * f64::from(assembly.models[object.model].radius()) * object.scale;
         match object.body {
             Body::Held { position, .. } => position.length() - reach > 1.002 && position.distance(eye) > reach,
-            Body::Ship(ship) => scene.ships[ship].state.position.distance(eye) > reach.max(0.3),
+            Body::Ship(ship) => {
+                let state = &scene.ships[ship].state;
+                state.position.distance(eye) > reach.max(0.3) && (state.position.length() > 1.0 || energy(state) > 0.0)
+            }
             Body::Planet => true,
         }
     });
