@@ -98,6 +98,8 @@ mod render_support;
 mod render_swing;
 #[cfg(feature = "game")]
 mod render_trouble;
+#[cfg(feature = "game")]
+mod render_types;
 mod scene_aurora;
 mod scene_aurora_ground;
 mod scene_aurora_heights;

@@ -133,7 +133,7 @@ fn the_settings_of_geometry_do_what_they_say() {
         let mut placed = ball(bench, far, size, &settings);
         if pixel {
             // The bench places by tiny pixels; here the image is thin.
-            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::placements::THIN);
+            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::types::placed::THIN);
         }
         bench.renderer.picture(&frame(placed, settings), false).unwrap();
         bench.renderer.counters().unwrap()
@@ -149,7 +149,8 @@ fn the_settings_of_geometry_do_what_they_say() {
 
     // Thresholds of the placements, by a pixel of 0.01 rad.
     use lensrunner::lensing::Slice;
-    use lensrunner::render::placements::{THIN, View, place};
+    use lensrunner::render::placements::{View, place};
+    use lensrunner::render::types::placed::THIN;
     let eye = camera();
     let slice = Slice::new(bench.renderer.table(), 15.0);
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));

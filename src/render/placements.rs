@@ -18,6 +18,7 @@ use super::method::Method;
 use super::models::ModelRange;
 use super::swing::Swing;
 use super::types::Placement;
+use super::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};
 use super::visibility::{may_be_seen, part_of_screen};
 
 /// How an object moves.
@@ -134,18 +135,6 @@ pub fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
     if across == n.is_multiple_of(2) { n - 1 } else { n }
 }
 
-/// Both sides of all triangles; as in shaders/types.wgsl.
-const TWO_SIDED: u32 = 1;
-/// Held in place; as in shaders/types.wgsl.
-const HELD: u32 = 2;
-/// A thin image; as in shaders/types.wgsl.
-pub const THIN: u32 = 4;
-/// The image by light of E < 0; as in shaders/types.wgsl.
-const MINUS: u32 = 8;
-/// An image of a higher order of a few pixels' width, drawn out along the ring; as in shaders/types.wgsl.
-const NARROW: u32 = 16;
-/// The player's own ship; as in shaders/types.wgsl.
-pub const OWN: u32 = 32;
 /// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
 const NARROW_BELOW: f64 = 10.0;
 /// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is

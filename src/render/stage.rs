@@ -20,7 +20,8 @@ use super::disk::Disk;
 use super::frame::{Camera, FrameInput, Settings};
 use super::method::Method;
 use super::models::ModelRange;
-use super::placements::{Motion, OWN, Object, Placed, View, place};
+use super::placements::{Motion, Object, Placed, View, place};
+use super::types::placed::OWN;
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]

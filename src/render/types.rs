@@ -1,4 +1,4 @@
-//! The types that Rust and WGSL share, `shaders/types.wgsl` being the other half. A test holds sizes and offsets equal.
+//! The types that Rust and WGSL share, `shaders/types.wgsl` being the other half. tests/render_types.rs holds sizes, offsets and constants equal.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -80,6 +80,22 @@ impl Placement {
         let matrices = [self.shape, self.turn, self.light, self.bounds];
         rows.iter().chain(matrices.iter().flatten()).flatten().all(|x| x.is_finite())
     }
+}
+
+/// Bits of `Placement::triangles[3]`, the `PLACEMENT_*` of WGSL.
+pub mod placed {
+    /// Both sides of every triangle are drawn.
+    pub const TWO_SIDED: u32 = 1;
+    /// Held in place.
+    pub const HELD: u32 = 2;
+    /// A thin image.
+    pub const THIN: u32 = 4;
+    /// The image by light of E < 0.
+    pub const MINUS: u32 = 8;
+    /// An image of a higher order of a few pixels' width, drawn out along the ring.
+    pub const NARROW: u32 = 16;
+    /// The player's own ship.
+    pub const OWN: u32 = 32;
 }
 
 /// `ModelVertex` in WGSL.

@@ -14,13 +14,14 @@ use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
 use crate::render::placements::{Placed, by_axis};
 use crate::render::shaders::{Pass, Worldlines};
+use crate::render::types::placed::{HELD, TWO_SIDED};
 use crate::render::types::{ARGUMENTS_OPAQUE, Placement};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
 use super::Disk;
 
-/// Two-sided triangles whose light is told by what hovers where they are, as the gas's own motion comes in with its colour; as in shaders/types.wgsl.
-const HELD_TWO_SIDED: u32 = 3;
+/// Two-sided triangles whose light is told by what hovers where they are, as the gas's own motion comes in with its colour.
+const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;
 
 /// Stages of geometry of their own, and the draw.
 #[derive(Debug)]

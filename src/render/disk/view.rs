@@ -23,7 +23,7 @@ const CORNERED: f64 = 0.03;
 /// shaders/disk/types.wgsl has it.
 const MEAN: [f64; 2] = [0.75, 2.0];
 /// Circles whose mean a thin image shows, at each azimuth, as in shaders/disk/place.wgsl.
-const THIN_SAMPLES: usize = 8;
+pub const THIN_SAMPLES: usize = 8;
 /// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
 const LEAST_ARC: f64 = 128.0;
 /// Nearer to the disk than this, in r_s, the pattern of order 1 is looked up without a grain and the slant in each pixel: from there on a texel of the

@@ -17,8 +17,9 @@ use super::frame::Capacity;
 use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use super::method::Method;
 use super::models::Models;
-use super::placements::{Placed, THIN};
+use super::placements::Placed;
 use super::shaders::{Pass, Worldlines};
+use super::types::placed::THIN;
 use super::types::{self, Chunk, Counters, Placement, SeenVertex};
 
 /// Threads of a workgroup; `@workgroup_size` of the stages.
