@@ -165,7 +165,7 @@ pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[
     let lit = confirmed(&lit, |i| all_around(grid.place(i), |x, y| probe.is_dark(x, y)));
     let wrong_beyond_rim = confirmed(&wrong_beyond_rim, |i| {
         let shown = &frame.shown[i];
-        all_around(grid.place(i), |x, y| !probe.at(x, y).is_some_and(|point| (point.object, point.order) == (shown.object, shown.order)))
+        all_around(grid.place(i), |x, y| probe.at(x, y).is_none_or(|point| (point.object, point.order) != (shown.object, shown.order)))
     });
     let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
     let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
