@@ -357,3 +357,18 @@ fn what_came_out_of_the_hole_is_known_by_its_constants() {
     }
     assert!(counts.into_iter().min() > Some(20), "{counts:?}");
 }
+
+/// Circles, unstable ones too, were always there; so was what flies by. What is dropped was thrown up from the hole.
+#[test]
+fn circles_never_came_out_of_the_hole() {
+    for radius in [1.55, 1.6, 1.8, 2.0, 2.25, 2.5, 2.75, 3.0, 3.05, 6.0, 40.0] {
+        for k in 0..40 {
+            let elements = Elements { inclination: 0.07 * f64::from(k), node: 0.3, ..Elements::circle(radius, 0.9 * f64::from(k)) };
+            assert!(!came_out_of_the_hole(&elements.state().unwrap()), "r = {radius}, {k}");
+        }
+    }
+    for radius in [1.01, 2.0, 6.0, 1e4] {
+        let position = DVec3::new(0.6, -0.3, 0.5).normalize() * radius;
+        assert!(came_out_of_the_hole(&ShipState::new(position, static_momentum(position).unwrap())), "r = {radius}");
+    }
+}

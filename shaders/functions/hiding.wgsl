@@ -26,7 +26,7 @@ fn direction_of(k: u32) -> vec3<f32> {
 }
 
 /// The part of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one for each direction, weighted by
-/// how near those are, (cos angle)⁸, of all from which the triangle shows its outer side, whose normal is `outward` (zero: both sides count).
+/// how near those are, (cos angle)⁸, of all from which the triangle shows its outer side, whose normal is `outward`.
 fn seen_part(seen_from: u32, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
     var sum = 0.0;
     var all = 0.0;

@@ -104,7 +104,7 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 /// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
 const CHORD_SHARE: f32 = 0.45;
 /// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
-const ARC_SHARE: f32 = 0.03125;
+const ARC_SHARE: f32 = 0.015625;
 
 /// The level that brings the error of a chord under its share of the budget: the error falls as the square of the number of segments. A whole
 /// edge of the model may be halved `switches.y` times; `part` is how much of it the chord spans, so that both sides of it agree.

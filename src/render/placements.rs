@@ -102,19 +102,19 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
-        if width < settings.thin_below && settings.min_width > 0.0 {
-            placement.triangles[3] |= THIN;
-        } else {
-            placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-            let most = if object.model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
-            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
-        }
-        let longer = drawn_out(camera, &placement, position, order, age);
-        placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
         let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
         let model = stands_in.map_or(object.model, |(_, model)| model);
+        if width < settings.thin_below && settings.min_width > 0.0 {
+            placement.triangles[3] |= THIN;
+        } else {
+            placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
+            let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
+            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
+        }
+        let longer = drawn_out(camera, &placement, position, order, age);
+        placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         Some(Placed { model, placement })
     };
     let folded = match object.motion {

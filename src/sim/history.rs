@@ -64,7 +64,7 @@ impl Node {
         Node { time, state: *state, velocity: velocity(state), force_before: force, force_after: force, held: false }
     }
 
-    /// Held in place from here backwards, by its engines where anything can hover.
+    /// Held in place from here backwards, hovering where anything can; its nozzles stay dark.
     fn held(time: f64, state: &ShipState) -> Self {
         let hovers = if is_frozen(state) { None } else { static_momentum(state.position) };
         let state = ShipState { momentum: hovers.unwrap_or(state.momentum), ..*state };
@@ -134,7 +134,7 @@ fn burn(node: &Node) -> f64 {
     (boosted - p * (p.dot(boosted) / (g * (1.0 + g)))).length()
 }
 
-/// The worldline of one ship. Every node is kept (184 bytes a step), so what crossed the horizon is seen for ever, unless
+/// The worldline of one ship. Every node is kept (some 180 bytes a step), so what crossed the horizon is seen for ever, unless
 /// [`History::forget_beyond`] says that nobody will look that far.
 #[derive(Component, Clone, Debug)]
 pub struct History {
@@ -147,7 +147,7 @@ pub struct History {
 }
 
 impl History {
-    /// A ship that has this state at T = `time` and coasted before.
+    /// A ship that has this state at T = `time` and coasted before, or hovered.
     pub fn new(time: f64, state: &ShipState) -> Self {
         History { nodes: vec![Node::coasting(time, state)], past: Vec::new(), keep: f64::INFINITY }
     }
@@ -168,7 +168,7 @@ impl History {
     }
 
     /// From now on keeps at least the last `keep` r_s/c and lets go what is older than twice that; a look farther back then shows a free
-    /// orbit through the oldest node kept.
+    /// orbit through the oldest node kept, or has it hover there.
     pub fn forget_beyond(&mut self, keep: f64) {
         self.keep = keep;
     }
@@ -197,7 +197,7 @@ impl History {
         }
     }
 
-    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there (integrated on the spot: slower than
+    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated on the spot: slower than
     /// after [`History::reach_back`], and the same).
     pub fn at(&self, time: f64) -> Sample {
         let (first, last) = (self.nodes[0], self.last());

@@ -203,18 +203,27 @@ pub fn boosted_acceleration(momentum: DVec3, acceleration: DVec3) -> DVec3 {
     acceleration + momentum * (momentum.dot(acceleration) / (1.0 + gamma(momentum)))
 }
 
+/// Below this part of its γ a radial velocity is none, and below this the potential is level: a million times the rounding of a state.
+const AT_REST: f64 = 1e-9;
+
 /// Whether a free orbit through this state, followed backwards, goes down to r = 1 without turning: outside the horizon it came out of the white hole, which no ship
 /// in this game did. It rises, (dr/dτ)² = E² − V(r) with V = (1 − 1/r)(1 + L²/r²), and V has no peak below it that is higher than E²; the peak of V lies at
 /// r = L² − L√(L² − 3) (Chandrasekhar 1983, section 19).
+///
+/// Unstable circles are left to free orbits: followed far backwards rounding makes them leave, to either side.
 pub fn came_out_of_the_hole(state: &ShipState) -> bool {
     let r = state.position.length();
     let g = gamma(state.momentum);
     let rising = state.momentum.dot(state.position) / r - river_speed(r) * g;
-    // What hovers, or turns here, does so to rounding.
-    if r <= 1.0 || rising < -1e-14 * g {
+    let squared = angular_momentum(state).length_squared();
+    if r <= 1.0 || rising < -AT_REST * g {
         return false;
     }
-    let squared = angular_momentum(state).length_squared();
+    // What neither rises nor falls is at the highest point of its orbit if V rises there; where V is level it is on a circle, which it never left.
+    let steepness = 1.0 - squared * (2.0 * r - 3.0) / (r * r);
+    if rising < AT_REST * g && steepness < AT_REST {
+        return false;
+    }
     let peak = squared - (squared * (squared - 3.0).max(0.0)).sqrt();
     if squared <= 3.0 || r <= peak {
         return true;
