@@ -87,7 +87,7 @@ fn thin_vertex_3(@builtin(vertex_index) index: u32) -> Surface {
 struct Thin {
     /// Colour times coverage, and coverage.
     @location(0) light: vec4<f32>,
-    /// Coverage with the sign of its image; and what the nearer part of the same image covers.
+    /// Coverage with the sign of its object; and what the nearer part of the same image covers.
     @location(1) coverages: vec2<f32>,
 }
 
@@ -98,7 +98,7 @@ fn thin_fragment(in: Surface) -> Thin {
         discard;
     }
     let covers = in.coverage.x;
-    return Thin(vec4<f32>(shaded(in) * covers, covers), vec2<f32>(covers * coverage_sign(in.which.x, in.which.y), in.coverage.y));
+    return Thin(vec4<f32>(shaded(in) * covers, covers), vec2<f32>(covers * coverage_sign(in.which.x), in.coverage.y));
 }
 
 /// Geometry inside the horizon is not seen from outside.
