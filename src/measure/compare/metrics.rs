@@ -44,7 +44,8 @@ pub struct Group {
     pub beyond_rim: usize,
     /// Where the surface points are.
     pub displacement: Displacement,
-    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant.
+    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant; or at how many pixels' centres they are, if the contestant draws them by
+    /// these.
     pub thin: [f64; 2],
     /// Pixels of which they cover a part to the judge.
     pub touched: usize,
@@ -85,6 +86,8 @@ pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[
     let grid = Grid::of(judge.size);
     let thin = thin_images(judge, frame);
     let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
+    let by_centres = drawn_by_centres(frame);
+    let at_centres = |object: u32, order: u32| by_centres.contains(&(object, order));
     let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
     let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
     let (mut wrong_order, mut holes) = (0, 0);
@@ -128,11 +131,13 @@ pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[
         for &(object, order, share) in &judge.shares[i] {
             if is_thin(object, order) {
                 let tally = tallies.entry((name(object), order)).or_default();
-                tally.thin[0] += f64::from(share);
+                tally.thin[0] += if at_centres(object, order) { f64::from(u8::from(key(i) == (object, order))) } else { f64::from(share) };
                 tally.touched += 1;
             }
         }
-        if shown.object > 0 && is_thin(shown.object, shown.order) {
+        if at_centres(shown.object, shown.order) && is_thin(shown.object, shown.order) {
+            tallies.entry((name(shown.object), shown.order)).or_default().thin[1] += 1.0;
+        } else if shown.object > 0 && is_thin(shown.object, shown.order) {
             for ((object, order), part) in thin_parts(&judge.shares[i], (shown.object, shown.order), &is_thin) {
                 tallies.entry((name(object), order)).or_default().thin[1] += f64::from(shown.coverage) * part;
             }
@@ -217,6 +222,17 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     // What not one sample of the judge has met is narrow for sure.
     let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| *filled <= FEW || MOSTLY * filled < *touched));
     nowhere.chain(hardly).collect()
+}
+
+/// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a line along a row of pixels is there in
+/// all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
+fn drawn_by_centres(frame: &Frame) -> HashSet<(u32, u32)> {
+    let images = |by_coverage: bool| {
+        let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;
+        frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(|shown| (shown.object, shown.order))
+    };
+    let by_coverage: HashSet<_> = images(true).collect();
+    images(false).filter(|image| !by_coverage.contains(image)).collect()
 }
 
 /// A pixel is filled from this part on: all samples of any number but for rounding.
