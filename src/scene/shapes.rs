@@ -134,11 +134,13 @@ fn subdivide(corners: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
 }
 
 /// A square of edge 1 in the plane z = 0, facing +z, as a grid of two triangles a cell; u to +x, v to −y. An even number of
-/// `triangles` is met exactly, with the cells as near to square as its divisors allow (2,000 is 25 × 40 cells).
+/// `triangles` is met exactly if that many make cells no longer than twice their width (2,000 is 25 × 40 cells); else there are a few less (746: 19 × 19 cells), since
+/// needles beside the axis of hole and camera are drawn out round the whole ring.
 /// `anchor` shifts the whole square by less than a cell so that its origin lies inside a triangle, on an edge, on a vertex.
 pub fn square(triangles: u32, anchor: Anchor, material: Material) -> Model {
     let cells = triangles.div_ceil(2).max(1);
-    let columns = (1..=cells.isqrt()).rev().find(|columns| cells.is_multiple_of(*columns)).unwrap_or(1);
+    let side = cells.isqrt();
+    let columns = (1 + side / 2..=side).rev().find(|columns| cells.is_multiple_of(*columns)).unwrap_or(side);
     let rows = cells / columns;
     // The origin in units of cells from the lower left corner; coordinates are (index − origin)·step, so a vertex there is exactly 0.
     let (half_x, half_y) = (f64::from(columns / 2), f64::from(rows / 2));
