@@ -2,11 +2,11 @@
 //!
 //! The floors of the house, from the ground up; each knows only those before it (`docs/architecture.md` has the map).
 
+pub mod judge;
 pub mod lensing;
-pub mod measure;
+pub mod picture_file;
 #[cfg(feature = "game")]
 pub mod play;
-pub mod reference;
 #[cfg(feature = "game")]
 pub mod render;
 pub mod scene;

@@ -1,16 +1,14 @@
 //! The command line.
 
-mod charts;
-
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lensrunner::lensing::{self, Scheme};
-use lensrunner::measure::project::{self, ProjectError};
-use lensrunner::measure::{methods, trace};
+use lensrunner::judge::case;
+use lensrunner::lensing::project::{self, ProjectError};
+use lensrunner::lensing::{self, Scheme, methods};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::spacetime::light::{Branch, Order};
@@ -37,10 +35,6 @@ enum Command {
     Project(ProjectArgs),
     Simulate(SimulateArgs),
     Trace(TraceArgs),
-    #[cfg(feature = "game")]
-    Compare(CompareArgs),
-    #[command(subcommand)]
-    Chart(charts::ChartCommand),
 }
 
 /// Draws one picture of a scene, without a window.
@@ -95,10 +89,10 @@ struct TraceArgs {
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
     /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
-    #[arg(long, value_name = "E", default_value_t = trace::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
+    #[arg(long, value_name = "E", default_value_t = case::DEFAULT_TOLERANCE, allow_negative_numbers = true)]
     tolerance: f64,
     /// Rays along each side of a packet, 1 to 8: neighbours are followed together until they diverge. The picture is the same.
-    #[arg(long, value_name = "N", default_value_t = lensrunner::reference::picture::DEFAULT_PACKET)]
+    #[arg(long, value_name = "N", default_value_t = lensrunner::judge::picture::DEFAULT_PACKET)]
     packet: u32,
     /// Gives up after so many seconds of tracing, with code 1, and says how far it came; without it there is no limit.
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
@@ -112,79 +106,6 @@ struct TraceArgs {
     /// The picture: .png or .exr.
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
-}
-
-/// Judges the game's picture of a scene by the exact one: for each object and image order how far surface points are displaced, which pixels
-/// differ, the difference in colour (FLIP); ends with code 1 where a limit is passed.
-///
-/// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified beyond
-/// f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin images are
-/// narrower than a pixel: their area to the judge and as shown.
-#[cfg(feature = "game")]
-#[derive(Args)]
-struct CompareArgs {
-    /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
-    #[arg(long, value_name = "NAME|FILE|all")]
-    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
-    #[arg(required_unless_present_any = ["random", "case", "flight"], conflicts_with_all = ["random", "case", "flight"])]
-    scene: Option<String>,
-    /// Judges N scenes that nobody chose, half of them drawn where methods fail. Those that fail are left in the folder -o.
-    #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"])]
-    random: Option<u64>,
-    /// Where the scenes of --random are drawn from.
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    seed: u64,
-    /// The number of the first scene of --random, or the seed of the first chase of --flight: each can be judged alone.
-    #[arg(long, value_name = "K", default_value_t = 0)]
-    first: u64,
-    /// Judges case files, as --random leaves them, and those of folders: scene files whose first comment lines say size and T.
-    #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["flight", "size", "at", "samples", "table"])]
-    case: Vec<PathBuf>,
-    /// Judges chases of this scene, flown by the autopilot, at many moments: half of them those at which another ship is seen behind the hole. Or at the one
-    /// moment --at. Moments that fail are left in the folder -o as scenes of their own.
-    #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["samples", "table"])]
-    flight: Option<String>,
-    /// How many chases --flight flies.
-    #[arg(long, value_name = "N", default_value_t = 20)]
-    seeds: u64,
-    /// At how many moments --flight judges each chase.
-    #[arg(long, value_name = "N", default_value_t = 200)]
-    moments: usize,
-    /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
-    #[arg(long, conflicts_with = "scene")]
-    whole: bool,
-    /// Adds what came of --random or --flight to this table, in the place of an earlier run of the same cases, and writes FILE.md beside it.
-    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["scene", "case"])]
-    collect: Option<PathBuf>,
-    /// Seconds that the judge may take over a picture; one not traced by then is given up, and it is said how far it came [default: none, with --random,
-    /// --case and --flight 60]
-    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
-    limit: Option<f64>,
-    /// Width and height in pixels [default: 1280x720, with --flight 160x90].
-    #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
-    size: Option<[u32; 2]>,
-    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed) [default: 0].
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
-    at: Option<f64>,
-    /// The judge's rays a pixel: a square number, 1 to 256.
-    #[arg(long, value_name = "N", default_value_t = 9)]
-    samples: u32,
-    /// Error of each step of a ray, relative to r (1e-17 to 1e-3).
-    /// [default: 1e-12, with --random, --case and --flight 1e-10]
-    #[arg(long, value_name = "E", allow_negative_numbers = true)]
-    tolerance: Option<f64>,
-    /// The game's configuration [default: game.toml here, else the one that the game comes with; with --random, --case and --flight every value its
-    /// default].
-    #[arg(long, value_name = "game.toml")]
-    config: Option<PathBuf>,
-    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it. `all` has a table of
-    /// its own, in its folder.
-    #[arg(long, value_name = "FILE.csv")]
-    table: Option<PathBuf>,
-    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md. For --random,
-    /// --case and --flight a folder for what fails.
-    #[arg(short, value_name = "FILE.png|DIR", required_unless_present_any = ["random", "case", "flight"])]
-    output: Option<PathBuf>,
 }
 
 /// Plays a scene without graphics, as fast as it goes, and writes the ships' states as CSV.
@@ -294,9 +215,6 @@ fn main() -> ExitCode {
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Trace(args)) => run_trace(&args),
-        #[cfg(feature = "game")]
-        Some(Command::Compare(args)) => run_compare(&args),
-        Some(Command::Chart(chart)) => charts::run(chart),
     }
 }
 
@@ -317,17 +235,11 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
 
 #[cfg(feature = "game")]
 fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
-    use lensrunner::render::readback::PictureError;
-    use lensrunner::render::shot::ShotError;
-    match error {
-        ShotError::Picture(PictureError::Format(_)) => fail(error, 2),
-        ShotError::Device(_) | ShotError::Picture(_) => fail(error, 1),
-        _ => fail(error, 2),
-    }
+    fail(error, if error.is_input() { 2 } else { 1 })
 }
 
 fn run_trace(args: &TraceArgs) -> ExitCode {
-    let request = trace::Request {
+    let request = case::Request {
         scene: args.scene.clone(),
         size: args.size,
         at: args.at,
@@ -337,71 +249,11 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         packet: args.packet,
         limit: args.limit,
     };
-    match trace::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
+    match case::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
         Ok(rate) => {
             eprintln!("{rate:.0} rays per second and thread");
             ExitCode::SUCCESS
         }
-        Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
-    }
-}
-
-#[cfg(feature = "game")]
-fn run_compare(args: &CompareArgs) -> ExitCode {
-    use lensrunner::measure::compare::{command, flight, judged::Terms, random};
-    let contestant = lensrunner::play::contestant::Contestant::default();
-    let (config, draw) = (args.config.as_deref(), |case: &trace::Case| contestant.draw(case));
-    let usual = Terms::default();
-    let terms = Terms { seconds: args.limit.unwrap_or(usual.seconds), tolerance: args.tolerance.unwrap_or(usual.tolerance), ..usual };
-    let reduce = !args.whole;
-    let failed = |rows: Vec<random::outcome::Row>| rows.iter().any(|row| row.failed());
-    let judged = if let Some(count) = args.random {
-        let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
-        let collected = args.collect.clone();
-        let request = random::command::Request {
-            count,
-            seed: args.seed,
-            first: args.first,
-            terms,
-            config: args.config.clone(),
-            output,
-            reduce,
-            collected,
-        };
-        random::command::run(&request, &draw).map(failed)
-    } else if !args.case.is_empty() {
-        let keep = args.output.as_deref().map(|folder| random::command::Keep { folder, reduce });
-        random::command::run_files(&args.case, config, &terms, keep, &draw).map(failed)
-    } else if let Some(scene) = args.flight.clone() {
-        let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
-        let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
-        let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
-        flight::command::run(&request, &draw, &|case: &trace::Case| contestant.show(case)).map(failed)
-    } else {
-        let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());
-        let request = trace::Request {
-            scene,
-            size: args.size.unwrap_or([1280, 720]),
-            at: args.at.unwrap_or(0.0),
-            samples: args.samples,
-            threads: 0,
-            tolerance: args.tolerance.unwrap_or(trace::DEFAULT_TOLERANCE),
-            packet: lensrunner::reference::picture::DEFAULT_PACKET,
-            limit: args.limit,
-        };
-        if request.scene == command::ALL && args.table.is_some() {
-            return fail(&"--table: not with --scene all, which writes verdict.csv in its folder", 2);
-        }
-        let judged = if request.scene == command::ALL {
-            command::run_all(&request, config, &output, &draw)
-        } else {
-            command::run(&request, config, &output, args.table.as_deref(), &draw)
-        };
-        judged.map(|faults| !faults.is_empty())
-    };
-    match judged {
-        Ok(failed) => ExitCode::from(u8::from(failed)),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
 }

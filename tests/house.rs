@@ -3,16 +3,15 @@
 use std::path::Path;
 
 /// Floors from the ground up, each with the floors that it may import.
-const FLOORS: [(&str, &[&str]); 8] = [
+const FLOORS: [(&str, &[&str]); 7] = [
     ("spacetime", &[]),
     ("lensing", &["spacetime"]),
     ("scene", &["spacetime"]),
     ("sim", &["spacetime", "scene"]),
     // The judge may look neither at the tables nor at the closed form of light.
-    ("reference", &["spacetime::metric", "spacetime::matter", "spacetime::frames", "scene"]),
-    ("measure", &["spacetime", "lensing", "scene", "sim", "reference"]),
+    ("judge", &["spacetime::metric", "spacetime::matter", "spacetime::frames", "scene"]),
     ("render", &["spacetime", "lensing", "scene", "sim"]),
-    ("play", &["spacetime", "lensing", "scene", "sim", "measure", "render"]),
+    ("play", &["spacetime", "lensing", "scene", "sim", "render"]),
 ];
 
 fn sources(folder: &Path, found: &mut Vec<std::path::PathBuf>) {

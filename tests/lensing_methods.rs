@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use lensrunner::lensing::methods::{self, Approximation, Flat, Integrate, Newton, Paper, Projector, Query};
 use lensrunner::lensing::{LensRay, Scheme, Slice, Table, closed, lookup, score, shooting};
-use lensrunner::measure::methods::{self, Approximation, Flat, Integrate, Newton, Paper, Projector, Query};
 use lensrunner::spacetime::light::{self, Branch, Order};
 use rand::SeedableRng;
 

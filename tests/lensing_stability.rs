@@ -1,12 +1,11 @@
 //! Where projections break, and what must hold there: the items of the list in the order that a ray meets trouble.
 //!
-//! The judge is `reference::shoot`, which integrates the light. Directions are held to 0.004°, a quarter of a pixel at 3840 over 60°.
+//! The judge is `lensrunner::judge::shoot`, which integrates the light. Directions are held to 0.004°, a quarter of a pixel at 3840 over 60°.
 
 use std::f64::consts::{PI, TAU};
 
+use lensrunner::lensing::methods::{self, Projector, Query};
 use lensrunner::lensing::{LensRay, Slice, double, elementary, grid, lens_lookup_aged, lens_lookup_at, score, single};
-use lensrunner::measure::methods::{self, Projector, Query};
-use lensrunner::reference;
 use lensrunner::spacetime::light::{self, Branch, Fate, Order};
 use proptest::prelude::*;
 
@@ -28,7 +27,7 @@ fn error(row: [f64; 3], order: Order) -> f64 {
     let [r, phi, l] = row;
     let ray = seen(row, order);
     assert!(ray.valid, "no answer at {row:?} {order:?}");
-    let truth = reference::shoot(r, phi, l, u32::from(order.number()), reference::Branch::Plus, 1e-15)
+    let truth = lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::Branch::Plus, 1e-15)
         .unwrap_or_else(|| panic!("no light at {row:?}"));
     (angle(&ray) - truth.psi_rain).abs().to_degrees()
 }
@@ -86,7 +85,9 @@ fn the_horizon_and_the_photon_sphere_are_crossed_evenly() {
 
 fn crossed(both: [([f64; 3], f64); 2], order: Order) {
     let truth = both.map(|([r, phi, l], _)| {
-        reference::shoot(r, phi, l, u32::from(order.number()), reference::Branch::Plus, 1e-15).expect("there is light").psi_rain
+        lensrunner::judge::shoot(r, phi, l, u32::from(order.number()), lensrunner::judge::Branch::Plus, 1e-15)
+            .expect("there is light")
+            .psi_rain
     });
     let (jump, allowed) = ((both[1].1 - both[0].1).abs(), (truth[1] - truth[0]).abs());
     assert!(jump < 2.0 * allowed + 2e-6, "{:?} to {:?} {order:?}: {jump} rad, the judge has {allowed}", both[0].0, both[1].0);
@@ -148,7 +149,7 @@ fn near_the_camera_space_is_flat() {
 fn far_points_join_the_sky() {
     for l in [0.4, 1.0, 1.5, 7.0, 300.0] {
         for phi in [0.5, 2.0, 3.0] {
-            let sky = reference::shoot_sky(phi, l, 1, 1e-15).expect("the sky is seen").psi_rain;
+            let sky = lensrunner::judge::shoot_sky(phi, l, 1, 1e-15).expect("the sky is seen").psi_rain;
             for r in [1e3, 1e4, 1e5, 1e9, 1e30] {
                 let ray = seen([r, phi, l], Order::ALL[0]);
                 let off = (angle(&ray) - sky).abs();

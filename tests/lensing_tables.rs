@@ -86,7 +86,7 @@ fn keeps_its_promise(points: usize, seed: u64) {
 /// the sign of E that they ask for, and the answer that there is none. Most rows have none, so that each is also taken as far around as its share
 /// of the way that light goes.
 fn keeps_its_promise_inside(points: usize, seed: u64) {
-    use lensrunner::measure::projection::rows;
+    use lensrunner::lensing::adversarial::rows;
     use lensrunner::spacetime::light::{Branch, connect, rain_angle};
     use rayon::prelude::*;
     let limit = |r: f64, l: f64| (1.0 - 2.0 * r).acos() - (1.0 - 2.0 * l).acos();
@@ -371,7 +371,7 @@ fn delays_of_neighbours_are_right_to_a_part_of_themselves() {
 /// frequency the length of its momentum, and ω − √(1/r) p_r the same energy e at both (a falling observer's energy is not the one at infinity).
 #[test]
 fn momenta_and_frequencies_belong_to_one_photon() {
-    use lensrunner::measure::projection::rows;
+    use lensrunner::lensing::adversarial::rows;
     use lensrunner::spacetime::light::Branch;
     let mut inside = 0;
     for row in rows(6000, 3) {
@@ -431,7 +431,7 @@ fn the_cameras_own_radius_is_no_hole() {
 /// rounding φ to f32 does there (1e-7 of it) is allowed for.
 #[test]
 fn inside_the_horizon_both_branches_agree_with_the_judge() {
-    use lensrunner::reference::{self, shoot};
+    use lensrunner::judge::shoot;
     use lensrunner::spacetime::light::Branch;
     use rand::RngExt;
     use rayon::prelude::*;
@@ -456,7 +456,7 @@ fn inside_the_horizon_both_branches_agree_with_the_judge() {
             ([r, (part * limit).max(1e-6), l], limit)
         })
         .collect();
-    for (branch, judged) in [(Branch::Plus, reference::Branch::Plus), (Branch::Minus, reference::Branch::Minus)] {
+    for (branch, judged) in [(Branch::Plus, lensrunner::judge::Branch::Plus), (Branch::Minus, lensrunner::judge::Branch::Minus)] {
         let seen: Vec<_> = rows
             .par_iter()
             .map(|&(row, limit)| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lensrunner::reference::{self, shoot, shoot::swept_angle, shoot_sky};
+use lensrunner::judge::{shoot, shoot::swept_angle, shoot_sky};
 use lensrunner::spacetime::light;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 use rayon::prelude::*;
@@ -59,8 +59,8 @@ fn point(rng: &mut StdRng, outside: bool) -> Point {
 /// The largest disagreements of a group, in ψ, delay, and the slope of the ray where it leaves the point.
 fn compare(points: Vec<Point>, order: u32, branch: light::Branch) -> usize {
     let judged_branch = match branch {
-        light::Branch::Plus => reference::Branch::Plus,
-        light::Branch::Minus => reference::Branch::Minus,
+        light::Branch::Plus => lensrunner::judge::Branch::Plus,
+        light::Branch::Minus => lensrunner::judge::Branch::Minus,
     };
     let judged: Vec<_> = points
         .par_iter()
@@ -161,9 +161,9 @@ fn the_shadow() {
         for psi in [edge - apart * (PI - edge), edge + apart * (PI - edge), rng.random_range(0.0..PI)] {
             let look = DVec3::new(f64::cos(psi), f64::sin(psi), 0.0);
             let exact = light::sky_angle(psi, 1.0 / camera);
-            match (exact, reference::fate(DVec3::X * camera, look, 1e-17)) {
-                (None, reference::Fate::Captured) => {}
-                (Some(exact), reference::Fate::Escaped { swept, .. }) => {
+            match (exact, lensrunner::judge::fate(DVec3::X * camera, look, 1e-17)) {
+                (None, lensrunner::judge::Fate::Captured) => {}
+                (Some(exact), lensrunner::judge::Fate::Escaped { swept, .. }) => {
                     // Near the edge the swept angle is a logarithm of the distance from it, and ψ itself has been rounded.
                     let rounding = 1e-14 / (psi - edge).abs() * (PI / (PI - edge));
                     assert!((exact - swept).abs() <= TOLERANCE + rounding, "L {camera} psi {psi}: {exact} and {swept}");

@@ -8,7 +8,7 @@ use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::{self, GameConfig, Scene};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 use crate::render_support::{aurora_alone, default_surroundings, renderer_under, total};
 
 /// Greens of a picture that stand out from red and blue.

@@ -11,7 +11,7 @@ use lensrunner::scene::aurora::motion::Node;
 use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 use crate::render_support::{default_surroundings, renderer_under};
 use crate::twin::{run, run_with};
 

@@ -10,7 +10,7 @@ use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 use crate::render_support::surroundings;
 
 const SIZE: [u32; 2] = [160, 90];

@@ -1,6 +1,6 @@
 //! Development: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
 
-use lensrunner::reference::picture::develop::{Development, develop};
+use lensrunner::judge::picture::develop::{Development, develop};
 use lensrunner::render::frame::Settings;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::Renderer;
@@ -9,7 +9,7 @@ use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 use crate::render_support::surroundings;
 
 /// A scene at T = 0, with its layers.

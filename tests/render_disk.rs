@@ -11,18 +11,12 @@ use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::{Camera, FrameInput};
 use lensrunner::render::readback;
 use lensrunner::render::shaders::Pass;
-use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::{Gas, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
-use crate::render_shaders::GPU;
-use crate::render_support::{camera, renderer, settings};
+use crate::gpu::GPU;
+use crate::render_support::{a_disk, camera, renderer, settings};
 use crate::twin::run;
-
-pub fn a_disk() -> Disk {
-    let config = GameConfig::default();
-    Disk::new(config.disk.clone(), &config)
-}
 
 /// Seen vertices of the grid, with their circle, azimuth and order; and the indices of all triangles.
 struct Drawn {

@@ -6,7 +6,7 @@ use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> Picture {
     let mut config = GameConfig::default();

@@ -3,8 +3,8 @@
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
+use lensrunner::judge::shoot;
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, bake};
-use lensrunner::reference::{self, shoot};
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::method::Method;
@@ -20,7 +20,7 @@ use lensrunner::spacetime::frames;
 use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 /// One for all: most of a renderer's time here is the compiling of its passes.
 static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
@@ -91,7 +91,7 @@ fn polar(camera: &Camera, point: DVec3) -> (f64, f64, DVec3, DVec3) {
 /// Where the light of order 1 or 2 from `point` is seen and how long it took, by the judge.
 fn judged(camera: &Camera, point: DVec3, order: u32, branch: Branch) -> Option<(DVec3, f64)> {
     let (r, phi, n, side) = polar(camera, point);
-    let branch = if branch == Branch::Minus { reference::Branch::Minus } else { reference::Branch::Plus };
+    let branch = if branch == Branch::Minus { lensrunner::judge::Branch::Minus } else { lensrunner::judge::Branch::Plus };
     let seen = shoot(r, phi, camera.radius(), order, branch, 1e-15)?;
     let side = if order == 2 { -side } else { side };
     Some((camera.seen_direction(n * seen.psi_rain.cos() + side * seen.psi_rain.sin()), seen.delay))

@@ -14,7 +14,7 @@ use lensrunner::scene::model::Vertex;
 use lensrunner::scene::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::{self, GameConfig, Material, Model};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 /// The cross product of a triangle's sides, and its middle.
 fn normal_and_middle(model: &Model, triangle: [u32; 3]) -> (Vec3, Vec3) {

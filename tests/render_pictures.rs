@@ -10,7 +10,7 @@ use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::{self, Body, GameConfig};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 use crate::render_support::{renderer, settings};
 
 /// A scene's picture with its layers.
@@ -159,7 +159,7 @@ fn a_galaxy_on_the_axis_is_a_closed_annulus_and_the_shadow_is_dark() {
 /// The sphere exactly behind the hole: every pixel away from an edge shows the sphere or not as the judge says, who integrates each ray.
 #[test]
 fn the_ring_is_where_the_judge_sees_it() {
-    use lensrunner::reference::trace::{Camera as JudgeCamera, Mesh, Seen, trace};
+    use lensrunner::judge::trace::{Camera as JudgeCamera, Mesh, Seen, trace};
     let size = [320, 180];
     let (picture, camera) = picture("ring", size);
     let scene = scene::load("ring").unwrap();

@@ -2,7 +2,6 @@
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
-use lensrunner::render::Gpu;
 use lensrunner::render::method::Method;
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
@@ -13,8 +12,7 @@ use std::sync::LazyLock;
 
 use crate::twin::run;
 
-/// The software driver is installed by `./test`, so a machine without any adapter is a failure and not a reason to skip.
-pub static GPU: LazyLock<Gpu> = LazyLock::new(|| Gpu::headless().expect("a Vulkan driver"));
+use crate::gpu::GPU;
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| bake(Scheme::Residual, SMALL_NODES, |_| ()));
 

@@ -15,8 +15,8 @@ use lensrunner::sim::History;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, velocity};
 
+use crate::gpu::GPU;
 use crate::render_pictures::exact;
-use crate::render_shaders::GPU;
 use crate::render_support::renderer;
 use crate::twin::run_with;
 

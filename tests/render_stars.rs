@@ -9,7 +9,7 @@ use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::types::Star;
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 /// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
 fn picture(stars: &[Star], haze: f32, camera: Camera, size: [u32; 2], settings: Settings) -> Picture {

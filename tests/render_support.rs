@@ -4,15 +4,15 @@ use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use lensrunner::lensing::{self, SMALL_NODES, Scheme, Table, bake};
-use lensrunner::measure::disk::Eye;
 use lensrunner::render::Renderer;
+use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::{Camera, FrameInput, Settings};
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::stage::{self, Stage, static_camera};
 use lensrunner::scene::GameConfig;
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 /// A sky without light, seen through a table.
 fn dark(table: Arc<Table>) -> Surroundings {
@@ -47,9 +47,10 @@ pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
     static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
 }
 
-/// That camera as the exact picture of the disk takes it.
-pub fn eye(camera: &Camera) -> Eye {
-    Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view }
+/// The disk of the game.
+pub fn a_disk() -> Disk {
+    let config = GameConfig::default();
+    Disk::new(config.disk.clone(), &config)
 }
 
 /// Without a sky and without what blurs.

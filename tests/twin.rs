@@ -3,7 +3,7 @@
 use lensrunner::render::shaders::Pass;
 use lensrunner::render::{layout, readback};
 
-use crate::render_shaders::GPU;
+use crate::gpu::GPU;
 
 /// Runs `body` with the shipped source of `pass` before it: one thread per row of `input`. In `body`, `row` is that row and `twin_out` takes
 /// `outputs` rows from each thread. `tables`: the lens slice and the sky slice; of an empty one the shader must not speak, of another it must.

@@ -5,7 +5,9 @@
 //! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
 //! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
 //! method of paper 1, for comparison, and `score` measures the error of either. `orbit`, `shooting` and `closed` are f32 methods without a table.
+//! `methods` is all of them by name, `project` the command that asks one, `adversarial` the points where they break.
 
+pub mod adversarial;
 pub mod bake;
 pub mod batch;
 pub mod closed;
@@ -14,8 +16,10 @@ pub mod elementary;
 pub mod grid;
 pub mod inside;
 pub mod lookup;
+pub mod methods;
 pub mod orbit;
 pub mod paper;
+pub mod project;
 pub mod score;
 pub mod shooting;
 pub mod slice;

@@ -3,9 +3,7 @@
 //! [`game`] is screens, keys and time, [`window`] adds window and picture; [`demonstration`] flies it to files. Between them they share [`session`] (what is played), [`camera`]
 //! and [`seen`] (where the image of a ship appears).
 
-pub mod aurora_race;
 pub mod camera;
-pub mod contestant;
 pub mod demonstration;
 pub mod director;
 pub mod game;
@@ -19,7 +17,6 @@ pub mod markers;
 pub mod menu;
 pub mod overlay;
 pub mod plate;
-pub mod race;
 pub mod record;
 pub mod screens;
 pub mod seen;

@@ -46,6 +46,13 @@ pub enum ShotError {
     Outside(u32),
 }
 
+impl ShotError {
+    /// Whether what was asked for is wrong, not the machine.
+    pub fn is_input(&self) -> bool {
+        !matches!(self, ShotError::Device(_) | ShotError::Picture(_)) || matches!(self, ShotError::Picture(PictureError::Format(_)))
+    }
+}
+
 /// What to draw.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {

@@ -1,0 +1,189 @@
+//! Hit by hit: every method against every other, and against brute force in f64.
+
+use glam::Vec3;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+use super::contest::Built;
+use super::rays::{Job, SIZES, tiled};
+use crate::straight::scenes::Triangle;
+use crate::straight::{EyePacket, EyePackets, Hit, Packets, Ray, order};
+
+/// Rays that are tried against every triangle.
+const SAMPLE: usize = 2000;
+
+/// Checks one scene, says on stderr what it found, and returns the number of hits that are wrong.
+pub fn check(job: &Job) -> usize {
+    let built = Built::new(job);
+    let rays = &job.primary;
+    let single: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
+    let mut wrong = 0;
+    // Ours must agree bit for bit.
+    for (name, hits) in ours(job, &built) {
+        let differ = hits.iter().zip(&single).filter(|(a, b)| a != b).count();
+        if differ > 0 {
+            eprintln!("{}: {name}: {differ} of {} rays differ from single rays", job.scene.name, rays.len());
+        }
+        wrong += differ;
+    }
+    for (kind, rays) in &job.secondary {
+        let plain: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let mut packets = Packets::default();
+        for (rays, hits) in rays.chunks(1024).zip(hits.chunks_mut(1024)) {
+            built.wide.closest_packet(rays, hits, &mut packets);
+        }
+        let differ = hits.iter().zip(&plain).filter(|(a, b)| a != b).count();
+        eprintln!("{}: {kind}: {differ} of {} rays differ between packets and single rays", job.scene.name, rays.len());
+        wrong += differ;
+    }
+    // Others may differ by rounding: each such ray is judged.
+    let random = &mut StdRng::seed_from_u64(9);
+    let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..rays.len())).collect();
+    let theirs = theirs(job, &built);
+    let mut disputed: Vec<usize> = Vec::new();
+    for (name, hits) in &theirs {
+        let others: Vec<usize> = (0..rays.len()).filter(|&i| hits[i].triangle != single[i].triangle).collect();
+        let clear = others.iter().filter(|&&i| !together(hits[i], single[i])).count();
+        eprintln!(
+            "{}: {name}: another triangle at {} of {} rays, {clear} of them not at the same place",
+            job.scene.name,
+            others.len(),
+            rays.len()
+        );
+        disputed.extend(others);
+    }
+    disputed.sort_unstable();
+    disputed.dedup();
+    judged.extend(&disputed);
+    let (mut within, mut false_ones) = (0, 0);
+    let mut their_false = vec![0; theirs.len()];
+    for &i in &judged {
+        match verdict(&job.scene.triangles, &rays[i], single[i]) {
+            Verdict::Right => (),
+            Verdict::Rounding => within += 1,
+            Verdict::Wrong => {
+                eprintln!("{}: {:?}: {:?} is wrong", job.scene.name, rays[i], single[i]);
+                false_ones += 1;
+            }
+        }
+        // What differs from ours is judged for itself; what does not was judged with it.
+        for ((_, hits), wrong) in theirs.iter().zip(&mut their_false) {
+            let same = hits[i].triangle == single[i].triangle;
+            *wrong += usize::from(!same && verdict(&job.scene.triangles, &rays[i], hits[i]) == Verdict::Wrong);
+        }
+    }
+    let theirs: Vec<String> = theirs.iter().zip(their_false).map(|((name, _), wrong)| format!("{name} on {wrong}")).collect();
+    eprintln!(
+        "{}: of {} rays tried against every triangle in f64 ({} disputed) ours differs on {within} within rounding, is wrong on {false_ones}; {}",
+        job.scene.name,
+        judged.len(),
+        disputed.len(),
+        theirs.join(", "),
+    );
+    wrong + false_ones
+}
+
+/// Hits of the others in the order of pixels.
+fn theirs(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
+    #[allow(unused_mut)]
+    let mut all: Vec<(String, Vec<Hit>)> =
+        built.obvhs.iter().map(|tree| ("obvhs".to_owned(), job.primary.iter().map(|ray| tree.closest(ray)).collect())).collect();
+    #[cfg(feature = "embree")]
+    for way in super::embree::WAYS {
+        let (rays, starts) = tiled(&job.primary, job.size, way.tile());
+        let (pixels, _) = order::tiles(job.size, way.tile());
+        let mut found = vec![Hit::MISS; rays.len()];
+        built.embree.trace(way, rays, starts)(&mut found);
+        let mut hits = vec![Hit::MISS; found.len()];
+        for (pixel, hit) in pixels.into_iter().zip(found) {
+            hits[pixel as usize] = hit;
+        }
+        all.push((format!("{} {}", way.name(), way.packet()), hits));
+    }
+    all
+}
+
+/// Whether both missed, or met something within rounding of the same place.
+fn together(a: Hit, b: Hit) -> bool {
+    if a.is_hit() && b.is_hit() { (a.t - b.t).abs() <= 2e-5 * (1.0 + a.t) } else { a.is_hit() == b.is_hit() }
+}
+
+fn ours(job: &Job, built: &Built) -> Vec<(String, Vec<Hit>)> {
+    let rays = &job.primary;
+    let mut each = vec![Hit::MISS; rays.len()];
+    built.wide.closest_each(rays, &mut each);
+    let mut all = vec![("tree of eight".to_owned(), each)];
+    for size in SIZES.into_iter().chain([1]) {
+        let mut hits = vec![Hit::MISS; rays.len()];
+        let (tiles, starts) = tiled(rays, job.size, size);
+        let (pixels, _) = order::tiles(job.size, size);
+        let mut packets = Packets::default();
+        for run in starts.windows(2) {
+            let mut found = vec![Hit::MISS; run[1] - run[0]];
+            built.wide.closest_packet(&tiles[run[0]..run[1]], &mut found, &mut packets);
+            for (&pixel, hit) in pixels[run[0]..run[1]].iter().zip(found) {
+                hits[pixel as usize] = hit;
+            }
+        }
+        all.push((format!("ours {size}"), hits));
+        for splits in 0..=2 {
+            let (pixels, starts) = order::squares(job.size, size);
+            let mut hits = vec![Hit::MISS; rays.len()];
+            let mut scratch = EyePackets::default();
+            for run in starts.windows(2) {
+                let pixels = &pixels[run[0]..run[1]];
+                let directions: Vec<_> = pixels.iter().map(|&i| rays[i as usize].direction).collect();
+                let mut found = vec![Hit::MISS; pixels.len()];
+                let packet = EyePacket { eye: rays[0].origin, directions: &directions, screen: job.screen };
+                built.mesh.closest_packet(&packet, splits, &mut found, &mut scratch);
+                for (&pixel, hit) in pixels.iter().zip(found) {
+                    hits[pixel as usize] = hit;
+                }
+            }
+            all.push((format!("{splits} splits, {size}"), hits));
+        }
+    }
+    all
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    Right,
+    /// Another triangle at the same place, or an edge passed within rounding of f32.
+    Rounding,
+    Wrong,
+}
+
+/// Tries every triangle in f64 (Möller–Trumbore).
+fn verdict(triangles: &[Triangle], ray: &Ray, hit: Hit) -> Verdict {
+    let (origin, direction) = (Vec3::from(ray.origin).as_dvec3(), Vec3::from(ray.direction).as_dvec3());
+    let (mut best, mut number, mut margin) = (f64::INFINITY, Hit::NONE, f64::INFINITY);
+    for (i, corners) in triangles.iter().enumerate() {
+        let [a, b, c] = corners.map(|p| Vec3::from(p).as_dvec3());
+        let (along, across, from) = (b - a, c - a, origin - a);
+        let p = direction.cross(across);
+        let q = from.cross(along);
+        let whole = along.dot(p);
+        let (u, v, t) = (from.dot(p) / whole, direction.dot(q) / whole, across.dot(q) / whole);
+        let least = u.min(v).min(1.0 - u - v);
+        // Not a number where the triangle is seen edge-on.
+        if least.is_nan() || !(0.0..=f64::from(ray.until)).contains(&t) {
+            continue;
+        }
+        if t <= best * (1.0 + 1e-6) || i as u32 == hit.triangle {
+            margin = margin.min(least.abs());
+        }
+        if least >= 0.0 && t < best {
+            (best, number) = (t, i as u32);
+        }
+    }
+    let near = hit.is_hit() && (f64::from(hit.t) - best).abs() <= 2e-5 * (1.0 + best);
+    if hit.triangle == number && (near || !hit.is_hit()) {
+        Verdict::Right
+    } else if near || margin < 1e-3 {
+        Verdict::Rounding
+    } else {
+        Verdict::Wrong
+    }
+}

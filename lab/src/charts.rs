@@ -1,0 +1,277 @@
+//! The charts of the command line: what they are asked for, and their exit codes.
+
+use std::io;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use lensrunner::scene;
+use lensrunner_lab::projection::ChartError;
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, projection, race, thin_disk};
+
+use crate::fail;
+
+/// Measures and draws a chart of error against time: CSV, SVG and PNG.
+#[derive(Subcommand)]
+pub enum ChartCommand {
+    Projection(ChartProjectionArgs),
+    Trace(ChartTraceArgs),
+    Aurora(ChartAuroraArgs),
+    Bvh(ChartBvhArgs),
+    Frame(ChartFrameArgs),
+    Disk(ChartDiskArgs),
+}
+
+/// Where a chart goes.
+#[derive(Args)]
+pub struct ChartArgs {
+    /// The folder for CSV, SVG and PNG.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+    /// Draws again from the CSV in that folder, without measuring.
+    #[arg(long)]
+    redraw: bool,
+}
+
+impl From<ChartArgs> for chart::Output {
+    fn from(args: ChartArgs) -> Self {
+        Self { folder: args.output, redraw: args.redraw }
+    }
+}
+
+/// Every method of projection on the same adversarial points: error against time per lookup and against memory.
+#[derive(Args)]
+pub struct ChartProjectionArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Adversarial points for each method and image order; about a tenth of them has no ray.
+    #[arg(long, value_name = "N", default_value_t = 340_000)]
+    points: usize,
+    /// Seed of the points.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Only these methods, separated by commas.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    methods: Vec<String>,
+}
+
+/// The experiment of paper 3: auroras by the particle method and by screen walks, time against error, from four views.
+#[derive(Args)]
+pub struct ChartAuroraArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How many of the ten auroras.
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u8).range(1..=10))]
+    auroras: u8,
+    /// Numbers of electrons.
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1000,4000,16000", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    electrons: Vec<u32>,
+    /// Standard deviations of a point's light in km, 0.1 to 50.
+    #[arg(long, value_name = "KM,…", value_delimiter = ',', default_value = "1,2,4", value_parser = aurora::chart::radius)]
+    radii: Vec<f32>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = aurora::chart::size)]
+    size: [usize; 2],
+    /// Runs of which the median is taken.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
+    repeats: u8,
+}
+
+/// A thin disk after Page and Thorne: error against rays per second, by the judge and by Gyoto where that is installed.
+#[derive(Args)]
+pub struct ChartTraceArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Pixels along each side of the picture.
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(8..=1024))]
+    pixels: u32,
+}
+
+/// Tracers of straight rays on one thread: ours, paper 4's, the crates obvhs and bvh, and Embree in a build with the feature embree.
+#[derive(Args)]
+pub struct ChartBvhArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, 200,000 long ones, which trees of boxes hold badly.
+    #[arg(long, value_name = "NAME", value_delimiter = ',', default_value = "bunny,castle,tree10,balls4A,balls4B,balls4C")]
+    scenes: Vec<String>,
+    /// How often each method runs; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The Stanford bunny, binary PLY of triangles; without it a blob of as many triangles takes its place.
+    #[arg(long, value_name = "FILE.ply", default_value = "../shared/data/bunny.ply")]
+    bunny: PathBuf,
+    /// Compares hits instead of timing: all methods with each other, 2,000 rays and every dispute with brute force in f64.
+    #[arg(long)]
+    check: bool,
+}
+
+/// Times whole frames of scenes, and each pass of them.
+#[derive(Args)]
+pub struct ChartFrameArgs {
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
+    #[arg(long_help = scene::help("TOML files, or names in assets/scenes."))]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Hold the aurora to its share of a frame, as in the window.
+    #[arg(long)]
+    rationed: bool,
+    /// Frames of each scene.
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    frames: u32,
+    /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
+    #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
+    at: f64,
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+}
+
+/// The accretion disk as polygons, sprites and arcs: time and error of each alone, and along a scripted chase.
+#[derive(Args)]
+pub struct ChartDiskArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Width and height of the frames that are timed.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Width and height of the pictures that are compared with the exact one.
+    #[arg(long, value_name = "WxH", default_value = "480x270", value_parser = lensrunner::render::shot::size)]
+    error_size: [u32; 2],
+    /// Rounds in which all ways take turns.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: u16,
+    /// Places along the chase.
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u16).range(2..=1000))]
+    steps: u16,
+    /// Frames in which the chase is also flown as in the game: 1,000 and more tell what 99.9 % of them stay under. 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    flight: u32,
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
+    #[arg(long, value_name = "game.toml")]
+    config: Option<PathBuf>,
+}
+
+/// Runs one of them.
+pub fn run(chart: ChartCommand) -> ExitCode {
+    match chart {
+        ChartCommand::Projection(args) => run_chart_projection(args),
+        ChartCommand::Trace(args) => {
+            finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
+        }
+        ChartCommand::Aurora(args) => run_chart_aurora(args),
+        ChartCommand::Bvh(args) => run_chart_bvh(args),
+        ChartCommand::Frame(args) => run_chart_frame(args),
+        ChartCommand::Disk(args) => run_chart_disk(args),
+    }
+}
+
+fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
+    use lensrunner::render::disk::bench::Bench;
+    use lensrunner::render::frame::Camera;
+    use lensrunner::render::{Gpu, shot};
+    use lensrunner_lab::disk::chart::{Request, Shown, contestants, run};
+    let config = match scene::config::find(args.config.as_deref()) {
+        Ok(config) => config,
+        Err(error) => return fail(&error, 2),
+    };
+    let request = Request {
+        output: args.chart.into(),
+        size: args.size,
+        error_size: args.error_size,
+        rounds: usize::from(args.rounds),
+        steps: usize::from(args.steps),
+        flight: args.flight as usize,
+    };
+    let gpu = match Gpu::headless() {
+        Ok(gpu) => gpu,
+        Err(error) => return fail(&error, 1),
+    };
+    let adapter = gpu.adapter.name.clone();
+    let mut bench = None;
+    finish_chart(run(&request, &config, &adapter, &mut |number, view, picture| {
+        let configs = || contestants(&config).into_iter().map(|contestant| contestant.config).collect();
+        let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
+        let eye = &view.eye;
+        let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
+        bench.set_counting(view.counted);
+        let frame = bench.frame(number, camera, view.time, view.sky, picture).map_err(|error| error.to_string())?;
+        Ok(Shown {
+            whole: frame.whole,
+            processor: frame.processor,
+            before: frame.before,
+            passes: frame.passes,
+            fragments: frame.fragments,
+            picture: frame.picture,
+        })
+    }))
+}
+
+fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
+    use lensrunner::render::bench;
+    let config = match scene::config::find(args.config.as_deref()) {
+        Ok(config) => config,
+        Err(error) => return fail(&error, 2),
+    };
+    let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
+    match bench::run(&request, &config, &mut io::stdout().lock()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail_shot(&error),
+    }
+}
+
+fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
+    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
+    let mut race = if request.output.redraw { None } else { race::race() };
+    let adapter = race.as_mut().map(|race| race as &mut dyn projection::Adapter);
+    match projection::run(&request, adapter) {
+        Err(error @ ChartError::Method { .. }) => fail(&error, 2),
+        result => finish_chart(result),
+    }
+}
+
+fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
+    let experiment = aurora::experiment::Request {
+        auroras: usize::from(args.auroras),
+        counts: args.electrons,
+        radii: args.radii,
+        size: args.size,
+        repeats: usize::from(args.repeats),
+    };
+    let output: chart::Output = args.chart.into();
+    let (adapter, mut runners) = if output.redraw { Default::default() } else { aurora_race::runners() };
+    finish_chart(aurora::chart::run(&output, &experiment, &adapter, &mut runners))
+}
+
+fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {
+    let request = bvh::Request {
+        output: args.chart.into(),
+        scenes: args.scenes,
+        size: [1024, 768],
+        rounds: args.rounds.into(),
+        bunny: args.bunny,
+        check: args.check,
+    };
+    match bvh::run(&request) {
+        Err(error) if error.is_input() => fail(&error, 2),
+        done => finish_chart(done),
+    }
+}
+
+/// Says what was written, or what went wrong.
+fn finish_chart<E: std::fmt::Display>(written: Result<Vec<PathBuf>, E>) -> ExitCode {
+    match written {
+        Ok(paths) => {
+            chart::announce(&paths);
+            ExitCode::SUCCESS
+        }
+        Err(error) => fail(&error, 1),
+    }
+}
+
+fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
+    fail(error, if error.is_input() { 2 } else { 1 })
+}

@@ -1,0 +1,231 @@
+//! `lensrunner compare --flight`: seeded chases flown by the autopilot, judged at many moments.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use super::freeze::freeze;
+use super::jump::{Jump, jumps};
+use super::moments::{choose, survey};
+use crate::compare::Shown;
+use crate::compare::command::{CompareError, Contestant};
+use crate::compare::fault::{Fault, Kind, main_fault};
+use crate::compare::judged::{Judged, Terms, judge};
+use crate::compare::random::case_file::CaseFile;
+use crate::compare::random::collect;
+use crate::compare::random::command::{Keep, bar, check_terms, configuration, leave, make_folder, one, tell};
+use crate::compare::random::outcome::{Outcome, Row, summary};
+use lensrunner::judge::case::{Case, TraceError};
+use lensrunner::scene::{self, GameConfig, Scene, SceneError};
+use lensrunner::sim::Moment;
+
+/// Draws what each pixel shows, and no light.
+pub type Shower<'a> = dyn Fn(&Case) -> Result<Vec<Shown>, String> + 'a;
+
+/// What to judge.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// The scene's name or file.
+    pub scene: String,
+    /// How many chases.
+    pub seeds: u64,
+    /// The seed of the first; those of the others follow it.
+    pub first: u64,
+    /// Moments of each.
+    pub moments: usize,
+    /// The only moment, T in r_s/c; None: they are chosen.
+    pub at: Option<f64>,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// How each is judged.
+    pub terms: Terms,
+    /// The game's configuration; None: every value its default.
+    pub config: Option<PathBuf>,
+    /// The folder for what fails.
+    pub output: PathBuf,
+    /// Whether what fails is made smaller before it is left there.
+    pub reduce: bool,
+    /// The table that the run is added to, a .csv.
+    pub collected: Option<PathBuf>,
+}
+
+impl Request {
+    fn check(&self) -> Result<(), TraceError> {
+        let input = |text: String| Err(TraceError::Input(text));
+        if !(1..=100_000).contains(&self.seeds) {
+            return input(format!("--seeds {}: must be from 1 to 100000 chases", self.seeds));
+        }
+        if !(1..=100_000).contains(&self.moments) {
+            return input(format!("--moments {}: must be from 1 to 100000 a chase", self.moments));
+        }
+        if let Some(at) = self.at.filter(|at| !(0.0..=1e5).contains(at)) {
+            return input(format!("--at {at}: T must be a number from 0 to 100000 r_s/c"));
+        }
+        check_terms(&self.terms)
+    }
+}
+
+/// Flies and judges; leaves each moment that fails in the folder as a scene of its own; prints a table. Gives a row for each moment.
+pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Result<Vec<Row>, CompareError> {
+    request.check()?;
+    let config = configuration(request.config.as_deref())?;
+    let scene = scene::load(&request.scene).map_err(TraceError::from)?;
+    if scene.ships.is_empty() {
+        return Err(TraceError::Input(format!("--flight {}: the scene has no ship to fly", request.scene)).into());
+    }
+    let path = scene::path(&request.scene);
+    let text = std::fs::read_to_string(&path).map_err(|source| TraceError::from(SceneError::Read { path, source }))?;
+    // Before the work of which it would lose the result.
+    request.collected.as_deref().map(collect::open).transpose()?;
+    make_folder(&request.output)?;
+    let count = request.at.map_or(request.moments, |_| 1) as u64;
+    let bar = bar(request.seeds * count);
+    let mut flight = Flight { request, scene: &scene, text: &text, config: &config, contestant, shower, rows: Vec::new() };
+    for seed in request.first..request.first.saturating_add(request.seeds) {
+        bar.set_message(format!("seed {seed}: flying"));
+        let step = config.clock.step;
+        let chosen = match request.at {
+            Some(at) => vec![(at / step).round() as u64],
+            None => choose(&survey(&scene, &config, seed, scene.rules(&config).time_limit), request.moments, step, seed),
+        };
+        // What was flown short has fewer.
+        bar.dec_length(count - (chosen.len() as u64).min(count));
+        bar.set_message(format!("seed {seed}"));
+        flight.judge(seed, &chosen, &mut |row| tell(&bar, row))?;
+    }
+    bar.finish_and_clear();
+    print!("{}", summary(&flight.rows));
+    if let Some(csv) = &request.collected {
+        let seeds = format!("{} to {}", request.first, request.first + (request.seeds - 1));
+        collect::add(csv, &scene.name, &seeds, &request.terms, &flight.rows)?;
+    }
+    Ok(flight.rows)
+}
+
+struct Flight<'a> {
+    request: &'a Request,
+    scene: &'a Scene,
+    text: &'a str,
+    config: &'a GameConfig,
+    contestant: &'a Contestant<'a>,
+    shower: &'a Shower<'a>,
+    rows: Vec<Row>,
+}
+
+/// A frame of the game.
+struct Still {
+    case: Case,
+    shown: Result<Vec<Shown>, String>,
+}
+
+impl Flight<'_> {
+    /// Flies one chase and judges it after these steps.
+    fn judge(&mut self, seed: u64, steps: &[u64], done: &mut dyn FnMut(&Row)) -> Result<(), CompareError> {
+        let mut moment = Moment::new(self.scene, self.config, 0.0, seed);
+        let mut now = 0;
+        // Of the frame at the step `now`, if it was drawn.
+        let mut kept: Option<Still> = None;
+        for &step in steps {
+            let started = Instant::now();
+            let before = step.saturating_sub(1);
+            if before > now {
+                moment.advance(before - now);
+                (now, kept) = (before, None);
+            }
+            let earlier = match kept.take() {
+                Some(still) if now == before => Some(still),
+                _ if now == before && step > 0 => Some(self.still(&moment)),
+                _ => None,
+            };
+            moment.advance(step - now);
+            now = step;
+            let still = self.still(&moment);
+            if still.case.check().is_err() {
+                break;
+            }
+            let row = self.moment(seed, earlier.as_ref(), &still, started)?;
+            done(&row);
+            self.rows.push(row);
+            kept = Some(still);
+        }
+        Ok(())
+    }
+
+    fn still(&self, moment: &Moment) -> Still {
+        let case = Case::of(self.scene.clone(), self.config.clone(), moment, self.request.size);
+        let shown = (self.shower)(&case);
+        Still { case, shown }
+    }
+
+    /// Judges a moment, and the one before it where an image jumps between them.
+    fn moment(&self, seed: u64, earlier: Option<&Still>, still: &Still, started: Instant) -> Result<Row, CompareError> {
+        let name = format!("{}-seed-{seed}-T-{}", self.scene.name, still.case.time);
+        let row = |outcome: Outcome| Row {
+            name: name.clone(),
+            corner: "flight".into(),
+            size: self.request.size,
+            outcome,
+            seconds: started.elapsed().as_secs_f64(),
+        };
+        let mut judged = match judge(&still.case, &self.request.terms, self.contestant) {
+            Ok(judged) => judged,
+            Err(gave_up) => return Ok(row(Outcome::GaveUp(gave_up.to_string()))),
+        };
+        let found = match (earlier.map(|earlier| (earlier, &earlier.shown)), &still.shown) {
+            (Some((earlier, Ok(before))), Ok(after)) => {
+                jumps(before, after, self.request.size).into_iter().map(|jump| (earlier, jump)).collect()
+            }
+            _ => Vec::new(),
+        };
+        if let Some((earlier, jump)) = found.first()
+            && judged.faults.is_empty()
+        {
+            // The picture after the jump is right; is the one before it?
+            judged.faults.extend(self.jump(earlier, still, jump));
+        }
+        let outcome = Outcome::of(&judged);
+        if main_fault(&judged.faults).is_some() {
+            let wrong =
+                if judged.faults[0].kind == Kind::Jump { earlier.map_or(&still.case, |earlier| &earlier.case) } else { &still.case };
+            self.leave(&name, seed, wrong, &judged)?;
+        }
+        Ok(row(outcome))
+    }
+
+    /// What is wrong with the frame from which an image jumps to the next; None if it is right, so that things really move so fast.
+    fn jump(&self, earlier: &Still, still: &Still, jump: &Jump) -> Option<Fault> {
+        let judged = judge(&earlier.case, &self.request.terms, self.contestant).ok()?;
+        let fault = main_fault(&judged.faults)?;
+        let name = self.scene_object(&earlier.case, jump.object);
+        let ([a, b], order) = (jump.areas, jump.order);
+        let text = format!(
+            "{name} order {order} goes from {a:.1} to {b:.1} px between T = {} and {}; at the first: {}: {fault}",
+            earlier.case.time, still.case.time, fault.kind
+        );
+        Some(Fault { kind: Kind::Jump, excess: fault.excess, text })
+    }
+
+    fn scene_object(&self, case: &Case, number: u32) -> String {
+        case.assembly.objects.get((number as usize).wrapping_sub(1)).map_or_else(|| "?".into(), |object| object.name.clone())
+    }
+
+    /// Leaves the moment as a scene of its own, made smaller if it still fails; else as it is, with how to see it.
+    fn leave(&self, name: &str, seed: u64, case: &Case, judged: &Judged) -> Result<(), CompareError> {
+        let [width, height] = self.request.size;
+        let command = format!(
+            "lensrunner compare --flight {} --seeds 1 --first {seed} --at {} --size {width}x{height}",
+            self.request.scene, case.time
+        );
+        let notes = vec![format!("T = {} of the flight of {} with seed {seed}: {command}", case.time, self.scene.name)];
+        let Some(text) = freeze(self.text, case) else { return Ok(()) };
+        let file = CaseFile { notes, text, at: 0.0, size: self.request.size };
+        let keep = Keep { folder: &self.request.output, reduce: self.request.reduce };
+        let frozen = one(name, "flight", &file, self.config, &self.request.terms, Some(keep), self.contestant)?;
+        if !frozen.failed() {
+            // The ships have coasted to here in the file, and not in the flight.
+            let mut file = file;
+            file.notes.push("this scene does not fail: what fails depends on what the ships burnt before, so judge the flight".into());
+            leave(&self.request.output, name, &file, case, judged)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,80 @@
+//! Runs of many cases collected in a table: a CSV with a row for each run, and the same for reading, in Markdown, beside it.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use super::outcome::{Counts, Row, counts};
+use crate::chart::{Provenance, Sheet, SheetError};
+use crate::compare::fault::{Kind, Limits};
+use crate::compare::judged::Terms;
+
+/// The columns: what was drawn, of how many, from which seed; the limits; how many were within them, with nothing solid among those, beyond, given up, slow for the judge; how many
+/// failed by each kind of worst fault; seconds of the median case.
+pub const COLUMNS: [&str; 13] =
+    ["what", "cases", "seed", "limits", "within", "empty", "failed", "gave_up", "slow", "by_kind", "seconds", "commit", "command"];
+
+/// The table in `csv`, or a new one; ask before the work whose result is to be added. An error names the file and what it lacks.
+pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
+    if !csv.exists() {
+        return Ok(Sheet::new(&COLUMNS));
+    }
+    let sheet = Sheet::load(csv)?;
+    match COLUMNS.iter().find(|wanted| !sheet.columns.iter().any(|found| found == *wanted)) {
+        Some(wanted) => Err(SheetError::Column(csv.display().to_string(), (*wanted).to_owned())),
+        None => Ok(sheet),
+    }
+}
+
+/// Adds a run to the table in `csv`, in the place of an earlier one of the same cases, and writes its Markdown beside it. `what` names what was drawn: `random`, or a scene
+/// that was flown.
+pub fn add(csv: &Path, what: &str, seed: &str, terms: &Terms, rows: &[Row]) -> Result<(), SheetError> {
+    let mut sheet = open(csv)?;
+    let provenance = Provenance::now("");
+    let new = row(what, seed, terms, rows, &provenance);
+    let same = |old: &Vec<String>| old[..3] == new[..3];
+    match sheet.rows.iter_mut().find(|old| same(old)) {
+        Some(old) => *old = new,
+        None => sheet.rows.push(new),
+    }
+    sheet.save(csv)?;
+    let page: PathBuf = csv.with_extension("md");
+    std::fs::write(&page, markdown(&sheet)).map_err(|error| SheetError::Io(page, error))
+}
+
+/// The row of a run.
+pub fn row(what: &str, seed: &str, terms: &Terms, rows: &[Row], provenance: &Provenance) -> Vec<String> {
+    let Counts { cases, within, empty, failed, gave_up, slow, by_kind } = counts(rows);
+    let Limits { most, max, coverage, outline, thin, .. } = Limits::small(2);
+    let limits = format!(
+        "99 % {most} px; all {max} px; outline {outline} px or {coverage} of the pixels and {thin} sigma; {} s a case",
+        terms.seconds
+    );
+    let kinds: Vec<String> = Kind::ALL.iter().filter_map(|kind| by_kind.get(kind).map(|count| format!("{kind} {count}"))).collect();
+    let mut seconds: Vec<f64> = rows.iter().map(|row| row.seconds).collect();
+    seconds.sort_by(f64::total_cmp);
+    let median = seconds.get(seconds.len() / 2).copied().unwrap_or(0.0);
+    let numbers = [within, empty, failed, gave_up, slow].map(|count| count.to_string());
+    [what.to_owned(), cases.to_string(), seed.to_owned(), limits]
+        .into_iter()
+        .chain(numbers)
+        .chain([kinds.join("; "), format!("{median:.2}"), provenance.commit.clone(), provenance.command.replace(',', ";")])
+        .collect()
+}
+
+/// The table for reading.
+pub fn markdown(sheet: &Sheet) -> String {
+    let mut text = String::from(
+        "| what | seed | cases | within | of these empty | fail, by their worst fault | given up | slow | s a case | commit |\n\
+         |---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    for row in &sheet.rows {
+        let cell = |name: &str| sheet.text(row, name);
+        let failed =
+            if cell("by_kind").is_empty() { cell("failed").to_owned() } else { format!("{}: {}", cell("failed"), cell("by_kind")) };
+        let cells = [cell("what"), cell("seed"), cell("cases"), cell("within"), cell("empty"), &failed];
+        let rest = [cell("gave_up"), cell("slow"), cell("seconds"), cell("commit")];
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "| {} | {} |", cells.join(" | "), rest.join(" | "));
+    }
+    text
+}

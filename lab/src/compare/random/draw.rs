@@ -1,0 +1,271 @@
+//! Scenes that nobody chose: a case is drawn from a seed and its number alone, and is the text of a scene file.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use glam::DVec3;
+use rand::rngs::StdRng;
+use rand::{RngExt, SeedableRng};
+
+use super::place;
+use super::text::{Text, rounded};
+use lensrunner::scene::{GameConfig, Scene};
+
+/// Where a case was drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Corner {
+    /// Anywhere.
+    Open,
+    /// Things on the line through camera and hole, or beside it by less than their size, behind the hole.
+    Axis,
+    /// The camera at r = 3/2 or close to it.
+    PhotonSphere,
+    /// The camera or the things just outside or inside of the horizon.
+    Horizon,
+    /// Ships at up to 0.99 c.
+    Fast,
+    /// Spheres of thousands of triangles on the axis.
+    Small,
+}
+
+impl Corner {
+    /// All of them.
+    pub const ALL: [Corner; 6] = [Corner::Open, Corner::Axis, Corner::PhotonSphere, Corner::Horizon, Corner::Fast, Corner::Small];
+
+    /// A word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Corner::Open => "open",
+            Corner::Axis => "axis",
+            Corner::PhotonSphere => "photon-sphere",
+            Corner::Horizon => "horizon",
+            Corner::Fast => "fast",
+            Corner::Small => "small-triangles",
+        }
+    }
+}
+
+/// A case: a scene, when it is looked at, and how large the picture is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawn {
+    /// Where it was drawn from.
+    pub corner: Corner,
+    /// The text of the scene file.
+    pub text: String,
+    /// T in r_s/c.
+    pub at: f64,
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+}
+
+/// A case's own source of chance: cases of one seed do not depend on each other.
+pub fn chance(seed: u64, number: u64) -> StdRng {
+    // SplitMix64's step makes neighbouring numbers far apart.
+    StdRng::seed_from_u64(seed.wrapping_add(number.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15)))
+}
+
+/// Case `number` of `seed`. Scenes that no file may hold, or in which the camera is in a thing, are drawn again.
+pub fn draw(seed: u64, number: u64) -> Drawn {
+    let mut chance = chance(seed, number);
+    let config = GameConfig::default();
+    loop {
+        let drawn = attempt(&mut chance);
+        let scene = Scene::from_toml(Path::new("drawn.toml"), &drawn.text);
+        if scene.is_ok_and(|scene| place::is_fair(&scene, &config, drawn.at)) {
+            return drawn;
+        }
+    }
+}
+
+fn attempt(chance: &mut StdRng) -> Drawn {
+    // Half of all where methods fail.
+    let corner = if chance.random_bool(0.5) { Corner::Open } else { Corner::ALL[chance.random_range(1..Corner::ALL.len())] };
+    let mut text = Text::default();
+    let camera = place::camera_radius(corner, chance);
+    let n = place::direction(chance);
+    let eye = n * camera;
+    let mut things = Things { chance, eye, corner, text: &mut text, count: 0, first: None };
+    match corner {
+        Corner::Open => (0..1 + things.chance.random_range(0..4)).for_each(|_| things.any()),
+        Corner::Axis | Corner::Horizon | Corner::PhotonSphere => {
+            things.any();
+            if things.chance.random_bool(0.4) {
+                things.any();
+            }
+        }
+        Corner::Fast => (0..1 + things.chance.random_range(0..2)).for_each(|_| things.ship()),
+        Corner::Small => things.sphere(),
+    }
+    let target = things.first;
+    let at = if camera > 4.0 && things.chance.random_bool(0.3) { rounded(things.chance.random_range(0.0..6.0)) } else { 0.0 };
+    if corner != Corner::Small && chance.random_bool(0.25) {
+        planet(chance, &mut text);
+    }
+    if chance.random_bool(if corner == Corner::Small { 0.1 } else { 0.3 }) {
+        disk(chance, &mut text);
+    }
+    let size = *place::pick(chance, &[[160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [160, 90], [120, 120], [90, 160], [320, 180]]);
+    let text = format!("{}{}[sky]\nstars = false\nmilky_way = false\n", camera_text(chance, eye, target), text.finish());
+    Drawn { corner, text, at, size }
+}
+
+/// The camera's section: how it moves, where it looks.
+fn camera_text(chance: &mut StdRng, eye: DVec3, target: Option<DVec3>) -> String {
+    let mut text = Text::default();
+    text.section("[camera]");
+    text.vector("position", eye);
+    let momentum = place::camera_momentum(chance, eye);
+    if let Some(momentum) = momentum {
+        text.vector("momentum", momentum);
+    }
+    let mut fov: f64 = match chance.random_range(0..6) {
+        0..3 => 60.0,
+        3 => chance.random_range(8.0..40.0),
+        4 => chance.random_range(40.0..100.0),
+        _ => chance.random_range(100.0..140.0),
+    };
+    // Mostly to the hole, around which what is behind it is seen, or to where something there is is seen; the rest anywhere.
+    let hole = place::seen(eye, momentum, DVec3::ZERO);
+    let towards = match (chance.random_range(0..14), target) {
+        (0..12, Some(target)) => {
+            let (seen, behind) = (place::seen(eye, momentum, target), target.normalize_or_zero().dot(eye.normalize()) < -0.9);
+            if behind {
+                // The whole ring, give or take.
+                fov = fov.max((2.5 * seen.angle_between(hole).to_degrees()).min(150.0));
+            }
+            if behind { hole } else { seen }
+        }
+        (12, _) => place::direction(chance),
+        (13, _) => -hole,
+        _ => hole,
+    };
+    text.vector("look", towards + place::direction(chance) * chance.random_range(0.0..0.3) * fov.to_radians());
+    if chance.random_bool(0.3) {
+        text.vector("up", place::direction(chance));
+    }
+    text.number("fov", fov);
+    text.finish()
+}
+
+/// Draws the things of a scene.
+struct Things<'a> {
+    chance: &'a mut StdRng,
+    eye: DVec3,
+    corner: Corner,
+    text: &'a mut Text,
+    count: usize,
+    /// Where the first of them is.
+    first: Option<DVec3>,
+}
+
+impl Things<'_> {
+    fn any(&mut self) {
+        match self.chance.random_range(0..10) {
+            0..4 => self.ship(),
+            4..8 => self.sphere(),
+            8 => self.model(),
+            _ => self.square(),
+        }
+    }
+
+    fn begin(&mut self, section: &str, kind: &str, position: DVec3) {
+        self.count += 1;
+        self.first.get_or_insert(position);
+        self.text.section(section);
+        self.text.word("name", &format!("{kind}-{}", self.count));
+    }
+
+    fn ship(&mut self) {
+        let position = place::thing(self.chance, self.corner, self.eye, 0.25, false);
+        self.begin("[[ship]]", "ship", position);
+        let orbits = self.corner != Corner::Fast && position.length() > 1.6 && self.chance.random_bool(0.25);
+        if orbits {
+            let r = rounded(position.length());
+            let [inclination, node, phase] = [PI, TAU, TAU].map(|most| rounded(self.chance.random_range(0.0..most)));
+            self.text.line(&format!("orbit = {{ radius = {r:?}, inclination = {inclination:?}, node = {node:?}, phase = {phase:?} }}"));
+        } else {
+            self.text.vector("position", position);
+            let momentum = place::ship_momentum(self.chance, self.corner, position);
+            self.text.vector("momentum", momentum);
+        }
+        self.attitude();
+        let model = *place::pick(self.chance, &["hunter.glb", "quarry.glb"]);
+        self.text.word("model", model);
+        if self.chance.random_bool(0.15) {
+            let acceleration = place::direction(self.chance) * self.chance.random_range(0.02..0.3);
+            let [x, y, z] = acceleration.to_array().map(rounded);
+            self.text.line(&format!("thrust = [{{ from = 0.0, until = 10.0, acceleration = [{x:?}, {y:?}, {z:?}] }}]"));
+        }
+    }
+
+    fn sphere(&mut self) {
+        let size = self.size(0.3..5.0);
+        let position = place::thing(self.chance, self.corner, self.eye, size, true);
+        self.begin("[[prop]]", "ball", position);
+        let model = *place::pick(self.chance, &["sphere", "icosphere"]);
+        self.text.word("model", model);
+        self.text.vector("position", position);
+        self.text.number("size", size);
+        let least = if self.corner == Corner::Small { 1000f64 } else { 20.0 };
+        let triangles = place::log_uniform(self.chance, least, 20_000.0);
+        self.text.whole("triangles", triangles as u32);
+        self.attitude();
+        if self.chance.random_bool(0.5) {
+            self.text.word("texture", "checker");
+        }
+    }
+
+    fn model(&mut self) {
+        let size = self.size(0.3..3.0);
+        let position = place::thing(self.chance, self.corner, self.eye, size, true);
+        self.begin("[[prop]]", "model", position);
+        let model = *place::pick(self.chance, &["hunter.glb", "quarry.glb"]);
+        self.text.word("model", model);
+        self.text.vector("position", position);
+        self.text.number("size", size);
+        self.attitude();
+    }
+
+    fn square(&mut self) {
+        let size = self.size(0.5..6.0);
+        let position = place::thing(self.chance, self.corner, self.eye, size, true);
+        self.begin("[[prop]]", "square", position);
+        self.text.word("model", "square");
+        self.text.vector("position", position);
+        self.text.number("size", size);
+        let triangles = place::log_uniform(self.chance, 2.0, 5000.0);
+        self.text.whole("triangles", triangles as u32);
+        self.attitude();
+    }
+
+    fn size(&mut self, range: std::ops::Range<f64>) -> f64 {
+        rounded(place::log_uniform(self.chance, range.start, range.end))
+    }
+
+    fn attitude(&mut self) {
+        if self.chance.random_bool(0.6) {
+            let parts = [0; 4].map(|_| rounded(self.chance.random_range(-1.0..1.0)));
+            self.text.line(&format!("attitude = {parts:?}"));
+        }
+    }
+}
+
+fn planet(chance: &mut StdRng, text: &mut Text) {
+    let orbit = rounded(place::log_uniform(chance, 4.0, 40.0));
+    text.section("[planet]");
+    text.number("orbit_radius", orbit);
+    text.number("radius", chance.random_range(0.02..0.2) * orbit);
+    for (key, most) in [("inclination", PI), ("node", TAU), ("phase", TAU), ("axis_tilt", PI)] {
+        text.number(key, chance.random_range(0.0..most));
+    }
+    text.word("aurora", "none");
+}
+
+fn disk(chance: &mut StdRng, text: &mut Text) {
+    text.section("[disk]");
+    if chance.random_bool(0.5) {
+        let inner = rounded(chance.random_range(3.0..6.0));
+        text.number("inner", inner);
+        text.number("outer", inner + chance.random_range(2.0..15.0));
+    }
+}

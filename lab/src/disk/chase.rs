@@ -1,0 +1,120 @@
+//! Table 2: the scripted chase, each way to draw the disk at every place of it, with the error beside each time.
+
+use crate::chart::{Provenance, Sheet};
+use lensrunner::scene::disk::Gas;
+
+use super::chart::{ChartError, Contestant, DISK_PASSES, Draw, Request, View, median, own, timed};
+use super::error::{compare, peak};
+use super::exact::picture;
+use super::script::script;
+
+/// The exact picture has this many samples squared in a pixel.
+const SAMPLES: u32 = 3;
+
+/// A picture is exposed for its own peak, but for no less than this part of the brightest one's along the way: in the plane itself the disk is seen edge on,
+/// from within its gas, and has a hundred-thousandth of its light. Nothing brings that to white.
+const LEAST_PEAK: f32 = 0.01;
+
+/// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the pictures that are
+/// compared show the disk alone. Times are medians of the rounds, in which all take turns.
+pub(super) fn chase(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+    let mut sheet = Sheet::new(&[
+        "contestant",
+        "family",
+        "step",
+        "situation",
+        "frame_ms",
+        "wall_ms",
+        "disk_ms",
+        "arcs_ms",
+        "mesh_ms",
+        "draw_ms",
+        "psnr_db",
+        "flip",
+    ]);
+    sheet.notes = Provenance::now(adapter).notes();
+    let base = &contestants[0].config;
+    let gas = Gas::new(&base.disk, base.hole.mass_solar);
+    let steps = request.steps.max(2);
+    let runners: Vec<(usize, &Contestant)> = contestants.iter().enumerate().filter(|(_, contestant)| contestant.family != 3).collect();
+    let places: Vec<_> = (0..steps).map(|step| script((step as f64 + 0.5) / steps as f64, base.disk.inner)).collect();
+    let truths: Vec<_> = places.iter().map(|(eye, time, _)| picture(&gas, eye, request.error_size, *time, 3, SAMPLES)).collect();
+    let brightest = truths.iter().map(|truth| peak(truth)).fold(0.0, f32::max);
+    for (step, (&(eye, time, situation), truth)) in places.iter().zip(&truths).enumerate() {
+        let exposed = peak(truth).max(LEAST_PEAK * brightest);
+        let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky, counted: false });
+        let mut times = vec![[const { Vec::new() }; 6]; runners.len()];
+        for _ in 0..request.rounds {
+            let without = timed(None, &in_game, draw)?;
+            for (&(number, _), times) in runners.iter().zip(&mut times) {
+                let shown = timed(Some(number), &in_game, draw)?;
+                let [arcs, mesh, drawn] = DISK_PASSES.map(|label| shown.pass(label));
+                let all = [shown.processor.unwrap_or(shown.whole), shown.whole, own(&shown, &without), arcs, mesh, drawn];
+                times.iter_mut().zip(all).for_each(|(times, time)| times.push(time));
+            }
+        }
+        for (&(number, contestant), times) in runners.iter().zip(&mut times) {
+            let shown = draw(Some(number), &alone, Some(request.error_size)).map_err(ChartError::Draw)?;
+            let error = compare(&shown.picture, truth, request.error_size, exposed);
+            let mut cells = vec![contestant.name.clone(), contestant.family.to_string(), step.to_string(), situation.to_owned()];
+            cells.extend(times.iter_mut().map(|times| format!("{:.3}", median(times))));
+            cells.extend([format!("{:.2}", error.psnr), format!("{:.4}", error.flip)]);
+            sheet.push(cells);
+        }
+    }
+    Ok(sheet)
+}
+
+/// What the chase comes to: each contestant's mean and worst frame, how near the worst comes to the mean in frames per second, where it is, and the mean
+/// and worst error.
+pub(super) fn summary(chase: &Sheet) -> Sheet {
+    let mut sheet = Sheet::new(&[
+        "contestant",
+        "mean_ms",
+        "worst_ms",
+        "worst_to_mean_fps",
+        "worst_in",
+        "disk_mean_ms",
+        "psnr_db",
+        "flip",
+        "worst_flip",
+    ]);
+    sheet.notes.clone_from(&chase.notes);
+    for name in names(chase) {
+        let rows: Vec<&Vec<String>> = chase.rows.iter().filter(|row| chase.text(row, "contestant") == name).collect();
+        let column = |column: &str| -> Vec<f64> { rows.iter().map(|row| chase.number(row, column)).collect() };
+        let frames = column("frame_ms");
+        let worst = frames.iter().copied().fold(0.0, f64::max);
+        let place = rows.iter().find(|row| chase.number(row, "frame_ms") == worst).map_or("", |row| chase.text(row, "situation"));
+        let flips = column("flip");
+        sheet.push([
+            name.clone(),
+            format!("{:.1}", mean(&frames)),
+            format!("{worst:.1}"),
+            format!("{:.2}", mean(&frames) / worst),
+            place.to_owned(),
+            format!("{:.1}", mean(&column("disk_ms"))),
+            format!("{:.1}", mean(&column("psnr_db"))),
+            format!("{:.4}", mean(&flips)),
+            format!("{:.4}", flips.iter().copied().fold(0.0, f64::max)),
+        ]);
+    }
+    sheet
+}
+
+/// The contestants of a sheet, in their order.
+fn names(sheet: &Sheet) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for row in &sheet.rows {
+        let name = sheet.text(row, "contestant");
+        if names.iter().all(|known| known != name) {
+            names.push(name.to_owned());
+        }
+    }
+    names
+}
+
+/// The mean of all values; 0 of none.
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
+}

@@ -1,0 +1,21 @@
+//! The laboratory: it stands above the game and may see all of it; nothing in the game knows the laboratory.
+//!
+//! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
+//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`race`] and [`aurora_race`] run the shaders' part of two of them.
+//! - [`straight`]: straight rays through trees of boxes (paper 4), which `bvh` measures.
+//! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
+//! - [`flip`]: the difference of two pictures as an eye sees it.
+
+pub mod aurora;
+pub mod aurora_race;
+pub mod bvh;
+pub mod chart;
+pub mod compare;
+pub mod contestant;
+pub mod disk;
+pub mod flip;
+pub mod plot;
+pub mod projection;
+pub mod race;
+pub mod straight;
+pub mod thin_disk;

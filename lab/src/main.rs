@@ -1,0 +1,35 @@
+//! The laboratory's command line.
+
+mod charts;
+mod verdict;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// The laboratory of Lensrunner: verdicts on the game's picture, and charts of speed against accuracy.
+#[derive(Parser)]
+#[command(version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Compare(verdict::CompareArgs),
+    #[command(subcommand)]
+    Chart(charts::ChartCommand),
+}
+
+fn main() -> ExitCode {
+    match Cli::parse().command {
+        Command::Compare(args) => verdict::run(&args),
+        Command::Chart(chart) => charts::run(chart),
+    }
+}
+
+fn fail(error: &dyn std::fmt::Display, code: u8) -> ExitCode {
+    eprintln!("error: {error}");
+    ExitCode::from(code)
+}

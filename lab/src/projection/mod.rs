@@ -1,0 +1,162 @@
+//! The chart `projection`: every method of projection on the same points, error against time per lookup and against memory; where each
+//! fails; and paper 1's tables 2 and 3 with its own sampling.
+
+mod adapter;
+mod draw;
+mod maps;
+mod paper;
+
+mod score;
+mod time;
+
+use std::path::PathBuf;
+
+pub use adapter::Adapter;
+pub use lensrunner::lensing::adversarial::{Row, rows};
+pub use score::{Score, Truth, score, truth};
+
+use super::chart::{Output, Provenance, Sheet, SheetError};
+use super::plot::PlotError;
+use lensrunner::lensing::methods::{self, CATALOGUE, Entry, FAMILIES, Projector};
+use lensrunner::spacetime::light::Order;
+
+/// What the chart is asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Where it goes.
+    pub output: Output,
+    /// Adversarial points for each method and order.
+    pub points: usize,
+    /// Seed of the points.
+    pub seed: u64,
+    /// Methods to race; empty for all.
+    pub methods: Vec<String>,
+}
+
+/// Why there is no chart.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartError {
+    /// The CSV.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// No method has that name.
+    #[error("unknown method {name:?}: choose among {}", methods::names())]
+    Method {
+        /// The name asked for.
+        name: String,
+    },
+}
+
+/// Measures (or reads) and draws; returns the files written. `adapter` adds a sheet and a panel of its own.
+pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
+    let output = &request.output;
+    let sheet = output.sheet("projection", || measure(request))?;
+    let mut paths = vec![output.csv("projection")];
+    let graphics = match adapter {
+        Some(adapter) => Some(output.sheet("projection-gpu", || {
+            let rows = rows(request.points, request.seed);
+            adapter::measure(request, adapter, &rows, &truths(&rows), &time::frames(request.seed))
+        })?),
+        None if output.redraw && output.csv("projection-gpu").is_file() => Some(Sheet::load(&output.csv("projection-gpu"))?),
+        None => None,
+    };
+    paths.extend(graphics.iter().map(|_| output.csv("projection-gpu")));
+    paths.extend(draw::race(&sheet, graphics.as_ref()).save(&output.folder, "projection")?);
+    paths.extend(draw::everything(&sheet).save(&output.folder, "projection-all")?);
+    // The maps' sheet is large, and a folder to be redrawn need not have it.
+    if !output.redraw || output.csv("projection-maps").is_file() {
+        let sheet = output.sheet("projection-maps", || maps::measure(request))?;
+        paths.push(output.csv("projection-maps"));
+        paths.extend(maps::draw(&sheet).save(&output.folder, "projection-maps")?);
+    }
+    if request.methods.is_empty() {
+        output.sheet("projection-paper1", || Ok::<_, ChartError>(paper::measure(request)))?;
+        paths.push(output.csv("projection-paper1"));
+    }
+    Ok(paths)
+}
+
+/// Methods with what the catalogue says of them.
+type Methods = Vec<(Entry, Box<dyn Projector>)>;
+
+/// The methods asked for.
+fn chosen(request: &Request) -> Result<Methods, ChartError> {
+    let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
+    if let Some(name) = wrong {
+        return Err(ChartError::Method { name: name.clone() });
+    }
+    let wanted = |entry: &&Entry| request.methods.is_empty() || request.methods.iter().any(|name| name == entry.name);
+    Ok(CATALOGUE.iter().filter(wanted).filter_map(|entry| Some((*entry, methods::named(entry.name)?))).collect())
+}
+
+/// What the rows are, for the notes of a sheet.
+fn told(request: &Request, rows: &[Row]) -> String {
+    format!(
+        "{} for each order, from {} cameras, seed {}",
+        rows.len(),
+        lensrunner::lensing::adversarial::by_camera(rows).count(),
+        request.seed
+    )
+}
+
+/// The truth of the rows in each order.
+fn truths(rows: &[Row]) -> Vec<Vec<Truth>> {
+    Order::ALL.into_iter().map(|order| truth(rows, order)).collect()
+}
+
+const COLUMNS: &[&str] = &[
+    "method",
+    "family",
+    "order",
+    "rows",
+    "answered",
+    "missing",
+    "false",
+    "max_degrees",
+    "p999_degrees",
+    "rms_degrees",
+    "worst_r",
+    "worst_phi",
+    "worst_L",
+    "delay_max",
+    "delay_p999",
+    "delay_over_allowed",
+    "delay_worst_r",
+    "delay_worst_phi",
+    "delay_worst_L",
+    "nanoseconds",
+    "frame_microseconds",
+    "bytes",
+];
+
+fn measure(request: &Request) -> Result<Sheet, ChartError> {
+    let methods = chosen(request)?;
+    let mut sheet = Sheet::new(COLUMNS);
+    sheet.notes = Provenance::now("").notes();
+    eprintln!("timing {} methods", methods.len());
+    let frames = time::frames(request.seed);
+    let times = time::measure(&methods, &frames);
+    let rows = rows(request.points, request.seed);
+    sheet.notes.push(("points".into(), told(request, &rows)));
+    let truths = truths(&rows);
+    for ((entry, method), timed) in methods.iter().zip(times) {
+        eprintln!("scoring {}", entry.name);
+        for (order, truth) in Order::ALL.into_iter().zip(&truths) {
+            let s = score(method.as_ref(), &rows, truth, order);
+            let mut cells = vec![entry.name.to_owned(), FAMILIES[entry.family].to_owned(), order.number().to_string()];
+            cells.extend([rows.len(), s.answered, s.missing, s.invented].map(|n| n.to_string()));
+            cells.extend([s.angle.max, s.angle.most, s.angle.rms].map(|v| format!("{v:.4e}")));
+            cells.extend(s.angle.worst.map(|v| format!("{v:.9}")));
+            cells.extend([s.delay.max, s.delay.most, s.delay_share.max].map(|v| format!("{v:.4e}")));
+            cells.extend(s.delay_share.worst.map(|v| format!("{v:.9}")));
+            cells.push(format!("{:.1}", timed.nanoseconds));
+            cells.push(format!("{:.2}", timed.frame_microseconds));
+            cells.push(method.memory().to_string());
+            sheet.push(cells);
+        }
+    }
+    Ok(sheet)
+}

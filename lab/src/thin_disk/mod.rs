@@ -1,0 +1,264 @@
+//! `lensrunner chart trace`: the image of a Page–Thorne disk by the judge and, where it is installed, by Gyoto (Vincent, Paumard, Gourgoulhon
+//! and Perrin, *Class. Quantum Grav.* 28 (2011) 225011): redshift and bolometric flux pixel by pixel, error against rays per second and core.
+
+mod gyoto;
+pub mod ray;
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use glam::DVec3;
+
+use super::chart::{Output, Provenance, Sheet, SheetError};
+use super::plot::{Axis, Figure, Guide, Panel, PlotError, Point, Scatter};
+use crate::thin_disk::ray::{Impact, Ring, Screen, image, orbit_shift};
+use lensrunner::judge::picture::{Crossing, World};
+use lensrunner::scene::disk::radial::page_thorne_flux;
+use lensrunner::spacetime::frames;
+use lensrunner::spacetime::matter::{ShipState, gamma};
+use lensrunner::spacetime::metric::river_speed;
+
+/// What to measure.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Where it goes.
+    pub output: Output,
+    /// Pixels along each side of the picture that is compared.
+    pub pixels: usize,
+}
+
+/// Why there is no chart.
+#[derive(Debug, thiserror::Error)]
+pub enum ThinDiskError {
+    /// The CSV failed.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The drawing failed.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+}
+
+/// The scene: Gyoto's own example of a Page–Thorne disk without spin, seen from 100 M at 1.22 rad, 0.314 rad wide, cut off at 50 M.
+pub const RING: Ring = Ring { inner: 3.0, outer: 25.0 };
+
+/// The camera of it.
+pub fn screen(pixels: usize) -> Screen {
+    Screen { radius: 50.0, inclination: 1.22, field_of_view: 0.314_159_265_358_979_3, pixels }
+}
+
+/// The general judge's picture of the disk: geodesics in Painlevé–Gullstrand coordinates, every crossing of the plane.
+pub fn judge(screen: &Screen, ring: &Ring, tolerance: f64) -> Vec<Impact> {
+    let world = World::new(&[], Vec::new(), 0.0, true);
+    let position = screen.position();
+    let state = hovering(position);
+    let mut impacts = Vec::with_capacity(screen.pixels * screen.pixels);
+    for row in 0..screen.pixels {
+        for column in 0..screen.pixels {
+            // From the hovering camera's frame to the rain's: the photon moves against the look.
+            let photon = frames::ship_to_rain(state.momentum, state.attitude) * (-screen.look(column, row)).extend(1.0);
+            let (look, blue) = (-photon.truncate() / photon.w, 1.0 / photon.w);
+            let mut impact = Impact { radius: f64::NAN, g: f64::NAN };
+            world.look_through(position, look, tolerance, &mut |crossing| {
+                let r = crossing.position.length();
+                if impact.radius.is_nan() && (ring.inner..=ring.outer).contains(&r) {
+                    impact = Impact { radius: r, g: shift(&crossing, blue) };
+                }
+            });
+            impacts.push(impact);
+        }
+    }
+    impacts
+}
+
+fn hovering(position: DVec3) -> ShipState {
+    let r = position.length();
+    let beta = river_speed(r);
+    ShipState::new(position, position * (beta / (r * (1.0 - beta * beta).sqrt())))
+}
+
+/// g from the two four-velocities alone.
+fn shift(crossing: &Crossing, blue: f64) -> f64 {
+    let x = crossing.position;
+    let r = x.length();
+    let outward = x / r;
+    // A circular orbit: dφ/dT = Ω, dr/dT = 0, so p/γ = v + βn with v = Ω r.
+    let velocity = DVec3::Z.cross(outward) * (0.5 / r).sqrt() + outward * river_speed(r);
+    let momentum = velocity / (1.0 - velocity.length_squared()).sqrt();
+    let k = crossing.momentum;
+    blue / (gamma(momentum) * k.length() - momentum.dot(k))
+}
+
+/// Bolometric flux that is seen, in the unit of [`page_thorne_flux`]: the emitted one times g⁴.
+pub fn flux(impact: &Impact) -> f64 {
+    page_thorne_flux(2.0 * impact.radius) * impact.g.powi(4)
+}
+
+/// How two pictures differ.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Greatest relative difference in g over pixels that both see.
+    pub shift: f64,
+    /// The median.
+    pub shift_median: f64,
+    /// Greatest difference in flux over such pixels, relative to the brightest.
+    pub flux: f64,
+    /// The median.
+    pub flux_median: f64,
+    /// Pixels that only one sees.
+    pub coverage: usize,
+}
+
+/// Compares pixel by pixel.
+pub fn difference(truth: &[Impact], other: &[Impact]) -> Difference {
+    difference_in(truth, other, &other.iter().map(flux).collect::<Vec<f64>>())
+}
+
+/// Fluxes that have a unit of their own, the accretion rate being free: brought to ours by one factor, that of the sums over the picture.
+fn in_our_unit(truth: &[Impact], fluxes: &[f64]) -> Vec<f64> {
+    let (mut ours, mut theirs) = (0.0, 0.0);
+    for (ours_here, theirs_here) in truth.iter().map(flux).zip(fluxes).filter(|(a, b)| a.is_finite() && b.is_finite()) {
+        ours += ours_here;
+        theirs += theirs_here;
+    }
+    fluxes.iter().map(|f| f * ours / theirs).collect()
+}
+
+/// The same where the other has a map of `fluxes` by itself.
+fn difference_in(truth: &[Impact], other: &[Impact], fluxes_seen: &[f64]) -> Difference {
+    let peak = truth.iter().map(flux).filter(|f| f.is_finite()).fold(0.0, f64::max);
+    let (mut shifts, mut fluxes, mut coverage) = (Vec::new(), Vec::new(), 0);
+    for ((a, b), seen) in truth.iter().zip(other).zip(fluxes_seen) {
+        match (a.g.is_finite(), b.g.is_finite()) {
+            (true, true) => {
+                shifts.push((b.g / a.g - 1.0).abs());
+                fluxes.push((seen - flux(a)).abs() / peak);
+            }
+            (false, false) => {}
+            _ => coverage += 1,
+        }
+    }
+    let [(shift, shift_median), (flux, flux_median)] = [shifts, fluxes].map(most_and_median);
+    Difference { shift, shift_median, flux, flux_median, coverage }
+}
+
+fn most_and_median(mut values: Vec<f64>) -> (f64, f64) {
+    values.sort_by(f64::total_cmp);
+    (values.last().copied().unwrap_or(f64::NAN), values.get(values.len() / 2).copied().unwrap_or(f64::NAN))
+}
+
+const NAME: &str = "trace";
+const COLUMNS: [&str; 9] =
+    ["method", "tolerance", "rays", "rays_per_second", "shift_max", "shift_median", "flux_max", "flux_median", "coverage"];
+
+/// Measures, or takes the CSV that is there, and draws.
+pub fn run(request: &Request) -> Result<Vec<PathBuf>, ThinDiskError> {
+    let sheet = request.output.sheet::<ThinDiskError>(NAME, || Ok(measure(request.pixels)))?;
+    let [svg, png] = figure(&sheet).save(&request.output.folder, NAME)?;
+    Ok(vec![request.output.csv(NAME), svg, png])
+}
+
+fn measure(pixels: usize) -> Sheet {
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now("").notes();
+    let screen = screen(pixels);
+    // Beyond what f64 resolves: the steps are then as short as rounding allows.
+    let truth = judge(&screen, &RING, 1e-16);
+    let mut push = |method: &str, tolerance: f64, rays: usize, rate: f64, d: &Difference| {
+        let numbers = [d.shift, d.shift_median, d.flux, d.flux_median].map(|x| format!("{x:.3e}"));
+        let head = [method.to_owned(), format!("{tolerance:e}"), rays.to_string(), format!("{rate:.1}")];
+        sheet.push(head.into_iter().chain(numbers).chain([d.coverage.to_string()]));
+    };
+    for exponent in [4, 6, 8, 10, 12, 14] {
+        let tolerance = 10f64.powi(-exponent);
+        let (picture, rate) = timed(pixels * pixels, 0.3, || image(&screen, &RING, tolerance));
+        push("shape of the ray", tolerance, pixels * pixels, rate, &difference(&truth, &picture));
+    }
+    for exponent in [6, 9, 12] {
+        let tolerance = 10f64.powi(-exponent);
+        let (picture, rate) = timed(pixels * pixels, 0.3, || judge(&screen, &RING, tolerance));
+        push("judge", tolerance, pixels * pixels, rate, &difference(&truth, &picture));
+    }
+    let mut note = gyoto::MISSING.to_owned();
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        match gyoto::picture(&screen, &RING, tolerance) {
+            Ok(picture) => {
+                let found = difference_in(&truth, &picture.impacts, &in_our_unit(&truth, &picture.fluxes));
+                push("Gyoto", tolerance, pixels * pixels, picture.rate, &found);
+                note = picture.version;
+            }
+            Err(reason) => {
+                eprintln!("Gyoto: {reason}");
+                note = if reason == note { reason } else { format!("{note} ({reason})") };
+                break;
+            }
+        }
+    }
+    sheet.notes.push(("Gyoto".into(), note));
+    sheet
+}
+
+/// A picture and its rays a second, on one thread: repeated until `seconds` have gone by, the fastest taken.
+fn timed(rays: usize, seconds: f64, mut draw: impl FnMut() -> Vec<Impact>) -> (Vec<Impact>, f64) {
+    let began = Instant::now();
+    let mut best = f64::INFINITY;
+    loop {
+        let started = Instant::now();
+        let picture = draw();
+        best = best.min(started.elapsed().as_secs_f64());
+        if began.elapsed().as_secs_f64() > seconds {
+            return (picture, rays as f64 / best);
+        }
+    }
+}
+
+fn figure(sheet: &Sheet) -> Figure {
+    let methods = ["shape of the ray", "judge", "Gyoto"];
+    let points = |error: &str| -> Vec<Point> {
+        sheet
+            .rows
+            .iter()
+            .filter_map(|row| {
+                let family = methods.iter().position(|method| *method == sheet.text(row, "method"))?;
+                let (x, y) = (sheet.number(row, "rays_per_second"), sheet.number(row, error));
+                let label = sheet.text(row, "tolerance").to_owned();
+                (x > 0.0 && y.is_finite()).then(|| Point { x, y: y.max(1e-17), label, family, failed: false, chosen: false })
+            })
+            .collect()
+    };
+    let gyoto = sheet.rows.iter().find(|row| sheet.text(row, "method") == "Gyoto" && sheet.number(row, "tolerance") == 1e-6);
+    let rate = gyoto.map(|row| sheet.number(row, "rays_per_second"));
+    let panel = |title: &str, error: &str| {
+        Panel::Scatter(Scatter {
+            title: title.into(),
+            x: Axis::log("rays per second and core"),
+            y: Axis::log("median difference from the judge at 1e-16"),
+            points: points(error),
+            families: methods.map(String::from).to_vec(),
+            guides_x: rate.map(|rate| Guide { at: 1000.0 * rate, label: "1,000 × Gyoto".into() }).into_iter().collect(),
+            ..Scatter::default()
+        })
+    };
+    let mut footer = Provenance::footer(&sheet.notes);
+    footer.extend(sheet.note("Gyoto").map(|note| format!("Gyoto: {note}")));
+    Figure {
+        title: "A thin disk of Page and Thorne: error against speed".into(),
+        subtitle: "Seen from 100 M at 70°, cut off at 50 M. Each point is a tolerance. Right and down is better.".into(),
+        panels: vec![panel("Redshift", "shift_median"), panel("Bolometric flux, of the brightest", "flux_median")],
+        columns: 2,
+        size: [1400, 700],
+        footer,
+    }
+}
+
+/// The light's angular momentum about +z over its energy at a crossing, r_s: for tests of [`orbit_shift`].
+pub fn turning(crossing: &Crossing) -> f64 {
+    let (x, k) = (crossing.position, crossing.momentum);
+    let r = x.length();
+    let energy = k.length() - river_speed(r) * x.dot(k) / r;
+    x.cross(k).z / energy
+}
+
+/// As [`judge`]'s g, by the constants of the motion.
+pub fn shift_by_constants(crossing: &Crossing, screen: &Screen) -> f64 {
+    orbit_shift(crossing.position.length(), screen.radius, turning(crossing))
+}

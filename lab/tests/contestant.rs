@@ -1,0 +1,44 @@
+//! What the game hands in to the judge.
+
+use glam::DVec3;
+use lensrunner::judge::case::Case;
+use lensrunner::judge::picture::Quality;
+use lensrunner::scene::{self, GameConfig};
+use lensrunner_lab::contestant;
+
+#[test]
+fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
+    // The planet of `chase` is ten pixels wide here.
+    let case = Case::new(scene::load("chase").unwrap(), GameConfig::default(), 0.0, [160, 90]);
+    let planet = case.assembly.objects.iter().position(|object| object.body == scene::Body::Planet).unwrap() as u32 + 1;
+    let frame = contestant::draw(&case).unwrap();
+    let judge = case.trace(&Quality { samples: 1, tolerance: 1e-9, packet: 8 }, false, &|_| ());
+    let both = judge
+        .layers
+        .iter()
+        .zip(&frame.shown)
+        .filter(|(layer, shown)| (layer.object, layer.order) == (planet, 1) && (shown.object, shown.order) == (planet, 1));
+    let radius = f64::from(case.assembly.models[case.assembly.objects[planet as usize - 1].model].radius());
+    // At the rim a tenth of a pixel is a long way on the globe: the mean counts.
+    let off: Vec<f64> = both.map(|(layer, shown)| DVec3::from(shown.body.map(f64::from)).distance(case.body(layer))).collect();
+    assert!(off.len() > 40, "only {} pixels show the planet", off.len());
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(mean < 0.1 * radius, "points are {mean} off in the mean, of a globe of {radius}");
+}
+
+#[test]
+fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
+    use lensrunner_lab::compare::narrow;
+    // The ship ahead of the camera is drawn out to a ring of the second order, a hundredth of a pixel wide.
+    let mut config = GameConfig::default();
+    config.render.least_width = 0.001;
+    let case = Case::new(scene::load("plunge").unwrap(), config, 0.0, [320, 180]);
+    let frame = contestant::draw(&case).unwrap();
+    let mut judge = case.trace(&Quality { samples: 1, tolerance: 1e-8, packet: 8 }, false, &|_| ());
+    narrow::see_again(&mut judge, &frame, &case.probe(1e-8));
+    let seen: f32 = judge.shares.iter().flatten().filter(|share| share.1 == 2).map(|share| share.2).sum();
+    let drawn: Vec<f32> = frame.shown.iter().filter(|shown| shown.order == 2).map(|shown| shown.coverage).collect();
+    let sum: f32 = drawn.iter().sum();
+    assert!(drawn.len() > 40, "drawn in {} pixels", drawn.len());
+    assert!((sum - seen).abs() < 2.0, "{sum} pixels are drawn, {seen} seen");
+}

@@ -1,0 +1,18 @@
+//! Bounding volume hierarchies over any axis-aligned boxes (paper 4, Sei 2008): how they are built and checked. Straight rays through them are in the laboratory.
+//!
+//! - [`bounds`], [`build`](mod@build), [`tree`], [`validate`](mod@validate): a tree, and its inspector.
+//! - [`order`]: which pixels make good packets.
+
+// An axis indexes several arrays at once.
+#![allow(clippy::needless_range_loop)]
+
+pub mod bounds;
+pub mod build;
+pub mod order;
+pub mod tree;
+pub mod validate;
+
+pub use bounds::{Bounds, Scalar};
+pub use build::{Costs, Settings, build};
+pub use tree::{MAX_DEPTH, Node, Tree};
+pub use validate::{Census, Fault, validate};

@@ -1,0 +1,28 @@
+//! The judge of light: null geodesics integrated step by step in f64, sharing no code with the closed form of
+//! `spacetime::light` nor with the tables of `lensing`.
+//!
+//! - [`geodesic`]: one step of the equations of motion, a Taylor series with error control that is its own dense output.
+//! - `taylor`, `segments`: its coefficients, and steps of several rays side by side.
+//! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
+//! - [`mod@shoot`]: the look direction at which a given point is seen (boundary value).
+//! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
+//! - [`picture`]: whole pictures of a scene, with a tree.
+//! - [`probe`]: what is seen between the pixels.
+//! - [`case`]: the world that the judge sees of a simulated scene, and `lensrunner trace`. The one file here that knows `sim`.
+//! - [`bvh`]: trees of boxes over what a scene holds.
+//!
+//! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
+
+pub mod bvh;
+pub mod case;
+pub mod geodesic;
+pub mod picture;
+pub mod probe;
+pub mod ray;
+mod segments;
+pub mod shoot;
+mod taylor;
+pub mod trace;
+
+pub use ray::{End, Fate, Ray, RaySample, Stop, fate};
+pub use shoot::{Branch, Sighting, shoot, shoot_sky};

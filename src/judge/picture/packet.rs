@@ -1,0 +1,268 @@
+//! Packets of neighbouring geodesics through one scene: paper 4's idea along curves.
+//!
+//! The rays of a packet take their steps together, [`LANES`] at a time. A sheaf, the chord in their middle with the room that they need around it, goes
+//! down the tree once for all of them; where it meets something its quarters are asked, and so on down to single rays, which do what a ray alone
+//! does with what is left. Where the rays of a packet diverge, so that the sheaf is wide against its length, the packet is split in four for good.
+//! What a ray sees is the same to the last bit as when it goes alone: sheaves only ever leave out what cannot be met.
+
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+
+use glam::{DVec2, DVec3};
+
+use super::disk::Crossing;
+use super::find::{MOST_LOOKS, Near, Seen, beyond, growth, pieces};
+use super::span::Scope;
+use super::tree::Chord;
+use super::world::World;
+use crate::judge::ray::{End, Follower, Stop, orbit_plane, sky_radius};
+use crate::judge::segments::{LANES, PIECES, Segments};
+
+/// A packet is split where its sheaf is wider than this part of its length; a third more or less costs no more than two per cent.
+const WIDE: f64 = 0.5;
+/// So few rays are asked one by one where their sheaf meets something.
+const FEW: usize = 2;
+/// More leaves than this are no help to a single ray, which then goes down the tree itself.
+const MOST_LEAVES: usize = 24;
+
+/// A ray on its way.
+struct Walk {
+    follower: Follower,
+    axes: [DVec3; 2],
+    seen: Option<Seen>,
+    /// How many looks at flying bodies it has left.
+    looks: u32,
+    /// The step that it has just taken.
+    stride: Stride,
+}
+
+/// What of a ray's step its packet needs.
+#[derive(Clone, Copy, Default)]
+struct Stride {
+    /// Its number among the rays that took it, [`LANES`] at a time.
+    slot: usize,
+    /// Φ at the start of the step, radians.
+    swept: f64,
+    /// Where it is at the ends of its pieces, in r_s.
+    places: [DVec3; PIECES + 1],
+    /// How far the curve, and the boxes that a ray alone tries, stray from the chords between the places, in r_s.
+    strays: f64,
+    /// Delay at the start, and how much of it the step covers, in r_s/c.
+    start: f64,
+    length: f64,
+    /// Whether it may go through z = 0.
+    crosses: bool,
+}
+
+impl World<'_> {
+    /// What [`World::look_through`] sees from `position` (r_s) in each of these directions (rain frame), with the same bits, in less time where
+    /// neighbours stand together: every quarter of the list, and every quarter of it, should be a patch of the picture. `cross` is told the number
+    /// of the ray.
+    pub fn look_together(&self, position: DVec3, looks: &[DVec3], tolerance: f64, cross: &mut dyn FnMut(usize, Crossing)) -> Vec<Seen> {
+        if !self.hole {
+            let alone = |(i, &look): (usize, &DVec3)| self.look_through(position, look, tolerance, &mut |crossing| cross(i, crossing));
+            return looks.iter().enumerate().map(alone).collect();
+        }
+        let scope = self.scope(position.length());
+        let radius = scope.radius.max(sky_radius(position.length()));
+        let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
+        let walk = |&look: &DVec3| {
+            let (axes, in_plane) = orbit_plane(position, look);
+            let follower = Follower::new(position.length(), in_plane, tolerance, stop);
+            Walk { follower, axes, seen: None, looks: MOST_LOOKS, stride: Stride::default() }
+        };
+        let mut march = March { world: self, scope: &scope, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
+        let everything = Near::all(self);
+        let mut packets: Vec<Range<usize>> = std::iter::once(0..looks.len()).collect();
+        while !self.is_late() && march.step() {
+            let mut split = Vec::with_capacity(packets.len());
+            packets.drain(..).for_each(|packet| march.split(packet, &mut split));
+            packets = split;
+            for packet in &packets {
+                march.meet(packet.clone(), &everything);
+            }
+        }
+        let is_lost =
+            |walk: &&Walk| walk.looks == 0 || walk.seen.is_some_and(|seen| seen == Seen::Captured) && walk.follower.end == Some(End::Steps);
+        self.given_up.fetch_add(march.walks.iter().filter(is_lost).count(), Ordering::Relaxed);
+        // Every ray has ended, so every ray has seen something; or there is no time left for a picture.
+        march.walks.iter().map(|walk| walk.seen.unwrap_or(Seen::Captured)).collect()
+    }
+}
+
+struct March<'a> {
+    world: &'a World<'a>,
+    scope: &'a Scope,
+    walks: Vec<Walk>,
+    steps: Vec<Segments>,
+    tolerance: f64,
+    cross: &'a mut dyn FnMut(usize, Crossing),
+}
+
+impl March<'_> {
+    /// The next step of every ray that is still on its way; false where none is.
+    fn step(&mut self) -> bool {
+        for walk in self.walks.iter_mut().filter(|walk| walk.seen.is_none() && walk.follower.end.is_some()) {
+            walk.seen = Some(beyond(&walk.follower, walk.axes));
+        }
+        let alive: Vec<usize> = (0..self.walks.len()).filter(|&i| self.walks[i].seen.is_none()).collect();
+        while self.steps.len() < alive.len().div_ceil(LANES) {
+            self.steps.push(Segments::empty());
+        }
+        for (group, (step, rays)) in self.steps.iter_mut().zip(alive.chunks(LANES)).enumerate() {
+            // The last of too few goes more than once.
+            let here = std::array::from_fn::<_, LANES, _>(|lane| self.walks[rays[lane.min(rays.len() - 1)]].follower.here());
+            step.step(here.map(|here| here.0), &here.map(|here| here.1), self.tolerance);
+            for (lane, &ray) in rays.iter().enumerate() {
+                let walk = &mut self.walks[ray];
+                walk.stride = Stride::new(step, LANES * group + lane, walk.axes, walk.follower.swept);
+                walk.follower.advance(step.start[lane] + step.length[lane], step.end[lane]);
+            }
+        }
+        !alive.is_empty()
+    }
+
+    /// How many rays of a packet are still on their way.
+    fn count(&self, packet: &Range<usize>) -> usize {
+        self.strides(packet).count()
+    }
+
+    /// Adds the packet to the list, or its quarters where its rays have diverged.
+    fn split(&self, packet: Range<usize>, list: &mut Vec<Range<usize>>) {
+        match self.count(&packet) {
+            0 => {}
+            1 => list.push(packet),
+            _ if Sheaf::around(self.strides(&packet)).is_wide() => quarters(packet).for_each(|quarter| self.split(quarter, list)),
+            _ => list.push(packet),
+        }
+    }
+
+    fn strides(&self, packet: &Range<usize>) -> impl Iterator<Item = &Stride> {
+        self.walks[packet.clone()].iter().filter(|walk| walk.seen.is_none()).map(|walk| &walk.stride)
+    }
+
+    /// Finds what the rays of a packet meet in their step of what is `near` a larger one.
+    fn meet(&mut self, packet: Range<usize>, near: &Near) {
+        let count = self.count(&packet);
+        if count <= 1 {
+            return self.meet_each(packet, near, |_| true);
+        }
+        let near = Sheaf::around(self.strides(&packet)).near(self.world, self.scope, near);
+        if near.held.as_ref().is_some_and(|leaves| leaves.is_empty()) && near.flying.is_empty() {
+            self.meet_each(packet, &near, |stride| stride.crosses);
+        } else if count <= FEW {
+            self.meet_each(packet, &near, |_| true);
+        } else {
+            quarters(packet).for_each(|quarter| self.meet(quarter, &near));
+        }
+    }
+
+    /// Asks those rays of a packet one by one whose step has it.
+    fn meet_each(&mut self, packet: Range<usize>, near: &Near, asked: impl Fn(&Stride) -> bool) {
+        for ray in packet {
+            let Walk { axes, seen, looks, stride, .. } = &mut self.walks[ray];
+            if seen.is_none() && asked(stride) {
+                let segment = self.steps[stride.slot / LANES].lane(stride.slot % LANES);
+                let mut cross = |crossing| (self.cross)(ray, crossing);
+                *seen = self.world.meet(&segment, *axes, stride.swept, near, self.scope, &mut cross, looks).map(Seen::Hit);
+            }
+        }
+    }
+}
+
+/// Four parts of as equal length as can be, or fewer.
+fn quarters(packet: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+    let length = packet.len().div_ceil(4).max(1);
+    packet.clone().step_by(length).map(move |start| start..(start + length).min(packet.end))
+}
+
+impl Stride {
+    fn new(step: &Segments, slot: usize, axes: [DVec3; 2], swept: f64) -> Stride {
+        let lane = slot % LANES;
+        let (bend, length) = (step.bend[lane], step.length[lane]);
+        let along = step.along(lane);
+        let ends = [along[0], along[PIECES]];
+        let own = length / pieces(bend, length, ends[0].distance(ends[1]));
+        let height = |place: DVec2| axes[0].z * place.x + axes[1].z * place.y;
+        Stride {
+            slot,
+            swept,
+            places: along.map(|place| axes[0] * place.x + axes[1] * place.y),
+            // From the sheaf's chords to the curve, from it to the chords of a ray alone, and from those as far as boxes are grown for it.
+            strays: growth(bend, length / PIECES as f64, ends) + 2.0 * growth(bend, own, ends),
+            start: step.start[lane],
+            length,
+            // The plane goes through the hole, round which a step turns by less than half a turn: it is crossed once at most.
+            crosses: height(ends[0]) * height(ends[1]) <= 0.0,
+        }
+    }
+}
+
+/// All rays of a packet in one step: at the end of each piece a box that holds them.
+struct Sheaf {
+    low: [DVec3; PIECES + 1],
+    high: [DVec3; PIECES + 1],
+    strays: f64,
+    /// The least and the greatest delay at the ends of the pieces, in r_s/c.
+    times: [[f64; 2]; PIECES + 1],
+}
+
+impl Sheaf {
+    fn around<'a>(strides: impl Iterator<Item = &'a Stride>) -> Sheaf {
+        let mut sheaf = Sheaf {
+            low: [DVec3::INFINITY; PIECES + 1],
+            high: [DVec3::NEG_INFINITY; PIECES + 1],
+            strays: 0.0,
+            times: [[f64::INFINITY, f64::NEG_INFINITY]; PIECES + 1],
+        };
+        for stride in strides {
+            for k in 0..=PIECES {
+                sheaf.low[k] = sheaf.low[k].min(stride.places[k]);
+                sheaf.high[k] = sheaf.high[k].max(stride.places[k]);
+                let time = stride.start + stride.length * (k as f64 / PIECES as f64);
+                sheaf.times[k] = [sheaf.times[k][0].min(time), sheaf.times[k][1].max(time)];
+            }
+            sheaf.strays = sheaf.strays.max(stride.strays);
+        }
+        sheaf
+    }
+
+    fn is_wide(&self) -> bool {
+        let width = (0..=PIECES).map(|k| (self.high[k] - self.low[k]).max_element()).fold(0.0, f64::max);
+        let length = (self.low[0] + self.high[0]).distance(self.low[PIECES] + self.high[PIECES]) / 2.0;
+        width > WIDE * length
+    }
+
+    /// A chord in the middle of a piece, and how far on each axis what the rays do strays from it.
+    fn chord(&self, piece: usize) -> Chord {
+        let ends = [piece, piece + 1];
+        let [from, to] = ends.map(|k| 0.5 * (self.low[k] + self.high[k]));
+        let [a, b] = ends.map(|k| 0.5 * (self.high[k] - self.low[k]));
+        // Rounding: a few ulp of the distance from the hole.
+        let rounding = 4e-15 * (1.0 + from.length().max(to.length()));
+        Chord::new(from, to, a.max(b) + self.strays + rounding)
+    }
+
+    /// What of `outer` the rays may meet.
+    fn near(&self, world: &World, scope: &Scope, outer: &Near) -> Near {
+        let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
+        let tree = &world.held.tree;
+        let held = match &outer.held {
+            Some(leaves) => {
+                let passes = |leaf: &&u32| chords.iter().any(|chord| tree.passes(**leaf, chord));
+                Some(leaves.iter().filter(passes).copied().collect())
+            }
+            None => {
+                let mut leaves = Vec::new();
+                chords.iter().all(|chord| tree.gather(chord, MOST_LEAVES, &mut leaves)).then_some(leaves)
+            }
+        };
+        let touched = |number: &&u32| {
+            (0..PIECES).any(|k| {
+                let [from, to] = [self.times[k][0], self.times[k + 1][1]];
+                scope.allows(**number, from, to) && world.flying[**number as usize].sweep.touches(&chords[k], from, to)
+            })
+        };
+        Near { held, flying: outer.flying.iter().filter(touched).copied().collect() }
+    }
+}

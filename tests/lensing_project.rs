@@ -1,0 +1,167 @@
+//! The `project` table: its numbers, its form, and what it says about wrong input.
+
+use lensrunner::lensing::project::{Frame, Request, method, project, significant};
+use lensrunner::spacetime::light::{Branch, Order};
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
+
+const PRIMARY: Request = Request { order: Order::ALL[0], frame: Frame::Static, branch: Branch::Plus };
+
+/// The answer's rows, split into fields.
+fn rows(input: &str, request: Request) -> Vec<Vec<String>> {
+    let exact = method("exact").expect("it exists");
+    let output = project(input, exact.as_ref(), request).expect("good input");
+    let mut lines = output.lines();
+    assert_eq!(lines.next(), Some("r,phi,L,psi,delay,redshift"));
+    lines.map(|line| line.split(',').map(str::to_owned).collect()).collect()
+}
+
+fn complaint(input: &str) -> String {
+    let exact = method("exact").expect("it exists");
+    project(input, exact.as_ref(), PRIMARY).expect_err("wrong input").to_string()
+}
+
+#[test]
+fn the_documented_example() {
+    let rows = rows("r,phi,L\n20,1.5707963267948966,10\n", PRIMARY);
+    let expected = "20,1.5707963267948966,10,1.92414872116,20.8593948055,1.02740233383";
+    assert_eq!(rows[0].join(","), expected);
+}
+
+#[test]
+fn order_of_rows_and_spelling_of_fields_are_kept() {
+    let input = "r,phi,L\r\n 2e1 ,1.50,10.000\r\n5,0.1,7\r\n20,1.50,1e1\r\n\r\n";
+    let rows = rows(input, PRIMARY);
+    assert_eq!(rows.len(), 3);
+    assert_eq!(rows[0][..3], ["2e1", "1.50", "10.000"]);
+    assert_eq!(rows[1][..3], ["5", "0.1", "7"]);
+    assert_eq!(rows[0][3..], rows[2][3..]);
+}
+
+/// Spreadsheets put a byte order mark before the header.
+#[test]
+fn a_byte_order_mark_is_passed_over() {
+    let row = "r,phi,L\n20,1.5,10\n";
+    assert_eq!(rows(&format!("\u{feff}{row}"), PRIMARY), rows(row, PRIMARY));
+    assert!(complaint(&format!("\u{feff}\u{feff}{row}")).starts_with("line 1: "), "only one");
+}
+
+/// Eight at a time or one by one, light of negative energy is the same.
+#[test]
+fn the_batch_answers_for_both_signs_of_energy() {
+    let [one, eight] = ["table", "table-batch"].map(|name| method(name).expect("it exists"));
+    let input = "r,phi,L\n0.8,0.2,0.5\n0.9,0.3,0.2\n5,1,0.5\n5,1,3\n";
+    let [plus, minus] = [Branch::Plus, Branch::Minus].map(|branch| {
+        let request = Request { frame: Frame::Rain, branch, ..PRIMARY };
+        let [one, eight] = [&one, &eight].map(|method| project(input, method.as_ref(), request).expect("good input"));
+        let fields = |text: &str| -> Vec<Vec<f64>> {
+            text.lines().skip(1).map(|line| line.split(',').filter_map(|field| field.parse().ok()).collect()).collect()
+        };
+        for (one, eight) in fields(&one).iter().zip(fields(&eight)) {
+            assert_eq!(one.len(), eight.len(), "{branch:?}: {one:?} and {eight:?}");
+            assert!(one.iter().zip(&eight).all(|(a, b)| (a - b).abs() < 1e-4 * (1.0 + a.abs())), "{branch:?}: {one:?} and {eight:?}");
+        }
+        fields(&eight)
+    });
+    assert!(plus[0] != minus[0] && plus[1] != minus[1], "inside the two differ");
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-5 * (1.0 + a.abs());
+    assert!(plus[2..].concat().iter().zip(&minus[2..].concat()).all(same), "from outside there is one");
+}
+
+#[test]
+fn fields_that_do_not_exist_are_empty() {
+    let at = |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();
+    let rain = Request { frame: Frame::Rain, ..PRIMARY };
+    let filled = |fields: &[String]| fields.iter().map(|field| !field.is_empty()).collect::<Vec<_>>();
+    assert_eq!(filled(&at("0.5,1,5", PRIMARY)), [false, false, false], "inside from outside");
+    assert_eq!(filled(&at("0.3,1,0.5", rain)), [false, false, false], "deeper than the camera");
+    assert_eq!(filled(&at("5,1,0.5", PRIMARY)), [false, true, false], "no static camera inside");
+    assert_eq!(filled(&at("5,1,0.5", rain)), [true, true, false], "no static redshift inside");
+    assert_eq!(filled(&at("5,1,1", PRIMARY)), [false, true, false], "on the horizon");
+    assert_eq!(filled(&at("5,1,2", rain)), [true, true, true]);
+    // Inside, only the first order; the branch matters only with both ends inside.
+    let minus = Request { branch: Branch::Minus, ..rain };
+    assert_eq!(at("5,1,0.5", minus), at("5,1,0.5", rain));
+    assert_ne!(at("0.8,0.2,0.5", minus), at("0.8,0.2,0.5", rain));
+    let second = Request { order: Order::ALL[1], ..rain };
+    assert_eq!(filled(&at("0.8,0.2,0.5", second)), [false, false, false]);
+}
+
+#[test]
+fn the_axis_is_stepped_off() {
+    let input = "r,phi,L\n20,0,10\n20,1e-9,10\n20,3.141592653589793,10\n20,3.1415926526,10\n";
+    let rows = rows(input, PRIMARY);
+    assert_eq!(rows[0][3..], rows[1][3..]);
+    let close = |a: &str, b: &str| {
+        let (a, b): (f64, f64) = (a.parse().expect("a number"), b.parse().expect("a number"));
+        (a - b).abs() < 1e-9
+    };
+    assert!(close(&rows[2][3], "2.6989684589193") && close(&rows[3][3], "2.6989684589193"));
+}
+
+#[test]
+fn wrong_input_names_its_line() {
+    assert!(complaint("").contains("line 1"));
+    assert!(complaint("20,1,10\n").contains("line 1"));
+    assert!(complaint("r,phi\n20,1\n").contains("line 1"));
+    for (row, what) in [
+        ("20,x,10", "phi"),
+        ("20,1", "3 fields"),
+        ("20,1,10,4", "3 fields"),
+        ("NaN,1,10", "r = NaN"),
+        ("20,1,inf", "L = inf"),
+        ("0,1,10", "r = 0"),
+        ("20,1,-1", "L = -1"),
+        ("20,-0.1,10", "phi = -0.1"),
+        ("20,3.15,10", "0 to π"),
+        ("", "3 fields"),
+    ] {
+        let message = complaint(&format!("r,phi,L\n20,1,10\n{row}\n20,1,10\n"));
+        assert!(message.contains("line 3") && message.contains(what), "{row:?}: {message}");
+    }
+    assert!(method("exakt").err().expect("unknown").to_string().contains("exact"));
+}
+
+#[test]
+fn twelve_significant_digits() {
+    assert_eq!(significant(1.0), "1.00000000000");
+    assert_eq!(significant(123456.789012345), "123456.789012");
+    assert_eq!(significant(0.000123456789012345), "0.000123456789012");
+    assert_eq!(significant(9.9999999999999), "10.0000000000");
+    assert_eq!(significant(1.5e20), "1.50000000000e20");
+    assert_eq!(significant(-2.5e-9), "-2.50000000000e-9");
+    assert_eq!(significant(f64::INFINITY), "");
+}
+
+fn command_line(arguments: &[&str], input: &[u8]) -> Output {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_lensrunner"))
+        .arg("project")
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // It may end before it has read everything.
+    let _ = child.stdin.take().expect("piped").write_all(input);
+    child.wait_with_output().expect("the program ends")
+}
+
+#[test]
+fn the_command_line_answers_and_refuses() {
+    let good = command_line(&["--frame", "rain", "--order", "2"], b"r,phi,L\n20,1,10\n");
+    assert!(good.status.success() && good.stdout.starts_with(b"r,phi,L,psi,delay,redshift\n20,1,10,"));
+    for (arguments, input) in [
+        (&[][..], &b"r,phi,L\n20,1,10\n20,y,10\n"[..]),
+        (&[], b"r,phi,L\n20,1,10\n20,\xff,10\n"),
+        (&["--method", "exakt"], b"r,phi,L\n"),
+        (&["--order", "4"], b"r,phi,L\n"),
+        (&["--frame", "ship"], b"r,phi,L\n"),
+    ] {
+        let refused = command_line(arguments, input);
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}");
+        assert!(refused.stdout.is_empty() && !refused.stderr.is_empty());
+    }
+    let named = command_line(&[], b"r,phi,L\n20,1,10\n20,\xff,10\n");
+    assert!(String::from_utf8_lossy(&named.stderr).contains("line 3"));
+}
