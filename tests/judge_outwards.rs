@@ -61,7 +61,7 @@ fn what_moves_outwards_is_asked_a_few_times_a_ray() {
         let look = |i: u32| case.camera.look(f64::from(i % 32) + 0.5, f64::from(i / 32) + 0.5).0;
         for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
             let looks: Vec<DVec3> = tile.iter().map(|&i| look(i)).collect();
-            world.look_together(case.camera.position, &looks, 1e-12, &mut |_, _| ());
+            world.look_together(case.camera.observer.position, &looks, 1e-12, &mut |_, _| ());
         }
         let asked = line.asked.load(Relaxed) / (SIZE[0] * SIZE[1]) as u64;
         assert!(asked < 2_000, "{position:?} {momentum:?}: asked {asked} times a ray");

@@ -4,10 +4,11 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
-use lensrunner::judge::trace::{Camera, Mesh};
 use lensrunner::judge::trace;
+use lensrunner::judge::trace::{Camera, Mesh};
 use lensrunner::scene::lighting::Surroundings;
 use lensrunner::scene::{Material, Model, Vertex};
+use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 const TOLERANCE: f64 = 1e-13;
@@ -260,10 +261,12 @@ fn a_camera_sees_where_it_looks() {
     let mut rng = StdRng::seed_from_u64(16);
     for _ in 0..200 {
         let camera = Camera {
-            position: DVec3::new(9.0, 0.0, 0.0),
-            momentum: any_direction(&mut rng) * rng.random_range(0.0..3.0),
-            attitude: DQuat::from_scaled_axis(any_direction(&mut rng) * rng.random_range(0.0..PI)),
-            field_of_view: rng.random_range(0.3..2.5),
+            observer: Observer {
+                position: DVec3::new(9.0, 0.0, 0.0),
+                momentum: any_direction(&mut rng) * rng.random_range(0.0..3.0),
+                attitude: DQuat::from_scaled_axis(any_direction(&mut rng) * rng.random_range(0.0..PI)),
+                field_of_view: rng.random_range(0.3..2.5),
+            },
             size: [640, 360],
         };
         let (x, y) = (rng.random_range(0.0..640.0), rng.random_range(0.0..360.0));
@@ -285,10 +288,7 @@ fn stars_are_seen_where_shooting_sees_them() {
     let mut seen = [0; 3];
     for radius in [0.6, 1.2, 8.0] {
         let camera = Camera {
-            position: DVec3::Z * radius,
-            momentum: DVec3::ZERO,
-            attitude: DQuat::IDENTITY,
-            field_of_view: 2.4,
+            observer: Observer { position: DVec3::Z * radius, momentum: DVec3::ZERO, attitude: DQuat::IDENTITY, field_of_view: 2.4 },
             size: [1000, 1000],
         };
         for _ in 0..30 {
@@ -429,13 +429,13 @@ fn scenes_in_packets_are_the_same_pictures() {
         let ships: Vec<&dyn Worldline> = case.histories.iter().map(|history| history as &dyn Worldline).collect();
         let (world, camera) = (case.world(&ships), &case.camera);
         let look = |i: usize| camera.look((i % SIZE[0]) as f64 + 0.5, (i / SIZE[0]) as f64 + 0.5).0;
-        let alone: Vec<Seen> = (0..SIZE[0] * SIZE[1]).map(|i| world.look(camera.position, look(i), 1e-11)).collect();
+        let alone: Vec<Seen> = (0..SIZE[0] * SIZE[1]).map(|i| world.look(camera.observer.position, look(i), 1e-11)).collect();
         assert!(alone.iter().any(|seen| matches!(seen, Seen::Hit(_))), "{name} shows nothing");
         for packet in 1..=8 {
             let (order, starts) = lensrunner::judge::bvh::order::squares(SIZE, packet);
             for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
                 let looks: Vec<DVec3> = tile.iter().map(|&i| look(i as usize)).collect();
-                let together = world.look_together(camera.position, &looks, 1e-11, &mut |_, _| ());
+                let together = world.look_together(camera.observer.position, &looks, 1e-11, &mut |_, _| ());
                 for (seen, &i) in together.iter().zip(tile) {
                     assert_eq!(bits(seen), bits(&alone[i as usize]), "{name}, packets of {packet}, pixel {i}");
                 }

@@ -165,3 +165,21 @@ fn the_command_line_answers_and_refuses() {
     let named = command_line(&[], b"r,phi,L\n20,1,10\n20,\xff,10\n");
     assert!(String::from_utf8_lossy(&named.stderr).contains("line 3"));
 }
+
+#[test]
+fn every_method_is_named_where_it_is_asked_for() {
+    use lensrunner::lensing::methods::{self, CATALOGUE};
+    let run = |arguments: &[&str]| Command::new(env!("CARGO_BIN_EXE_lensrunner")).args(arguments).output().expect("the program starts");
+    let help = String::from_utf8(run(&["project", "--help"]).stdout).unwrap();
+    let wrong = run(&["project", "--method", "exakt"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    let complaint = String::from_utf8(wrong.stderr).unwrap();
+    for entry in CATALOGUE {
+        assert!(help.contains(entry.name) && complaint.contains(entry.name), "{} is not named", entry.name);
+    }
+    // Those without a table of their own are made at once.
+    for name in ["exact", "table", "table-batch", "newton", "rk4-16", "beloborodov", "poutanen", "flat"] {
+        assert!(methods::named(name).is_some(), "{name}");
+    }
+    assert!(methods::named("paper1-17").is_none() && methods::named("rk4-").is_none());
+}

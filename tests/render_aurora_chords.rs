@@ -1,12 +1,13 @@
 //! The game's own chords, read back from its shader: the light of a streak lies where exact rays have it.
 
+use lensrunner::spacetime::Observer;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use lensrunner::lensing::{self, Slice};
 use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraFrame, BOTH_POLES, Show, planet_history};
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::placements::{View, light_path};
 use lensrunner::render::readback;
 use lensrunner::render::renderer::Surroundings;
@@ -36,7 +37,7 @@ struct End {
 }
 
 /// Of each image, part, pole and kind the ends of its chords from above, as the shader has them.
-fn ends_of(renderer: &mut Renderer, camera: Camera, frame: &AuroraFrame, settings: &Settings) -> Vec<Vec<End>> {
+fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, settings: &Settings) -> Vec<Vec<End>> {
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(frame.clone()), settings: *settings };
     renderer.picture(&input, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.aurora().references()).unwrap();
@@ -70,7 +71,7 @@ fn between(ends: &[End], (kind, heights): (usize, [f32; 2]), height: f64, of: im
 }
 
 /// The apparent place, up to its distance, by the closed form: each place by light that left at its own time.
-fn by_exact_ray(camera: &Camera, planet: &Planet, history: &History, body: DVec3, order: Order) -> Option<DVec3> {
+fn by_exact_ray(camera: &Observer, planet: &Planet, history: &History, body: DVec3, order: Order) -> Option<DVec3> {
     let place = |time: f64| {
         let sample = history.at(time);
         let offset = sample.attitude * body * (planet.radius / PLANET_RADIUS);
@@ -86,7 +87,7 @@ fn by_exact_ray(camera: &Camera, planet: &Planet, history: &History, body: DVec3
 }
 
 /// By how much the ends of the light of streaks on the screen, or its length, are off, of what is allowed, from the least: against exact rays, and against many chords.
-fn hold(renderer: &mut Renderer, planet: &Planet, camera: Camera, config: &GameConfig, order: Option<u32>) -> [Vec<f64>; 2] {
+fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &GameConfig, order: Option<u32>) -> [Vec<f64>; 2] {
     let settings = settings(config);
     let table = renderer.table().clone();
     let slice = Slice::new(&table, camera.radius());

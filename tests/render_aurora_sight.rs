@@ -4,11 +4,12 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraFrame, Show};
-use lensrunner::render::frame::{Camera, FrameInput};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::placements::View;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};
+use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
 use crate::render_support::surroundings;
@@ -33,11 +34,11 @@ fn an_aurora_behind_the_camera_is_not_simulated() {
     config.aurora.streaks = 1000;
     let mut renderer = renderer();
     let stage = Stage::new(&mut renderer, &scene, &config);
-    let is_seen = |camera: Camera| stage.frame(camera, SIZE, 0.0, &[], None, &settings(&config)).aurora.is_some();
+    let is_seen = |camera: Observer| stage.frame(camera, SIZE, 0.0, &[], None, &settings(&config)).aurora.is_some();
     // Two thousand kilometres up: half of the sky is planet.
     let orbit = stage.camera(0.0, &[]);
     assert!(is_seen(orbit), "from orbit");
-    let turned = |axis: DVec3| Camera { attitude: orbit.attitude * DQuat::from_axis_angle(axis, std::f64::consts::PI), ..orbit };
+    let turned = |axis: DVec3| Observer { attitude: orbit.attitude * DQuat::from_axis_angle(axis, std::f64::consts::PI), ..orbit };
     assert!(!is_seen(turned(DVec3::X)) && !is_seen(turned(DVec3::Y)), "from orbit, the look reversed");
     // And from some radii away, where light delay and the hole's pull move it by a few degrees.
     let middle = scene.planet.unwrap().state(0.0).unwrap().position;

@@ -4,12 +4,13 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::placements::{Motion, Placed, View, place};
+use lensrunner::render::readback::Picture;
 use lensrunner::render::stage::static_camera;
-use lensrunner::render::{frame::Camera, readback::Picture};
+use lensrunner::spacetime::Observer;
 
 use crate::render_lookup::{Bench, bench};
 
-fn camera() -> Camera {
+fn camera() -> Observer {
     static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())
 }
 

@@ -1,5 +1,6 @@
 //! The drawn disk against the exact one: where it is seen and how it is shifted. Its pictures are in `render_disk_pictures.rs`.
 
+use lensrunner::spacetime::Observer;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
@@ -8,7 +9,7 @@ use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::arcs::ArcPass;
 use lensrunner::render::disk::sigma::{bearing, sigma};
 use lensrunner::render::disk::types::DiskVertex;
-use lensrunner::render::frame::{Camera, FrameInput};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::readback;
 use lensrunner::render::shaders::Pass;
 use lensrunner::scene::disk::{Gas, shares, slant};
@@ -25,7 +26,7 @@ struct Drawn {
     triangles: Vec<[u32; 3]>,
 }
 
-fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera) -> Drawn {
+fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer) -> Drawn {
     renderer.set_disk(Some(disk.clone()));
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     renderer.picture(&input, false).unwrap();
@@ -56,7 +57,7 @@ fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera) -> Drawn {
 }
 
 /// The exact ray of an order from a place on the disk: the direction in camera axes, and g for the gas there.
-pub fn exact(gas: &Gas, camera: &Camera, r: f64, azimuth: f64, order: Order) -> Option<(DVec3, f64)> {
+pub fn exact(gas: &Gas, camera: &Observer, r: f64, azimuth: f64, order: Order) -> Option<(DVec3, f64)> {
     let point = DVec3::new(r * azimuth.cos(), r * azimuth.sin(), 0.0);
     let l = camera.radius();
     let n = camera.position / l;
@@ -126,7 +127,7 @@ fn isoradials_are_luminets() {
     // With a gap all circles are drawn, however narrow.
     disk.config.gap = 0.5;
     let mut renderer = renderer([640, 16]);
-    let impact = |camera: &Camera, seen: DVec3| {
+    let impact = |camera: &Observer, seen: DVec3| {
         let l = camera.radius();
         2.0 * l * seen.x.hypot(seen.y) / (1.0 - 1.0 / l).sqrt()
     };

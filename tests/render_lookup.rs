@@ -1,12 +1,13 @@
 //! Vertices on the GPU against the exact ray and the judge: inside the horizon, across it, near it from afar, moving and turning.
 
+use lensrunner::spacetime::Observer;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
 use lensrunner::judge::shoot;
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, bake};
 use lensrunner::render::Renderer;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::method::Method;
 use lensrunner::render::placements::{Motion, Object, Placed, Surroundings as Light, View, place};
 use lensrunner::render::readback;
@@ -56,13 +57,13 @@ impl Bench {
         Object { model, coarse, stand_ins: &[], motion, reach: scale, scale, id, light }
     }
 
-    pub fn place(&self, camera: &Camera, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
+    pub fn place(&self, camera: &Observer, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
         place(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
     }
 
     /// The model's vertices as the GPU sees them, placement by placement.
-    pub fn seen(&mut self, camera: Camera, time: f64, placed: Vec<Placed>, settings: Settings) -> Vec<SeenVertex> {
+    pub fn seen(&mut self, camera: Observer, time: f64, placed: Vec<Placed>, settings: Settings) -> Vec<SeenVertex> {
         let frame = FrameInput { camera, time, placed, aurora: None, settings };
         self.renderer.picture(&frame, false).unwrap();
         let bytes = readback::buffer(&GPU, self.renderer.geometry().seen()).unwrap();
@@ -82,14 +83,14 @@ pub fn apparent(vertex: &SeenVertex) -> DVec3 {
 }
 
 /// r, φ, the outward unit vector and the one across of a place seen by a camera.
-fn polar(camera: &Camera, point: DVec3) -> (f64, f64, DVec3, DVec3) {
+fn polar(camera: &Observer, point: DVec3) -> (f64, f64, DVec3, DVec3) {
     let n = camera.position.normalize();
     let across = point - n * point.dot(n);
     (point.length(), across.length().atan2(point.dot(n)).max(1e-12), n, across.normalize_or_zero())
 }
 
 /// Where the light of order 1 or 2 from `point` is seen and how long it took, by the judge.
-fn judged(camera: &Camera, point: DVec3, order: u32, branch: Branch) -> Option<(DVec3, f64)> {
+fn judged(camera: &Observer, point: DVec3, order: u32, branch: Branch) -> Option<(DVec3, f64)> {
     let (r, phi, n, side) = polar(camera, point);
     let branch = if branch == Branch::Minus { lensrunner::judge::Branch::Minus } else { lensrunner::judge::Branch::Plus };
     let seen = shoot(r, phi, camera.radius(), order, branch, 1e-15)?;
@@ -97,9 +98,9 @@ fn judged(camera: &Camera, point: DVec3, order: u32, branch: Branch) -> Option<(
     Some((camera.seen_direction(n * seen.psi_rain.cos() + side * seen.psi_rain.sin()), seen.delay))
 }
 
-fn falling(position: DVec3, momentum: DVec3) -> Camera {
+fn falling(position: DVec3, momentum: DVec3) -> Observer {
     let attitude = frames::look(-position, DVec3::Y).unwrap_or(DQuat::IDENTITY);
-    Camera { position, momentum, attitude, field_of_view: 1.0 }
+    Observer { position, momentum, attitude, field_of_view: 1.0 }
 }
 
 /// A camera inside sees a ball that is held inside twice, by light of either sign of E, each vertex where the judge sees it.
@@ -181,7 +182,7 @@ fn point_at(history: &History, time: f64, body: DVec3) -> DVec3 {
 }
 
 /// When the light of a body point left that arrives at `time`, and by which branch: the last instant in the camera's past, by bisection.
-fn emission(camera: &Camera, time: f64, history: &History, body: DVec3, order: u32) -> (f64, Branch) {
+fn emission(camera: &Observer, time: f64, history: &History, body: DVec3, order: u32) -> (f64, Branch) {
     let past = |t: f64| -> (bool, Branch) {
         let (r, phi, _, _) = polar(camera, point_at(history, t, body));
         let connect = |branch| light::connect(1.0 / r, Order::new(order as u8).unwrap().swept(phi), 1.0 / camera.radius(), branch);
@@ -199,7 +200,7 @@ fn emission(camera: &Camera, time: f64, history: &History, body: DVec3, order: u
 }
 
 /// Every vertex of a ship in flight is where the judge sees the place that it had at its own emission time.
-fn check_flight(camera: Camera, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
+fn check_flight(camera: Observer, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
     let mut bench = bench();
     let settings = Settings { orders, ..Settings::default() };
     let placed = bench.place(&camera, time, &bench.object(Motion::Flying(history), size, 1), &settings);

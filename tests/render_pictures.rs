@@ -2,19 +2,20 @@
 
 use glam::DVec3;
 use lensrunner::lensing::Slice;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::placements::{Motion, Object, Surroundings as Light, View, place};
 use lensrunner::render::readback::{self, Picture};
 use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::{self, Body, GameConfig};
+use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::gpu::GPU;
 use crate::render_support::{renderer, settings};
 
 /// A scene's picture with its layers.
-fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
+fn picture(name: &str, size: [u32; 2]) -> (Picture, Observer) {
     let scene = scene::load(name).unwrap();
     let config = GameConfig::default();
     let mut renderer = renderer(size);
@@ -25,7 +26,7 @@ fn picture(name: &str, size: [u32; 2]) -> (Picture, Camera) {
 }
 
 /// Where the light of order `order` from `point` is seen, by the closed form: a direction in camera axes.
-pub fn exact(camera: &Camera, point: DVec3, order: Order) -> Option<DVec3> {
+pub fn exact(camera: &Observer, point: DVec3, order: Order) -> Option<DVec3> {
     let (l, r) = (camera.radius(), point.length());
     let n = camera.position / l;
     let across = point - n * point.dot(n);
@@ -94,7 +95,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
 }
 
 /// The edge of the shadow in camera axes: the angle from the direction to the hole (for a camera that looks at it and hovers), exact.
-fn shadow_radius(camera: &Camera, size: [u32; 2]) -> f64 {
+fn shadow_radius(camera: &Observer, size: [u32; 2]) -> f64 {
     let psi = light::shadow_angle(1.0 / camera.radius());
     let n = camera.position.normalize();
     let a = n.any_orthonormal_vector();
@@ -175,10 +176,12 @@ fn the_ring_is_where_the_judge_sees_it() {
         triangles: model.triangles.clone(),
     };
     let judge = JudgeCamera {
-        position: camera.position,
-        momentum: camera.momentum,
-        attitude: camera.attitude,
-        field_of_view: camera.field_of_view,
+        observer: Observer {
+            position: camera.position,
+            momentum: camera.momentum,
+            attitude: camera.attitude,
+            field_of_view: camera.field_of_view,
+        },
         size,
     };
     let id = |x: usize, y: usize| picture.layers[y * 320 + x][0];

@@ -3,7 +3,6 @@
 use glam::{DQuat, DVec2, DVec3};
 use lensrunner::render::aurora::shift::Shift;
 use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
-use lensrunner::render::frame::Camera;
 use lensrunner::render::layout;
 use lensrunner::render::placements::{View, light_path};
 use lensrunner::render::shaders::Pass;
@@ -12,6 +11,7 @@ use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::History;
+use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, velocity};
 
@@ -88,7 +88,7 @@ fn compare(view: &View, planet: &Planet, history: &History, allowed: f64) -> [f6
         };
         let arrives = |t: f64| {
             (0..60).fold(t, |arrived, _| {
-                let there = Camera { position: camera.position + flies * (arrived - time), ..*camera };
+                let there = Observer { position: camera.position + flies * (arrived - time), ..*camera };
                 t + light_path(&there, place(t), order, Branch::Plus).unwrap().0
             })
         };

@@ -1,10 +1,11 @@
 //! The way of the stars by itself: how a sky of stars is exposed.
 
+use lensrunner::spacetime::Observer;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::types::Star;
@@ -12,7 +13,7 @@ use lensrunner::render::types::Star;
 use crate::gpu::GPU;
 
 /// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
-fn picture(stars: &[Star], haze: f32, camera: Camera, size: [u32; 2], settings: Settings) -> Picture {
+fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> Picture {
     let surroundings = Surroundings {
         table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
         stars: stars.to_vec(),
@@ -29,8 +30,8 @@ fn star(direction: DVec3, flux: f32) -> Star {
 }
 
 /// A camera 10⁵ r_s away that looks along −z, across the direction of the hole.
-fn far_camera(momentum: DVec3) -> Camera {
-    Camera { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
+fn far_camera(momentum: DVec3) -> Observer {
+    Observer { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
 }
 
 /// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is developed alike. In cells of a

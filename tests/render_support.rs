@@ -1,12 +1,13 @@
 //! What several tests of the renderer need.
 
+use lensrunner::spacetime::Observer;
 use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use lensrunner::lensing::{self, SMALL_NODES, Scheme, Table, bake};
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::stage::{self, Stage, static_camera};
@@ -41,7 +42,7 @@ pub fn renderer(size: [u32; 2]) -> Renderer {
 }
 
 /// A hovering camera `degrees` from the disk's axis at radius `l`, looking at the hole.
-pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Camera {
+pub fn camera(l: f64, degrees: f64, field_of_view: f64) -> Observer {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let position = DVec3::new(0.0, -l * sine, l * cosine);
     static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), field_of_view)
@@ -59,7 +60,7 @@ pub fn settings() -> Settings {
 }
 
 /// The aurora alone: no planet, no sky.
-pub fn aurora_alone(stage: &Stage, camera: Camera, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
+pub fn aurora_alone(stage: &Stage, camera: Observer, size: [u32; 2], time: f64, config: &GameConfig) -> FrameInput {
     let mut settings = stage::settings(config);
     (settings.stars, settings.milky_way, settings.bloom) = (false, false, 0.0);
     let mut frame = stage.frame(camera, size, time, &[], None, &settings);

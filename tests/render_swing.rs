@@ -8,6 +8,7 @@ use lensrunner::render::swing::swing_at;
 use lensrunner::render::types::Placement;
 use lensrunner::sim::History;
 use lensrunner::sim::flight::Command;
+use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -123,8 +124,8 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     let bench = bench();
     let object = lensrunner::render::placements::Object { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
     let momentum = DVec3::ZERO;
-    let camera = lensrunner::render::frame::Camera { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
-    let camera = lensrunner::render::frame::Camera { position: DVec3::Z * 0.6942, ..camera };
+    let camera = Observer { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
+    let camera = Observer { position: DVec3::Z * 0.6942, ..camera };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::placements::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };

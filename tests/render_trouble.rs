@@ -1,18 +1,19 @@
 //! The renderer when something is wrong, and what each of its settings does.
 
 use glam::{DQuat, DVec3};
+use lensrunner::render::Gpu;
 use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::placements::{Motion, Placed};
 use lensrunner::render::readback::PictureError;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::stage::static_camera;
-use lensrunner::render::{Gpu, frame::Camera};
 use lensrunner::scene::{Material, shapes};
+use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light;
 
 use crate::render_lookup::{Bench, bench};
 
-fn camera() -> Camera {
+fn camera() -> Observer {
     static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())
 }
 

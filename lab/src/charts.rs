@@ -171,7 +171,6 @@ pub fn run(chart: ChartCommand) -> ExitCode {
 
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::disk::bench::Bench;
-    use lensrunner::render::frame::Camera;
     use lensrunner::render::{Gpu, shot};
     use lensrunner_lab::disk::chart::{Request, Shown, contestants, run};
     let config = match scene::config::find(args.config.as_deref()) {
@@ -195,10 +194,8 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     finish_chart(run(&request, &config, &adapter, &mut |number, view, picture| {
         let configs = || contestants(&config).into_iter().map(|contestant| contestant.config).collect();
         let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
-        let eye = &view.eye;
-        let camera = Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view };
         bench.set_counting(view.counted);
-        let frame = bench.frame(number, camera, view.time, view.sky, picture).map_err(|error| error.to_string())?;
+        let frame = bench.frame(number, view.eye, view.time, view.sky, picture).map_err(|error| error.to_string())?;
         Ok(Shown {
             whole: frame.whole,
             processor: frame.processor,

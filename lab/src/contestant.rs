@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use crate::compare::command::MARKS;
 use crate::compare::{Frame, Shown};
 use lensrunner::judge::case::Case;
+use lensrunner::render::Renderer;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::shot::{Compared, ShotError, for_comparison, marked, renderer};
-use lensrunner::render::{Renderer, frame};
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
@@ -45,15 +45,14 @@ impl Contestant {
 }
 
 fn compared_case(case: &Case) -> Compared<'_> {
-    let eye = &case.camera;
     Compared {
         scene: &case.scene,
         assembly: &case.assembly,
         config: &case.config,
         time: case.time,
         histories: case.histories.iter().collect(),
-        camera: frame::Camera { position: eye.position, momentum: eye.momentum, attitude: eye.attitude, field_of_view: eye.field_of_view },
-        size: eye.size,
+        camera: case.camera.observer,
+        size: case.camera.size,
     }
 }
 

@@ -76,7 +76,7 @@ fn everything() -> Figure {
         panels: vec![Panel::Scatter(scatter), Panel::Lines(lines), Panel::Bars(bars), Panel::Map(map)],
         columns: 2,
         size: [1000, 800],
-        footer: vec!["processor: one".into(), "lensrunner chart".into()],
+        footer: vec!["processor: one".into(), "lensrunner-lab chart".into()],
     }
 }
 
@@ -85,7 +85,8 @@ fn one_figure_becomes_svg_and_png() {
     let folder = crate::support::Folder::new();
     let [svg, png] = everything().save(folder.path(), "all").unwrap();
     let text = std::fs::read_to_string(svg).unwrap();
-    for word in ["All there is", "Another.", "exact φ ψ ≤ × °", "broken", "half a pixel", "dashed", "theirs", "lensrunner chart"] {
+    for word in ["All there is", "Another.", "exact φ ψ ≤ × °", "broken", "half a pixel", "dashed", "theirs", "lensrunner-lab chart"]
+    {
         assert!(text.contains(word), "the SVG lacks {word}");
     }
     let picture = image::open(png).unwrap().to_rgb8();

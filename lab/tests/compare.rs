@@ -119,7 +119,7 @@ fn dropped_triangles_are_holes() {
     let case = scene(&BALL.replace("4.0, 0.0, -12.0", "1.0, 0.0, -12.0"));
     let judge = trace(&case);
     let mut broken = Frame::of(&judge, &case);
-    let (axis, model) = (case.camera.position.normalize(), &case.assembly.models[0]);
+    let (axis, model) = (case.camera.observer.position.normalize(), &case.assembly.models[0]);
     let position = DVec3::new(1.0, 0.0, -12.0);
     let mut dropped = 0;
     for (layer, (shown, bare)) in judge.layers.iter().zip(broken.shown.iter_mut().zip(&mut broken.bare)) {
@@ -198,9 +198,9 @@ fn coarse_triangles_are_found() {
 /// Where, in pixels, the camera sees a point outside the hole in order 1, by shooting.
 fn seen(case: &Case, point: DVec3) -> Option<[f64; 2]> {
     use lensrunner::judge::{Branch, shoot};
-    let n = case.camera.position.normalize();
+    let n = case.camera.observer.position.normalize();
     let across = point - n * point.dot(n);
-    let sight = shoot(point.length(), across.length().atan2(point.dot(n)), case.camera.position.length(), 1, Branch::Plus, 1e-12)?;
+    let sight = shoot(point.length(), across.length().atan2(point.dot(n)), case.camera.observer.position.length(), 1, Branch::Plus, 1e-12)?;
     let look = n * sight.psi_rain.cos() + across.normalize() * sight.psi_rain.sin();
     Some(case.camera.seen_at(look)?.0)
 }
@@ -259,9 +259,9 @@ aurora = \"none\"
     // Straight light: the emission time by iteration, which converges as the planet is slow.
     let mut emission = 0.0;
     for _ in 0..60 {
-        emission = -planet.state(emission).unwrap().position.distance(case.camera.position);
+        emission = -planet.state(emission).unwrap().position.distance(case.camera.observer.position);
     }
-    let look = |time: f64| planet.state(time).unwrap().position - case.camera.position;
+    let look = |time: f64| planet.state(time).unwrap().position - case.camera.observer.position;
     let (centre, blue) = case.camera.seen_at(look(emission).normalize()).unwrap();
     let mean = |part: &dyn Fn(usize) -> usize| pixels.iter().map(|&i| part(i) as f64 + 0.5).sum::<f64>() / pixels.len() as f64;
     let mean = [mean(&|i| i % 160), mean(&|i| i / 160)];

@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
+use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use crate::render_support::{eye, renderer, settings};
+use crate::render_support::{renderer, settings};
 
 /// As large as a picture of the game: what is finer than a pixel elsewhere is seen here.
 const SIZE: [u32; 2] = [1280, 720];
@@ -16,14 +17,14 @@ const TIME: f64 = 100.0;
 
 /// The mean difference over the mean light in each part (where it begins, and its size in pixels) of the picture, against the exact one of 64 samples a
 /// pixel: lines of less than a pixel fall between 16.
-fn errors<const N: usize>(camera: Camera, parts: [[[u32; 2]; 2]; N]) -> [f64; N] {
+fn errors<const N: usize>(camera: Observer, parts: [[[u32; 2]; 2]; N]) -> [f64; N] {
     let mut renderer = renderer(SIZE);
     let config = GameConfig::default();
     let disk = Disk::new(config.disk.clone(), &config);
     renderer.set_disk(Some(disk.clone()));
     let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;
-    let eye = eye(&camera);
+    let eye = camera;
     parts.map(|part| {
         let [[left, top], size] = part;
         let drawn = |k: u32| {
@@ -94,7 +95,7 @@ fn thin_images_from_within_the_plane_have_no_holes() {
     let config = GameConfig::default();
     renderer.set_disk(Some(Disk::new(config.disk.clone(), &config)));
     let still = static_camera(DVec3::X * 1.6, DVec3::NEG_X, DVec3::Z, 120f64.to_radians());
-    let camera = Camera { momentum: DVec3::ZERO, ..still };
+    let camera = Observer { momentum: DVec3::ZERO, ..still };
     let input = FrameInput { camera, time: TIME, placed: Vec::new(), aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;
     let light = |x: f64, y: f64| f64::from(linear[(y as u32 * WIDTH + x as u32) as usize][1]);

@@ -2,12 +2,12 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Renderer;
-use lensrunner::render::frame::{Camera, Settings};
+use lensrunner::render::frame::Settings;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;
 use lensrunner::scene::{self, GameConfig};
-use lensrunner_lab::disk::Eye;
+use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk::exact::{self, Crossing};
 
 use crate::render_support::{renderer, settings};
@@ -25,7 +25,14 @@ fn dark(representation: &str) -> GameConfig {
 }
 
 /// A picture with layers of balls (place, model units to r_s) held round the hole, with a disk or without.
-fn balls(renderer: &mut Renderer, camera: Camera, balls: &[(DVec3, f64)], config: &GameConfig, disk: bool, settings: &Settings) -> Picture {
+fn balls(
+    renderer: &mut Renderer,
+    camera: Observer,
+    balls: &[(DVec3, f64)],
+    config: &GameConfig,
+    disk: bool,
+    settings: &Settings,
+) -> Picture {
     let mut text = if disk { "[disk]\n" } else { "" }.to_string();
     for (k, (p, size)) in balls.iter().enumerate() {
         text += &format!(
@@ -59,11 +66,12 @@ struct Left {
 }
 
 /// Of all images of the balls that there are without a disk.
-fn left(renderer: &mut Renderer, camera: Camera, all: &[(DVec3, f64)], config: &GameConfig, settings: &Settings) -> Vec<Left> {
+fn left(renderer: &mut Renderer, camera: Observer, all: &[(DVec3, f64)], config: &GameConfig, settings: &Settings) -> Vec<Left> {
     let with = balls(renderer, camera, all, config, true, settings);
     let alone = balls(renderer, camera, all, config, false, settings);
     let gas = Gas::new(&config.disk, config.hole.mass_solar);
-    let eye = Eye { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
+    let eye =
+        Observer { position: camera.position, momentum: camera.momentum, attitude: camera.attitude, field_of_view: camera.field_of_view };
     let image = |number: usize, order: u32| {
         let (mut drawn, mut exact, mut whole, mut most, mut crossings) = (0.0, 0.0, 0.0, 0.0, [0; 2]);
         let mut middle = [0.0; 2];
@@ -148,12 +156,12 @@ fn polygons_hide_thin_images_behind_them() {
 }
 
 /// That camera turned to a point of its picture and with so many pixels in one of those.
-fn nearer(camera: &Camera, at: [f64; 2], times: f64) -> Camera {
+fn nearer(camera: &Observer, at: [f64; 2], times: f64) -> Observer {
     let [width, height] = SIZE.map(f64::from);
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / width;
     let seen = DVec3::new((at[0] - 0.5 * width) * pixel, (0.5 * height - at[1]) * pixel, -1.0).normalize();
     let turn = DQuat::from_rotation_arc(DVec3::NEG_Z, seen);
-    Camera { attitude: camera.attitude * turn, field_of_view: 2.0 * (0.5 * width * pixel / times).atan(), ..*camera }
+    Observer { attitude: camera.attitude * turn, field_of_view: 2.0 * (0.5 * width * pixel / times).atan(), ..*camera }
 }
 
 /// Of a thin body that stands astride the disk's plane each part keeps what the gas before it leaves. The nearer part was laid over the farther one as if it stood before it,

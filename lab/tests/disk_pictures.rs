@@ -3,13 +3,14 @@
 use glam::DVec3;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::RENEWAL;
+use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
 use crate::render_support::a_disk;
-use crate::render_support::{camera, eye, renderer, settings};
+use crate::render_support::{camera, renderer, settings};
 
 /// The picture against the exact one, sample by sample: order 1, 2 and 3, streaks, shift, opacity and composition at once.
 #[test]
@@ -22,7 +23,7 @@ fn the_picture_is_the_exact_one() {
         renderer.set_disk(Some(disk.clone()));
         let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
         let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-        let eye = eye(&camera);
+        let eye = camera;
         let truth = disk::picture(&disk.gas, &eye, size, 100.0, 3, 2);
         let error = disk::compare(&got, &truth, size, disk::peak(&truth));
         println!("L = {l}, {degrees}°: {error:?}");
@@ -88,7 +89,7 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     renderer.set_disk(Some(disk.clone()));
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     let got: Vec<[f32; 3]> = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-    let eye = eye(&camera);
+    let eye = camera;
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
@@ -145,7 +146,7 @@ fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
     let straight = Settings { method: Method::Flat, ..settings() };
     let picture = |renderer: &mut Renderer, l: f64| {
         let position = DVec3::new(0.0, -l, 0.3 * l);
-        let camera = Camera { position, momentum: DVec3::ZERO, ..camera(20.0, 70.0, 90f64.to_radians()) };
+        let camera = Observer { position, momentum: DVec3::ZERO, ..camera(20.0, 70.0, 90f64.to_radians()) };
         let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: straight };
         renderer.picture(&input, false).unwrap().linear
     };
@@ -161,13 +162,13 @@ fn without_lensing_the_disk_is_the_same_on_both_sides_of_the_horizon() {
 }
 
 /// Linear light of a picture of the disk as it is configured, drawn at a time, and the exact one with that many image orders.
-fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Camera, size: [u32; 2], time: f64, orders: u32) -> [Vec<[f32; 3]>; 2] {
+fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Observer, size: [u32; 2], time: f64, orders: u32) -> [Vec<[f32; 3]>; 2] {
     renderer.set_disk(Some(disk.clone()));
     // A budget of many pixels: no third image unasked.
     let settings = Settings { orders, pixel_error: 100.0, ..settings() };
     let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
     let got = renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-    [got, disk::picture(&disk.gas, &eye(&camera), size, time, orders, 2)]
+    [got, disk::picture(&disk.gas, &camera, size, time, orders, 2)]
 }
 
 /// Where one generation of streaks dies and the next is born, at light that left at a whole number of renewals, the picture is as near to the truth as
@@ -185,7 +186,7 @@ fn no_seam_shows_where_a_generation_of_streaks_dies() {
     let mut pixels = [0; 2];
     for (k, (got, truth)) in got.iter().zip(&truth).enumerate() {
         let at = [f64::from(k as u32 % size[0]) + 0.5, f64::from(k as u32 / size[0]) + 0.5];
-        let crossing = disk::exact::crossings(&disk.gas, &eye(&camera), size, at, 1);
+        let crossing = disk::exact::crossings(&disk.gas, &camera, size, at, 1);
         let Some(crossing) = crossing.first().filter(|crossing| (4.0..10.0).contains(&crossing.radius)) else { continue };
         let phase = (time - crossing.path) / RENEWAL;
         let there = usize::from((phase - phase.round()).abs() > 0.02);
@@ -213,7 +214,7 @@ fn arcs_are_nearer_to_the_truth_than_polygons_or_as_near() {
     // By how many dB at least: about two thirds of what was measured; edge on they have been 0.05 apart.
     for (degrees, lead) in [(30.0, 2.0), (80.0, 2.0), (87.0, 0.5), (89.0, -0.3)] {
         let camera = camera(27.0, degrees, 60f64.to_radians());
-        let truth = disk::picture(&disks[0].gas, &eye(&camera), size, 100.0, 3, 2);
+        let truth = disk::picture(&disks[0].gas, &camera, size, 100.0, 3, 2);
         let [arcs, polygons] = std::array::from_fn(|k| {
             renderers[k].set_disk(Some(disks[k].clone()));
             let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };

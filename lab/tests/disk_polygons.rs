@@ -13,7 +13,7 @@ use lensrunner::scene::disk::polygons::rings;
 use lensrunner_lab::disk;
 
 use crate::gpu::GPU;
-use crate::render_support::{camera, eye, renderer, settings, total};
+use crate::render_support::{camera, renderer, settings, total};
 
 fn polygons(representation: &str) -> Disk {
     let mut config = GameConfig::default();
@@ -40,7 +40,7 @@ fn a_ring_is_seen_where_it_was() {
         for vertex in vertices.take_while(|vertex| (vertex.surface[2].to_bits() as usize) < rings.len()) {
             let [x, y, z, delay] = vertex.apparent.map(f64::from);
             let Some(at) = camera.pixel(glam::DVec3::new(x, y, z), size) else { continue };
-            let crossing = disk::exact::crossings(&disk.gas, &eye(&camera), size, at, 1);
+            let crossing = disk::exact::crossings(&disk.gas, &camera, size, at, 1);
             let Some(crossing) = crossing.first().filter(|crossing| crossing.radius < 11.9) else { continue };
             let ring = &rings[vertex.surface[2].to_bits() as usize];
             let left = time - crossing.path;

@@ -2,13 +2,14 @@
 
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::shaders::Pass;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::sprites::Sprites;
+use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use crate::render_support::{camera, eye, renderer, settings};
+use crate::render_support::{camera, renderer, settings};
 use crate::twin::run;
 
 fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
@@ -19,16 +20,16 @@ fn with(representation: &str, change: impl Fn(&mut GameConfig)) -> Disk {
 }
 
 /// The scene `disk-80` from 27 r_s.
-fn from_80_degrees() -> Camera {
+fn from_80_degrees() -> Observer {
     camera(27.0, 80.0, 60f64.to_radians())
 }
 
 /// Linear light of so many image orders, and no third one unasked.
-fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Camera, orders: u32) -> Vec<[f32; 3]> {
+fn drawn(renderer: &mut Renderer, disk: &Disk, camera: Observer, orders: u32) -> Vec<[f32; 3]> {
     drawn_at(renderer, disk, camera, 100.0, orders)
 }
 
-fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Camera, time: f64, orders: u32) -> Vec<[f32; 3]> {
+fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Observer, time: f64, orders: u32) -> Vec<[f32; 3]> {
     renderer.set_disk(Some(disk.clone()));
     let settings = Settings { orders, pixel_error: 100.0, ..settings() };
     let input = FrameInput { camera, time, placed: Vec::new(), aurora: None, settings };
@@ -53,7 +54,7 @@ fn the_front_image_hides_the_ghost() {
     let (mut pixels, mut other, mut worst, mut through) = (0, 0, 0.0f64, 0.0f64);
     for k in 0..both.len() {
         let at = [f64::from(k as u32 % size[0]) + 0.5, f64::from(k as u32 / size[0]) + 0.5];
-        let crossings = disk::exact::crossings(&sprites.gas, &eye(&camera), size, at, 2);
+        let crossings = disk::exact::crossings(&sprites.gas, &camera, size, at, 2);
         // Away from the edges, where gas is thin and lets the ghost through.
         let [first, second] = crossings[..] else { continue };
         if !(4.0..8.8).contains(&first.radius) || !(3.3..8.8).contains(&second.radius) {
@@ -117,7 +118,7 @@ fn the_picture_of_sprites_is_the_exact_one() {
     {
         let camera = camera(l, degrees, 60f64.to_radians());
         let got = drawn(&mut renderer, &sprites, camera, 2);
-        let truth = disk::picture(&sprites.gas, &eye(&camera), size, 100.0, 2, 3);
+        let truth = disk::picture(&sprites.gas, &camera, size, 100.0, 2, 3);
         let error = disk::compare(&got, &truth, size, disk::peak(&truth));
         let ratio = light(&got) / light(&truth);
         println!("L = {l}, {degrees}°: {error:?}, {ratio:.3} of the light");
@@ -136,7 +137,7 @@ fn sprites_without_streaks_have_their_light() {
     let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
     for (l, degrees) in [(27.0, 0.0), (27.0, 80.0), (6.5, 87.0)] {
         let camera = camera(l, degrees, 60f64.to_radians());
-        let truth = disk::picture(&sprites.gas, &eye(&camera), size, 100.0, 2, 3);
+        let truth = disk::picture(&sprites.gas, &camera, size, 100.0, 2, 3);
         let ratio = light(&drawn(&mut renderer, &sprites, camera, 2)) / light(&truth);
         println!("L = {l}, {degrees}°: {ratio:.4} of the light");
         assert!((ratio - 1.0).abs() < 0.005, "L = {l}, {degrees}°: {ratio} of the light");
@@ -154,7 +155,7 @@ fn the_third_image_of_sprites_has_its_light() {
     let light = |picture: &[[f32; 3]]| picture.iter().map(|p| f64::from(p[1])).sum::<f64>();
     let [third, second] = [3, 2].map(|orders| {
         [60.0, 100.0, 145.0].map(|time| {
-            let truth = disk::picture(&sprites.gas, &eye(&camera), size, time, orders, 2);
+            let truth = disk::picture(&sprites.gas, &camera, size, time, orders, 2);
             [drawn_at(&mut renderer, &sprites, camera, time, orders), truth].map(|picture| light(&picture))
         })
     });

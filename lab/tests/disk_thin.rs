@@ -3,12 +3,13 @@
 use glam::DVec3;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{Camera, FrameInput, Settings};
+use lensrunner::render::frame::{FrameInput, Settings};
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
+use lensrunner::spacetime::Observer;
 use lensrunner_lab::disk;
 
-use crate::render_support::{camera, eye, renderer, settings};
+use crate::render_support::{camera, renderer, settings};
 
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
@@ -18,7 +19,7 @@ const TIMES: [f64; 6] = [TIME, 400.0, 700.0, 1000.0, 1300.0, 1600.0];
 const SAMPLES: u32 = 6;
 
 /// A camera 27 r_s from the hole and `degrees` from the disk's axis, that sees little else than the images of order 2 and 3.
-fn far(degrees: f64) -> Camera {
+fn far(degrees: f64) -> Observer {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let position = 27.0 * DVec3::new(0.0, -sine, cosine);
     static_camera(position, -position, DVec3::new(0.1, 0.0, 1.0), 15f64.to_radians())
@@ -27,7 +28,7 @@ fn far(degrees: f64) -> Camera {
 /// Where the light of the third image is counted, and how closely.
 struct Place {
     name: &'static str,
-    camera: Camera,
+    camera: Observer,
     size: [u32; 2],
     /// Of the picture: the first pixel, width and height.
     part: [[u32; 2]; 2],
@@ -55,7 +56,7 @@ fn light_over_exact(place: &Place, turbulence: Option<f64>, times: &[f64]) -> [f
     config.disk.turbulence = turbulence.unwrap_or(config.disk.turbulence);
     let disk = Disk::new(config.disk.clone(), &config);
     renderer.set_disk(Some(disk.clone()));
-    let eye = eye(&camera);
+    let eye = camera;
     let [[left, top], [width, height]] = part;
     let sums = [1, 2, 3].map(|orders| {
         // A budget of many pixels: no third image unasked.

@@ -67,10 +67,10 @@ fn a_frozen_moment_is_the_same_place_without_its_past() {
         let planet = |case: &Case, time: f64| case.scene.planet.unwrap().state(time).unwrap().position;
         near(planet(&then, 10.0 - back), planet(&frozen, -back));
     }
-    near(then.camera.position, frozen.camera.position);
-    near(then.camera.momentum, frozen.camera.momentum);
-    assert!(then.camera.attitude.angle_between(frozen.camera.attitude) < 1e-6);
-    assert_eq!(then.camera.field_of_view, frozen.camera.field_of_view);
+    near(then.camera.observer.position, frozen.camera.observer.position);
+    near(then.camera.observer.momentum, frozen.camera.observer.momentum);
+    assert!(then.camera.observer.attitude.angle_between(frozen.camera.observer.attitude) < 1e-6);
+    assert_eq!(then.camera.observer.field_of_view, frozen.camera.observer.field_of_view);
     assert!(frozen.scene.disk(&frozen.config).is_some());
 }
 

@@ -53,7 +53,7 @@ fn a_verdict_takes_the_place_of_the_one_before() {
     assert_eq!(column("order"), ["1", "2", "3", "1"]);
     assert_eq!(column("percent")[0], "0.100");
     assert_eq!(column("verdict")[1], "one; two; three");
-    assert_eq!(column("command")[3], "lensrunner compare --scene ring --at 5 --size 640x360 --samples 9");
+    assert_eq!(column("command")[3], "lensrunner-lab compare --scene ring --at 5 --size 640x360 --samples 9");
     assert_eq!(page, markdown(&sheet));
     assert_eq!(page.lines().count(), 6);
     let line = "| `ring` | 5 | 640 × 360, 9 | ball 1 | 0.250, 0.500 | 1 of 900 px, 0.100 % |  | within |";

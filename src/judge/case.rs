@@ -198,16 +198,15 @@ impl Case {
         let time = moment.time();
         let view = scene.camera.viewpoint(time, &moment.ships());
         let ended = scene.camera.check(time, &moment.ships());
-        let camera =
-            Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view, size };
+        let camera = Camera { observer: view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
         for history in &mut histories {
             // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest light
             // that the judge looks for.
-            let mut back = 120.0 + 2.0 * camera.position.length();
+            let mut back = 120.0 + 2.0 * camera.observer.position.length();
             loop {
                 history.reach_back(time - back);
-                if back > 1e5 || history.at(time - back).position.length() + 120.0 + 2.0 * camera.position.length() < back {
+                if back > 1e5 || history.at(time - back).position.length() + 120.0 + 2.0 * camera.observer.position.length() < back {
                     break;
                 }
                 back *= 1.5;
@@ -365,7 +364,7 @@ struct Asked<'a> {
 impl Probe for Asked<'_> {
     fn at(&self, x: f64, y: f64) -> Option<Point> {
         let camera = &self.case.camera;
-        match self.world.look(camera.position, camera.look(x, y).0, self.tolerance) {
+        match self.world.look(camera.observer.position, camera.look(x, y).0, self.tolerance) {
             Seen::Hit(hit) => {
                 let thing = &self.world.things[hit.object];
                 let body = self.case.on_model(thing.model, hit.triangle, hit.barycentrics);
@@ -387,7 +386,7 @@ impl Probe for Asked<'_> {
     fn is_dark(&self, x: f64, y: f64) -> bool {
         let camera = &self.case.camera;
         let mut clear = true;
-        let seen = self.world.look_through(camera.position, camera.look(x, y).0, self.tolerance, &mut |crossing| {
+        let seen = self.world.look_through(camera.observer.position, camera.look(x, y).0, self.tolerance, &mut |crossing| {
             let r = crossing.position.length();
             clear &= self.gas.is_none_or(|[start, end]| r < start || r > end);
         });

@@ -2,22 +2,17 @@
 //!
 //! Brute force over triangles at rest, their planes looked for by dense samples: what tests hold `picture` against.
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 use super::geodesic::Segment;
 use super::ray::{End, Ray, Stop, sky_radius};
+use crate::spacetime::observer::Observer;
 
-/// A pinhole camera on a ship.
+/// A picture of so many pixels that an observer sees.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    /// Position in r_s from the hole.
-    pub position: DVec3,
-    /// Rain-frame momentum per mass.
-    pub momentum: DVec3,
-    /// Body axes to rain axes through the pure boost of `momentum`; the camera looks along −z, y is up.
-    pub attitude: DQuat,
-    /// Horizontal field of view, radians, below π.
-    pub field_of_view: f64,
+    /// Who looks.
+    pub observer: Observer,
     /// Width and height in pixels.
     pub size: [u32; 2],
 }
@@ -27,30 +22,30 @@ impl Camera {
     /// for a rain observer it is seen: ν_camera/ν_rain.
     pub fn look(&self, x: f64, y: f64) -> (DVec3, f64) {
         let [width, height] = self.size.map(f64::from);
-        let half = (0.5 * self.field_of_view).tan();
+        let half = (0.5 * self.observer.field_of_view).tan();
         let across = (2.0 * x / width - 1.0) * half;
         let up = (1.0 - 2.0 * y / height) * half * height / width;
         // The photon moves against the look; its momentum with frequency 1 goes from the ship's frame to the rain frame by the boost of p.
-        let photon = -(self.attitude * DVec3::new(across, up, -1.0).normalize());
-        let gamma = (1.0 + self.momentum.length_squared()).sqrt();
-        let along = self.momentum.dot(photon);
-        let rain = photon + self.momentum * (along / (1.0 + gamma) + 1.0);
+        let photon = -(self.observer.attitude * DVec3::new(across, up, -1.0).normalize());
+        let gamma = (1.0 + self.observer.momentum.length_squared()).sqrt();
+        let along = self.observer.momentum.dot(photon);
+        let rain = photon + self.observer.momentum * (along / (1.0 + gamma) + 1.0);
         let frequency = gamma + along;
         (-rain / frequency, 1.0 / frequency)
     }
 
     /// The inverse: where, in pixels, light is seen that comes from `look` (rain frame, unit), and ν_camera/ν_rain; None behind the camera.
     pub fn seen_at(&self, look: DVec3) -> Option<([f64; 2], f64)> {
-        let gamma = (1.0 + self.momentum.length_squared()).sqrt();
+        let gamma = (1.0 + self.observer.momentum.length_squared()).sqrt();
         let photon = -look;
-        let blue = gamma - self.momentum.dot(photon);
-        let boosted = photon + self.momentum * (self.momentum.dot(photon) / (1.0 + gamma) - 1.0);
-        let seen = self.attitude.conjugate() * -boosted;
+        let blue = gamma - self.observer.momentum.dot(photon);
+        let boosted = photon + self.observer.momentum * (self.observer.momentum.dot(photon) / (1.0 + gamma) - 1.0);
+        let seen = self.observer.attitude.conjugate() * -boosted;
         if seen.z >= 0.0 {
             return None;
         }
         let [width, height] = self.size.map(f64::from);
-        let focal = 0.5 * width / (0.5 * self.field_of_view).tan();
+        let focal = 0.5 * width / (0.5 * self.observer.field_of_view).tan();
         Some(([0.5 * width - focal * seen.x / seen.z, 0.5 * height + focal * seen.y / seen.z], blue))
     }
 }

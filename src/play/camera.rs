@@ -1,8 +1,8 @@
 //! Where the player's camera is: behind the ship or in its cockpit, following its turns smoothly.
 
+use crate::spacetime::Observer;
 use glam::{DQuat, DVec3};
 
-use crate::render::frame::Camera;
 use crate::render::stage::third_person;
 use crate::sim::Sample;
 use crate::spacetime::matter::ShipState;
@@ -61,7 +61,7 @@ pub fn state_of(sample: &Sample) -> ShipState {
 }
 
 /// The camera of `view` on a ship of `length` r_s whose camera has turned to `attitude`.
-pub fn on_ship(state: &ShipState, view: View, attitude: DQuat, length: f64, field_of_view: f64) -> Camera {
+pub fn on_ship(state: &ShipState, view: View, attitude: DQuat, length: f64, field_of_view: f64) -> Observer {
     let turned = ShipState { attitude, ..*state };
     let offset = match view {
         View::ThirdPerson => BEHIND * length,

@@ -1,8 +1,8 @@
 //! The demonstration flight's cameras: what is shown when.
 
+use crate::spacetime::Observer;
 use glam::{DQuat, DVec3};
 
-use crate::render::frame::Camera;
 use crate::render::stage::{static_camera, third_person};
 use crate::sim::History;
 use crate::spacetime::frames;
@@ -71,7 +71,7 @@ pub struct Cast<'a> {
 
 impl Director {
     /// The camera at T = `time`, `share` of the way through the flight, and the ship that is not drawn.
-    pub fn camera(&mut self, cast: &Cast, time: f64, share: f64, field_of_view: f64) -> (Camera, Option<usize>) {
+    pub fn camera(&mut self, cast: &Cast, time: f64, share: f64, field_of_view: f64) -> (Observer, Option<usize>) {
         let shot = shot_at(share);
         let (near, far) = match (shot, cast.quarry) {
             (Shot::Quarry, Some(quarry)) => (quarry, Some(cast.hunter)),
@@ -82,7 +82,7 @@ impl Director {
             return (wide(near.0.at(time).position, share, field_of_view), None);
         }
         let state = state_of(&near.0.at(time));
-        let resting = Camera { position: state.position, momentum: state.momentum, attitude: DQuat::IDENTITY, field_of_view };
+        let resting = Observer { position: state.position, momentum: state.momentum, attitude: DQuat::IDENTITY, field_of_view };
         // The disk's axis upwards.
         let wanted = far.and_then(|far| facing(&resting, time, far.0, DVec3::Z)).unwrap_or(state.attitude);
         self.attitude = if self.shot == Some(shot) { self.attitude.slerp(wanted, FOLLOW).normalize() } else { wanted };
@@ -96,7 +96,7 @@ impl Director {
 }
 
 /// A hovering camera above the side of the hole where the ships are, the hole in the middle.
-pub fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Camera {
+pub fn wide(ship: DVec3, share: f64, field_of_view: f64) -> Observer {
     let azimuth = ship.y.atan2(ship.x) - 0.35 + share;
     let position = DVec3::new(azimuth.cos(), azimuth.sin(), 0.32) * 15.0;
     static_camera(position, -position, DVec3::Z, field_of_view)
@@ -111,7 +111,7 @@ const HOLE_BEYOND: DVec3 = DVec3::new(0.45, 0.05, -1.0);
 
 /// A camera that flies with a caught ship `length` r_s long and sees all of it, the hole beyond and `own` (the position of the ship that caught it, in r_s) not in
 /// the way.
-pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_view: f64) -> Camera {
+pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_view: f64) -> Observer {
     let state = state_of(&caught.at(time));
     let inward = -state.position.normalize_or(DVec3::X);
     let across = inward.cross(DVec3::Z).normalize_or(DVec3::Y);
@@ -122,7 +122,7 @@ pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_
         let turned = ShipState { attitude: frames::look(sight, DVec3::Z).unwrap_or(DQuat::IDENTITY), ..state };
         third_person(&turned, DVec3::Z * (NEAR_CAUGHT * length), DQuat::from_rotation_y(ASIDE_CAUGHT), field_of_view)
     });
-    let fault = |camera: &Camera| {
+    let fault = |camera: &Observer| {
         let hole = camera.seen_direction(-camera.position.normalize_or(DVec3::X));
         let [to_own, to_caught] = [own, state.position].map(|place| place - camera.position);
         let in_front = to_own.length() < to_caught.length() && to_own.angle_between(to_caught) < 0.35;

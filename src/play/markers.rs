@@ -1,9 +1,8 @@
 //! The HUD's markers: where hole, target and course are on the screen, or arrows at its edge that point to them, each with its name.
 
+use crate::spacetime::Observer;
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2 as Size, vec2};
 use glam::DVec3;
-
-use crate::render::frame::Camera;
 
 use super::camera::BEHIND;
 use super::layout::settle;
@@ -21,7 +20,7 @@ pub enum Place {
 
 /// See [`Place`]; `size` in points, `inset` the distance of arrows from the edge.
 pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -> Place {
-    let camera = Camera { position: DVec3::X, momentum: DVec3::ZERO, attitude: glam::DQuat::IDENTITY, field_of_view };
+    let camera = Observer { position: DVec3::X, momentum: DVec3::ZERO, attitude: glam::DQuat::IDENTITY, field_of_view };
     // On a square of 1,000 pixels; its middle is the screen's.
     if let Some([x, y]) = camera.pixel(direction, [1000, 1000]) {
         let at = [0.5 * size[0] + (x - 500.0) * size[0] / 1000.0, 0.5 * size[1] + (y - 500.0) * size[0] / 1000.0];

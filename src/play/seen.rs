@@ -1,8 +1,8 @@
 //! Where the image of a ship appears: the same light path and emission time as the renderer's.
 
+use crate::spacetime::Observer;
 use glam::{DQuat, DVec3};
 
-use crate::render::frame::Camera;
 use crate::render::placements::{branch_of, emission_time};
 use crate::sim::History;
 use crate::spacetime::frames;
@@ -18,7 +18,7 @@ pub struct Apparition {
 }
 
 /// The image of this order of the ship with the worldline `history`, seen at T = `time`; None where no light of it arrives.
-pub fn apparition(camera: &Camera, time: f64, history: &History, order: Order) -> Option<Apparition> {
+pub fn apparition(camera: &Observer, time: f64, history: &History, order: Order) -> Option<Apparition> {
     let emitted = emission_time(camera, time, history, order)?;
     let position = history.at(emitted).position;
     Some(Apparition { direction: direction(camera, position, order, time - emitted)?, age: time - emitted })
@@ -26,13 +26,13 @@ pub fn apparition(camera: &Camera, time: f64, history: &History, order: Order) -
 
 /// The attitude in which `camera` has the image of order 1 of that ship in the middle, and `up` (rain axes) upwards; None where it is not seen. The camera is to
 /// stay where it is as it turns.
-pub fn facing(camera: &Camera, time: f64, history: &History, up: DVec3) -> Option<DQuat> {
+pub fn facing(camera: &Observer, time: f64, history: &History, up: DVec3) -> Option<DQuat> {
     let seen = apparition(camera, time, history, Order::ALL[0])?.direction;
     frames::look(camera.attitude * seen, up)
 }
 
 /// Where light from `position` (on the slice of its emission), `age` r_s/c old, is seen, in camera axes.
-pub fn direction(camera: &Camera, position: DVec3, order: Order, age: f64) -> Option<DVec3> {
+pub fn direction(camera: &Observer, position: DVec3, order: Order, age: f64) -> Option<DVec3> {
     let (l, r) = (camera.radius(), position.length());
     let outward = camera.position / l;
     let across = position - outward * position.dot(outward);
@@ -45,7 +45,7 @@ pub fn direction(camera: &Camera, position: DVec3, order: Order, age: f64) -> Op
 }
 
 /// The direction to where the ship really is on the slice T = const, as if light were straight and at once, in camera axes.
-pub fn true_direction(camera: &Camera, position: DVec3) -> Option<DVec3> {
+pub fn true_direction(camera: &Observer, position: DVec3) -> Option<DVec3> {
     (position - camera.position).try_normalize().map(|line| camera.attitude.conjugate() * line)
 }
 
@@ -54,8 +54,8 @@ mod tests {
     use super::*;
     use crate::spacetime::orbit::static_momentum;
 
-    fn hovering(position: DVec3) -> Camera {
-        Camera { position, momentum: static_momentum(position).unwrap_or_default(), attitude: DQuat::IDENTITY, field_of_view: 1.0 }
+    fn hovering(position: DVec3) -> Observer {
+        Observer { position, momentum: static_momentum(position).unwrap_or_default(), attitude: DQuat::IDENTITY, field_of_view: 1.0 }
     }
 
     #[test]

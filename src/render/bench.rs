@@ -1,4 +1,4 @@
-//! How long whole frames of a scene take, and their passes: `lensrunner chart frame`.
+//! How long whole frames of a scene take, and their passes: `lensrunner-lab chart frame`.
 
 use std::fmt;
 use std::io::Write;

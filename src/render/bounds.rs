@@ -3,13 +3,13 @@
 //! The image of a ball in one order lies between two angles ψ from outwards, and on one side of the axis as far round as the ball reaches. Each of the three is a
 //! cap of directions, the one about the axis or the one about the ball's middle; aberration turns caps into caps. Far from the axis and the horizon the last is enough.
 
+use crate::spacetime::Observer;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DVec3, DVec4};
 
 use crate::spacetime::light::Order;
 
-use super::frame::Camera;
 use super::method::Method;
 use super::placements::{Extent, MARGIN, View};
 
@@ -92,7 +92,7 @@ impl View<'_> {
 /// The cap of directions within `radius` of `middle` (rain axes) as the camera sees it, wider by `margin`; all in radians.
 ///
 /// It is d · middle ≥ cos radius for directions d, linear in the light's (d, −1), which the Lorentz matrix takes to the camera.
-fn seen_cap(camera: &Camera, middle: DVec3, radius: f64, margin: f64) -> [f32; 4] {
+fn seen_cap(camera: &Observer, middle: DVec3, radius: f64, margin: f64) -> [f32; 4] {
     if radius >= PI {
         return [0.0; 4];
     }

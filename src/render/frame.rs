@@ -1,6 +1,7 @@
 //! What one frame needs from below: a camera, things to see, settings. Plain data, made by `extract` in the game and by hand in tests.
 
-use glam::{DMat4, DQuat, DVec3};
+use crate::spacetime::Observer;
+use glam::DVec3;
 
 use crate::scene::stars::SKY_UNIT;
 use crate::scene::{blackbody, milky_way};
@@ -11,66 +12,6 @@ use super::aurora::AuroraFrame;
 use super::method::Method;
 use super::placements::Placed;
 use super::types::{self, flags};
-
-/// A camera: where it is, how it moves, which way it looks, how wide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Camera {
-    /// Position on the slice T = const, in r_s.
-    pub position: DVec3,
-    /// Rain-frame momentum per mass, in c.
-    pub momentum: DVec3,
-    /// Attitude: camera axes (+x right, +y up, −z forward) to rain axes through the pure boost of `momentum`.
-    pub attitude: DQuat,
-    /// Horizontal field of view in radians.
-    pub field_of_view: f64,
-}
-
-impl Camera {
-    /// The camera's radius L, in r_s.
-    pub fn radius(&self) -> f64 {
-        self.position.length()
-    }
-
-    /// The unit vectors (n, a, b): outward, and two across, which make a right-handed frame.
-    pub fn axis_frame(&self) -> [DVec3; 3] {
-        let n = self.position.normalize();
-        let (a, b) = n.any_orthonormal_pair();
-        // a × b = n for glam's pair.
-        [n, a, b]
-    }
-
-    /// Lorentz matrix from rain components to camera components.
-    pub fn camera_from_rain(&self) -> DMat4 {
-        frames::rain_to_ship(self.momentum, self.attitude)
-    }
-
-    /// Its inverse.
-    pub fn rain_from_camera(&self) -> DMat4 {
-        frames::ship_to_rain(self.momentum, self.attitude)
-    }
-
-    /// The direction in rain axes of the light seen in the camera's direction `seen` (camera axes, −z forward).
-    pub fn rain_direction(&self, seen: DVec3) -> DVec3 {
-        (self.rain_from_camera() * seen.normalize().extend(-1.0)).truncate().normalize()
-    }
-
-    /// Where the camera sees light that comes, in rain axes, from `look`: a unit vector in camera axes.
-    pub fn seen_direction(&self, look: DVec3) -> DVec3 {
-        // The boost of (look, −1), without its matrix: thousands of clusters of stars ask for this in every frame.
-        let boosted = frames::rest_to_rain(self.momentum, look.normalize()) + self.momentum;
-        (self.attitude.conjugate() * boosted).normalize()
-    }
-
-    /// Pixel coordinates (x right, y down, origin at the upper left corner) of a direction in camera axes, or None behind the camera.
-    pub fn pixel(&self, seen: DVec3, size: [u32; 2]) -> Option<[f64; 2]> {
-        if seen.z >= 0.0 {
-            return None;
-        }
-        let [width, height] = size.map(f64::from);
-        let focal = 0.5 * width / (0.5 * self.field_of_view).tan();
-        Some([0.5 * width - focal * seen.x / seen.z, 0.5 * height + focal * seen.y / seen.z])
-    }
-}
 
 /// How the picture is made; the numbers come from `game.toml`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,7 +122,7 @@ impl Default for Settings {
 #[derive(Clone, Debug)]
 pub struct FrameInput {
     /// The camera.
-    pub camera: Camera,
+    pub camera: Observer,
     /// The clock T, in r_s/c.
     pub time: f64,
     /// Objects in each order they are seen in.
@@ -265,22 +206,4 @@ pub const BLACKBODY_HOTTEST: f32 = 2.0e6;
 /// The table of black bodies: ln of linear sRGB radiance over ln T, relative to the luminance at 5,772 K.
 pub fn blackbody_table() -> Vec<[f32; 4]> {
     blackbody::table(512, BLACKBODY_COLDEST, BLACKBODY_HOTTEST)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_seen_direction_is_that_of_the_boosted_wave_vector() {
-        let attitude = DQuat::from_axis_angle(DVec3::new(1.0, -2.0, 0.5).normalize(), 1.3);
-        let momentum = DVec3::new(0.4, -1.7, 0.9);
-        let camera = Camera { position: DVec3::X * 9.0, momentum, attitude, field_of_view: 1.0 };
-        for look in [DVec3::X, DVec3::new(-0.3, 2.0, 0.7), DVec3::new(0.1, 0.2, -5.0), momentum, -momentum] {
-            let wave = camera.camera_from_rain() * look.normalize().extend(-1.0);
-            let seen = camera.seen_direction(look);
-            assert!((seen - wave.truncate().normalize()).length() < 1e-12, "{look}: {seen}");
-            assert!((camera.rain_direction(seen) - look.normalize()).length() < 1e-12, "{look}");
-        }
-    }
 }

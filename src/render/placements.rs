@@ -1,5 +1,6 @@
 //! Where each object is seen: for each image order the emission time of its centre and the motion around it, in f64, as the GPU's start.
 
+use crate::spacetime::Observer;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
@@ -13,7 +14,7 @@ use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
 use crate::spacetime::orbit::static_momentum;
 
-use super::frame::{Camera, Settings};
+use super::frame::Settings;
 use super::method::Method;
 use super::models::ModelRange;
 use super::swing::Swing;
@@ -151,7 +152,7 @@ const MOST_SLIM_FINE: f64 = 2.0;
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// The camera.
-    pub camera: &'a Camera,
+    pub camera: &'a Observer,
     /// The table at its radius.
     pub slice: &'a Slice,
     /// Angle of a pixel in radians.
@@ -177,12 +178,12 @@ pub(super) struct Extent {
 pub(super) const MARGIN: f64 = 3.0;
 
 impl Extent {
-    fn may_be_seen(&self, camera: &Camera, aspect: f64) -> bool {
+    fn may_be_seen(&self, camera: &Observer, aspect: f64) -> bool {
         may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
     }
 
     /// The part of the screen on which the image may be: left, upper, right and lower edge as shares of width and height.
-    pub(super) fn part_of_screen(&self, camera: &Camera, aspect: f64) -> [f64; 4] {
+    pub(super) fn part_of_screen(&self, camera: &Observer, aspect: f64) -> [f64; 4] {
         part_of_screen(camera, self.look, MARGIN * self.radius, aspect)
     }
 }
@@ -294,7 +295,7 @@ const ROUNDING: f64 = 4e-7;
 
 /// The row `axis` of a placement at `position`: where that is across the axis, how far a point of the object may be put beside its place by rounding, and 1 for an image
 /// that is not slim.
-pub(super) fn by_axis(camera: &Camera, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
+pub(super) fn by_axis(camera: &Observer, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
     let [_, a, b] = camera.axis_frame();
     let [vx, vy, vz, moves] = placement.velocity.map(f64::from);
     let speed = if moves == 0.0 { 0.0 } else { DVec3::new(vx, vy, vz).length() };
@@ -304,7 +305,7 @@ pub(super) fn by_axis(camera: &Camera, placement: &Placement, position: DVec3, r
     [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 1.0]
 }
 
-fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> Placement {
+fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) -> Placement {
     let turn = DMat3::from_quat(attitude);
     Placement {
         offset: row(position - camera.position, 0.0),
@@ -320,7 +321,7 @@ fn held(camera: &Camera, position: DVec3, attitude: DQuat, object: &Object) -> P
 
 /// By how much farther from its centre, at the most, points of an object are where their light leaves than they are at one time: light leaves what is farther earlier by
 /// the delay's gradient ∇Δ, and as much earlier again for the way that it moved meanwhile, as v ∇Δ/(1 + v ∇Δ).
-fn drawn_out(camera: &Camera, placement: &Placement, position: DVec3, order: Order, age: f64) -> f64 {
+fn drawn_out(camera: &Observer, placement: &Placement, position: DVec3, order: Order, age: f64) -> f64 {
     let [x, y, z, moves] = placement.velocity.map(f64::from);
     if moves == 0.0 {
         return 1.0;
@@ -382,7 +383,7 @@ fn contraction(p: DVec3) -> DMat3 {
 }
 
 /// Travel time of light of this order from a place on the slice to the camera, and its gradient over the place; None if there is none.
-pub fn light_path(camera: &Camera, position: DVec3, order: Order, branch: Branch) -> Option<(f64, DVec3)> {
+pub fn light_path(camera: &Observer, position: DVec3, order: Order, branch: Branch) -> Option<(f64, DVec3)> {
     let (l, r) = (camera.radius(), position.length());
     let n = camera.position / l;
     let across = position - n * position.dot(n);
@@ -402,7 +403,7 @@ pub fn light_path(camera: &Camera, position: DVec3, order: Order, branch: Branch
 
 /// Which of the two rays from a place inside the horizon to a camera inside is the one by which light of this age (r_s/c) can be seen:
 /// that of E < 0 if it is older than light of zero energy.
-pub fn branch_of(camera: &Camera, position: DVec3, age: f64) -> Branch {
+pub fn branch_of(camera: &Observer, position: DVec3, age: f64) -> Branch {
     let (u, u_camera) = (1.0 / position.length(), 1.0 / camera.radius());
     if u > 1.0 && u_camera > 1.0 && age > light::zero_energy_delay(u, u_camera) { Branch::Minus } else { Branch::Plus }
 }
@@ -410,7 +411,7 @@ pub fn branch_of(camera: &Camera, position: DVec3, age: f64) -> Branch {
 /// The time T_e at which the light left that arrives at `time`: the root of T_e + Δ(x(T_e)) − T, which increases strictly with T_e for light of
 /// E > 0 and decreases for E < 0. A worldline leaves the camera's past only once, so there is one root on both branches together.
 /// None if the object is seen at no time.
-pub fn emission_time(camera: &Camera, time: f64, history: &History, order: Order) -> Option<f64> {
+pub fn emission_time(camera: &Observer, time: f64, history: &History, order: Order) -> Option<f64> {
     leaving(time, |t| {
         let sample = history.at(t);
         let branch = branch_of(camera, sample.position, time - t);
@@ -421,7 +422,7 @@ pub fn emission_time(camera: &Camera, time: f64, history: &History, order: Order
 }
 
 /// The same for straight light.
-fn flat_emission_time(camera: &Camera, time: f64, history: &History) -> Option<f64> {
+fn flat_emission_time(camera: &Observer, time: f64, history: &History) -> Option<f64> {
     leaving(time, |t| {
         let sample = history.at(t);
         let line = sample.position - camera.position;

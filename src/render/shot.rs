@@ -1,5 +1,6 @@
 //! One picture of a scene at a time T, without a window.
 
+use crate::spacetime::Observer;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -13,7 +14,7 @@ use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneE
 use crate::sim::History;
 pub use crate::sim::Moment;
 
-use super::frame::{Camera, Settings};
+use super::frame::Settings;
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
 use super::stage::{Stage, settings};
@@ -40,7 +41,7 @@ pub enum ShotError {
     Time(f64),
     /// The camera sees nothing then.
     #[error(transparent)]
-    Camera(#[from] CameraEnded),
+    Observer(#[from] CameraEnded),
     /// The guard left out so many triangles.
     #[error("{0} triangles lay outside of where their object's image can be")]
     Outside(u32),
@@ -129,7 +130,7 @@ pub struct Compared<'a> {
     /// Worldlines of the ships, in scene order.
     pub histories: Vec<&'a History>,
     /// From where it is seen.
-    pub camera: Camera,
+    pub camera: Observer,
     /// Width and height in pixels.
     pub size: [u32; 2],
 }

@@ -1,5 +1,6 @@
 //! A scene on the renderer: its models uploaded, and a frame made of its objects at any T.
 
+use crate::spacetime::Observer;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use glam::{DQuat, DVec3};
@@ -17,7 +18,7 @@ use super::Renderer;
 use super::aurora::{Show, planet_history};
 use super::coarse::coarse;
 use super::disk::Disk;
-use super::frame::{Camera, FrameInput, Settings};
+use super::frame::{FrameInput, Settings};
 use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, Placed, View, place};
@@ -127,9 +128,8 @@ impl Stage {
     }
 
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
-    pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Camera {
-        let view = self.camera.viewpoint(time, ships);
-        Camera { position: view.position, momentum: view.momentum, attitude: view.attitude, field_of_view: view.field_of_view }
+    pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Observer {
+        self.camera.viewpoint(time, ships)
     }
 
     /// The greatest thrust of a ship, in c²/r_s; None where nozzles shine as at full thrust anyway.
@@ -143,7 +143,7 @@ impl Stage {
     /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
-        camera: Camera,
+        camera: Observer,
         size: [u32; 2],
         time: f64,
         histories: &[&History],
@@ -238,7 +238,7 @@ fn glow(history: &History, time: f64, full: f64) -> f64 {
 
 /// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in widths of the picture. That is
 /// exact enough for what is a few lengths away, and what is far away is small.
-fn circle(camera: &Camera, image: &Placed, reach: f64) -> [f32; 3] {
+fn circle(camera: &Observer, image: &Placed, reach: f64) -> [f32; 3] {
     let [x, y, z, delay] = image.placement.offset.map(f64::from);
     // Space falls inwards at √(1/r) and takes the light with it.
     let radius = camera.radius().max(1e-3);
@@ -285,14 +285,13 @@ pub fn settings(config: &GameConfig) -> Settings {
 }
 
 /// A camera beside a ship: at `offset` in the ship's rest frame, moving as the ship does, outside r = 1 as long as the ship is.
-pub fn third_person(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Camera {
-    let beside = viewpoint::beside(state, offset, view, field_of_view);
-    Camera { position: beside.position, momentum: beside.momentum, attitude: beside.attitude, field_of_view }
+pub fn third_person(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Observer {
+    viewpoint::beside(state, offset, view, field_of_view)
 }
 
 /// A hovering camera, looking along `look` (its own axes); falling with the rain inside r = 1.
-pub fn static_camera(position: DVec3, look: DVec3, up: DVec3, field_of_view: f64) -> Camera {
-    Camera {
+pub fn static_camera(position: DVec3, look: DVec3, up: DVec3, field_of_view: f64) -> Observer {
+    Observer {
         position,
         momentum: static_momentum(position).unwrap_or(DVec3::ZERO),
         attitude: frames::look(look, up).unwrap_or(DQuat::IDENTITY),

@@ -1,14 +1,13 @@
 //! What may be on the screen at all: a first, cautious sieve on the processor.
 
+use crate::spacetime::Observer;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
 
-use super::frame::Camera;
-
 /// The part of the screen on which a cone of directions may fall, as shares of width and height: left, upper, right and lower edge. The cone has `radius` (radians)
 /// about `look`, in rain axes; `aspect` is height over width. Errs towards the whole screen.
-pub fn part_of_screen(camera: &Camera, look: DVec3, radius: f64, aspect: f64) -> [f64; 4] {
+pub fn part_of_screen(camera: &Observer, look: DVec3, radius: f64, aspect: f64) -> [f64; 4] {
     const WHOLE: [f64; 4] = [0.0, 0.0, 1.0, 1.0];
     let centre = camera.seen_direction(look);
     let Some(radius) = seen_radius(camera, look, radius).filter(|radius| *radius < 0.5) else { return WHOLE };
@@ -26,7 +25,7 @@ pub fn part_of_screen(camera: &Camera, look: DVec3, radius: f64, aspect: f64) ->
 
 /// Aberration turns a cone into a cone: its greatest radius about the image of the middle, from four places of its rim, and half as much
 /// again for what lies between them. None for a wide one.
-fn seen_radius(camera: &Camera, look: DVec3, radius: f64) -> Option<f64> {
+fn seen_radius(camera: &Observer, look: DVec3, radius: f64) -> Option<f64> {
     if radius.is_nan() || radius > 0.5 {
         return None;
     }
@@ -38,13 +37,13 @@ fn seen_radius(camera: &Camera, look: DVec3, radius: f64) -> Option<f64> {
 
 /// Whether any of a cone of directions may fall on the screen. The cone has `radius` (radians) about `look`, in rain axes; `margin` (radians) is
 /// added in the camera's frame. `aspect` is height over width. Errs towards yes.
-pub fn may_be_seen(camera: &Camera, look: DVec3, radius: f64, margin: f64, aspect: f64) -> bool {
+pub fn may_be_seen(camera: &Observer, look: DVec3, radius: f64, margin: f64, aspect: f64) -> bool {
     let Some(radius) = seen_radius(camera, look, radius) else { return true };
     cone_may_be_seen(camera, camera.seen_direction(look), radius + margin, aspect)
 }
 
 /// Whether any of a cone of directions about `centre` (a unit vector, camera axes) may fall on the screen, `radius` in radians. Errs towards yes.
-pub fn cone_may_be_seen(camera: &Camera, centre: DVec3, radius: f64, aspect: f64) -> bool {
+pub fn cone_may_be_seen(camera: &Observer, centre: DVec3, radius: f64, aspect: f64) -> bool {
     if radius.is_nan() || radius > FRAC_PI_2 {
         return true;
     }

@@ -37,4 +37,3 @@ pub use planet::{Planet, SkySwitches};
 pub use prop::Prop;
 pub use rules::Rules;
 pub use ship::ShipSpec;
-pub use viewpoint::Viewpoint;

@@ -1,23 +1,11 @@
 //! Where a scene's camera is at any T: the same for every renderer of it.
 
+use crate::spacetime::Observer;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::camera::{Camera, Mount};
 use crate::spacetime::frames;
 use crate::spacetime::matter::{ShipState, gamma, has_ended, momentum_of, step};
-
-/// A camera at one moment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Viewpoint {
-    /// Position on the slice T = const, in r_s.
-    pub position: DVec3,
-    /// Rain-frame momentum per mass, in c.
-    pub momentum: DVec3,
-    /// Camera axes (+x right, +y up, −z forward) to rain axes through the pure boost of `momentum`.
-    pub attitude: DQuat,
-    /// Horizontal field of view in radians.
-    pub field_of_view: f64,
-}
 
 /// The camera, or the ship that it follows, has fallen into the singularity, from where nothing is seen.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -41,7 +29,7 @@ impl Camera {
     }
 
     /// The camera at T = `time`; `ships` are the states of the ships then, by name. Without the ship that it follows it looks on from 20 r_s.
-    pub fn viewpoint(&self, time: f64, ships: &[(&str, ShipState)]) -> Viewpoint {
+    pub fn viewpoint(&self, time: f64, ships: &[(&str, ShipState)]) -> Observer {
         let state = match &self.mount {
             Mount::Static(state) => *state,
             Mount::Falling(state) => fall(state, time),
@@ -56,11 +44,11 @@ impl Camera {
                 // It turns with the planet: light of the ground below comes to it unshifted.
                 let step = TURNING_STEP * planet.day;
                 let velocity = (at(time + step).position - at(time - step).position) / (2.0 * step);
-                return Viewpoint { momentum: momentum_of(seen.position, velocity).unwrap_or(seen.momentum), ..seen };
+                return Observer { momentum: momentum_of(seen.position, velocity).unwrap_or(seen.momentum), ..seen };
             }
             Mount::Follow { ship, offset, look, up } => {
                 let Some((_, state)) = ships.iter().find(|(name, _)| name == ship) else {
-                    return Viewpoint {
+                    return Observer {
                         position: DVec3::Z * 20.0,
                         momentum: DVec3::ZERO,
                         attitude: DQuat::IDENTITY,
@@ -70,7 +58,7 @@ impl Camera {
                 return beside(state, *offset, frames::look(*look, *up).unwrap_or(DQuat::IDENTITY), self.fov);
             }
         };
-        Viewpoint { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.fov }
+        Observer { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: self.fov }
     }
 }
 
@@ -79,7 +67,7 @@ const TURNING_STEP: f64 = 1e-4;
 
 /// A camera beside a ship: at `offset` (r_s) in the ship's rest frame and body axes, moving as the ship does, outside r = 1 as long as the
 /// ship is. `view` turns camera axes into body axes.
-pub fn beside(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Viewpoint {
+pub fn beside(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64) -> Observer {
     let away = state.attitude * offset;
     // On the slice T = const a rest length is contracted along the momentum.
     let p = state.momentum;
@@ -89,7 +77,7 @@ pub fn beside(state: &ShipState, offset: DVec3, view: DQuat, field_of_view: f64)
     if state.position.length() > CAMERA_FLOOR && position.length() < CAMERA_FLOOR {
         position = position.normalize() * CAMERA_FLOOR;
     }
-    Viewpoint { position, momentum: p, attitude: state.attitude * view, field_of_view }
+    Observer { position, momentum: p, attitude: state.attitude * view, field_of_view }
 }
 
 /// Free fall from T = 0.

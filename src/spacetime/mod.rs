@@ -4,5 +4,8 @@ pub mod frames;
 pub mod light;
 pub mod matter;
 pub mod metric;
+pub mod observer;
 pub mod orbit;
 mod tableau;
+
+pub use observer::Observer;

@@ -23,7 +23,7 @@ pub struct Provenance {
 impl Provenance {
     /// Of the running program; `adapter` is handed in by whoever opened one.
     pub fn now(adapter: &str) -> Provenance {
-        let program = "lensrunner".to_owned();
+        let program = "lensrunner-lab".to_owned();
         let command = std::iter::once(program).chain(std::env::args().skip(1)).collect::<Vec<_>>().join(" ");
         Provenance { processor: processor(), adapter: adapter.to_owned(), date: today(), commit: commit(), command }
     }

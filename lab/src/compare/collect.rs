@@ -83,8 +83,10 @@ pub fn rows(request: &Request, verdict: &Verdict, limits: &Limits, faults: &[Str
         BEYOND => faults.join("; ").replace(',', ";"),
         other => other.to_owned(),
     };
-    let command =
-        format!("lensrunner compare --scene {} --at {} --size {width}x{height} --samples {}", request.scene, request.at, request.samples);
+    let command = format!(
+        "lensrunner-lab compare --scene {} --at {} --size {width}x{height} --samples {}",
+        request.scene, request.at, request.samples
+    );
     let counts = [verdict.wrong_order, verdict.holes, verdict.lit].map(|count| count.to_string());
     let row = |middle: Vec<String>, flip: f64| {
         let after = counts.iter().cloned().chain([format!("{flip:.4}"), said.clone(), commit.to_owned(), command.clone()]);

@@ -1,4 +1,4 @@
-//! `lensrunner compare`: a renderer's picture of a scene, handed in from above, against the judge's.
+//! `lensrunner-lab compare`: a renderer's picture of a scene, handed in from above, against the judge's.
 
 use std::path::{Path, PathBuf};
 

@@ -11,7 +11,7 @@
 //! - [`random`]: scenes that nobody chose.
 //! - [`flight`]: moments of chases that the autopilot flies.
 //! - [`collect`]: verdicts of many scenes in one table.
-//! - [`command`]: `lensrunner compare`.
+//! - [`command`]: `lensrunner-lab compare`.
 
 pub mod area;
 pub mod collect;

@@ -3,6 +3,7 @@
 //! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
 //! for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the instruments know no renderer.
 
+use lensrunner::spacetime::Observer;
 use std::path::PathBuf;
 
 use glam::DVec3;
@@ -16,7 +17,7 @@ use lensrunner::spacetime::frames;
 
 use super::chase::{chase, summary};
 use super::error::{PictureError, compare, peak};
-use super::exact::{Eye, picture};
+use super::exact::picture;
 use super::flight::{self, flight};
 use super::places::errors_by_place;
 
@@ -76,7 +77,7 @@ impl Shown {
 #[derive(Clone, Copy, Debug)]
 pub struct View {
     /// From where.
-    pub eye: Eye,
+    pub eye: Observer,
     /// T, in r_s/c.
     pub time: f64,
     /// Whether stars and the Milky Way stand behind the disk, as the configuration has them; black else.
@@ -153,8 +154,8 @@ pub fn run(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Dra
 }
 
 /// A hovering eye that looks along `look`.
-pub(super) fn eye(position: DVec3, look: DVec3) -> Eye {
-    Eye {
+pub(super) fn eye(position: DVec3, look: DVec3) -> Observer {
+    Observer {
         position,
         momentum: static_momentum(position).unwrap_or_default(),
         attitude: frames::look(look, DVec3::Z).unwrap_or_default(),
@@ -163,7 +164,7 @@ pub(super) fn eye(position: DVec3, look: DVec3) -> Eye {
 }
 
 /// From 80° at 27 r_s, as the scene `disk`.
-fn portrait() -> Eye {
+fn portrait() -> Observer {
     let position = DVec3::new(0.0, -26.5898, 4.6885);
     eye(position, -position)
 }

@@ -1,28 +1,16 @@
 //! The gas of the disk seen exactly: for each sample of each pixel the closed-form ray in f64, its crossings of the plane, and the model of
 //! `scene::disk` at each. No table, no triangles.
 
+use lensrunner::spacetime::Observer;
 use std::f64::consts::PI;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use lensrunner::scene::blackbody;
 use lensrunner::scene::disk::{DISK_UNIT, Gas};
 use lensrunner::spacetime::frames;
 use lensrunner::spacetime::light::{self, Fate, Ray};
-
-/// Who looks.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Eye {
-    /// Position on the slice, in r_s.
-    pub position: DVec3,
-    /// Rain-frame momentum per mass.
-    pub momentum: DVec3,
-    /// Camera axes (right, up, back) to rain axes through the pure boost.
-    pub attitude: DQuat,
-    /// Horizontal field of view, in rad.
-    pub field_of_view: f64,
-}
 
 /// One crossing of the disk's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +28,12 @@ pub struct Crossing {
 }
 
 /// Linear light (red, green, blue) of the disk alone, row by row from the top, black where it is not; `samples`² samples a pixel in a regular grid.
-pub fn picture(gas: &Gas, eye: &Eye, size: [u32; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
+pub fn picture(gas: &Gas, eye: &Observer, size: [u32; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
     part(gas, eye, size, [[0; 2], size], time, orders, samples)
 }
 
 /// A part of that picture: the pixel where it begins, from the left and the top, and its width and height.
-pub fn part(gas: &Gas, eye: &Eye, size: [u32; 2], part: [[u32; 2]; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
+pub fn part(gas: &Gas, eye: &Observer, size: [u32; 2], part: [[u32; 2]; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
     let colours = blackbody::table(4096, 200.0, 2.0e6);
     let samples = samples.max(1);
     let step = 1.0 / f64::from(samples);
@@ -66,7 +54,7 @@ pub fn part(gas: &Gas, eye: &Eye, size: [u32; 2], part: [[u32; 2]; 2], time: f64
 }
 
 /// Light from the point `at` of the picture, in pixels: the crossings, nearest first, each before what is behind it.
-fn sample(gas: &Gas, eye: &Eye, size: [u32; 2], at: [f64; 2], time: f64, orders: u32, colours: &[[f32; 4]]) -> [f64; 3] {
+fn sample(gas: &Gas, eye: &Observer, size: [u32; 2], at: [f64; 2], time: f64, orders: u32, colours: &[[f32; 4]]) -> [f64; 3] {
     let mut light = [0.0; 3];
     let mut passed = 1.0;
     for crossing in crossings(gas, eye, size, at, orders) {
@@ -80,7 +68,7 @@ fn sample(gas: &Gas, eye: &Eye, size: [u32; 2], at: [f64; 2], time: f64, orders:
 }
 
 /// Where the ray through the point `at` of the picture crosses the gas, order by order.
-pub fn crossings(gas: &Gas, eye: &Eye, size: [u32; 2], at: [f64; 2], orders: u32) -> Vec<Crossing> {
+pub fn crossings(gas: &Gas, eye: &Observer, size: [u32; 2], at: [f64; 2], orders: u32) -> Vec<Crossing> {
     let [width, height] = size.map(f64::from);
     let focal = 0.5 * width / (0.5 * eye.field_of_view).tan();
     let seen = DVec3::new((at[0] - 0.5 * width) / focal, (0.5 * height - at[1]) / focal, -1.0).normalize();

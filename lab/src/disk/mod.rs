@@ -9,4 +9,4 @@ pub mod places;
 pub mod script;
 
 pub use error::{PictureError, compare, peak};
-pub use exact::{Eye, part, picture};
+pub use exact::{part, picture};

@@ -1,5 +1,6 @@
 //! The error of each way to draw the disk from all heights over its plane.
 
+use lensrunner::spacetime::Observer;
 use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec3;
@@ -9,7 +10,7 @@ use lensrunner::scene::disk::Gas;
 
 use super::chart::{ChartError, Contestant, Draw, Request, TIME, View, eye};
 use super::error::{compare, peak};
-use super::exact::{Eye, picture};
+use super::exact::picture;
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];
@@ -19,7 +20,7 @@ const DISTANCE: f64 = 27.0;
 const SAMPLES: u32 = 4;
 
 /// A hovering eye this many degrees from the axis.
-fn seat(degrees: f64) -> Eye {
+fn seat(degrees: f64) -> Observer {
     let (sine, cosine) = degrees.to_radians().sin_cos();
     let position = DISTANCE * DVec3::new(0.0, -sine, cosine);
     // A little aside, so that "up" is never the axis that the eye looks along.
@@ -27,10 +28,11 @@ fn seat(degrees: f64) -> Eye {
 }
 
 /// Where eyes are: at each inclination, at the inner edge and close over the disk, as the scenes `disk-inner` and `disk-skim`.
-fn seats() -> Vec<(String, Eye)> {
+fn seats() -> Vec<(String, Observer)> {
     let inner = eye(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1));
     let skim = eye(DVec3::new(0.0, -6.5, 0.3), DVec3::new(-0.75, 0.66, -0.06));
-    let close = [("at the inner edge".to_owned(), Eye { field_of_view: FRAC_PI_2, ..inner }), ("0.3 r_s over the disk".to_owned(), skim)];
+    let close =
+        [("at the inner edge".to_owned(), Observer { field_of_view: FRAC_PI_2, ..inner }), ("0.3 r_s over the disk".to_owned(), skim)];
     INCLINATIONS.iter().map(|&degrees| (degrees.to_string(), seat(degrees))).chain(close).collect()
 }
 

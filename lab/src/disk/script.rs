@@ -1,9 +1,9 @@
 //! The scripted chase of paper 2's table 2: one flight through all situations, the same for every row.
 
 use glam::DVec3;
+use lensrunner::spacetime::Observer;
 
 use super::chart::eye;
-use super::exact::Eye;
 
 /// A place on the way.
 struct Stop {
@@ -40,7 +40,7 @@ pub const CROSSING: f64 = 0.05;
 const SKIMMING: f64 = 0.7;
 
 /// Where the eye is and T, at a share from 0 to 1 of the way, and what it passes through: said of the place itself, with the disk's inner edge in r_s.
-pub fn script(share: f64, inner: f64) -> (Eye, f64, &'static str) {
+pub fn script(share: f64, inner: f64) -> (Observer, f64, &'static str) {
     let share = share.clamp(0.0, 1.0);
     let leg = WAY.windows(2).position(|leg| share <= leg[1].share).unwrap_or(WAY.len() - 2);
     let [from, to] = [&WAY[leg], &WAY[leg + 1]];

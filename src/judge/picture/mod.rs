@@ -311,7 +311,7 @@ impl Painter<'_> {
             let rays: Vec<(DVec3, f64)> = tile.iter().map(|&index| place(index as usize)).map(|[x, y]| self.camera.look(x, y)).collect();
             let looks: Vec<DVec3> = rays.iter().map(|ray| ray.0).collect();
             let mut veils = vec![(Vec3::ZERO, 1.0); tile.len()];
-            let seen = self.world.look_together(self.camera.position, &looks, self.quality.tolerance, &mut |ray, crossing| {
+            let seen = self.world.look_together(self.camera.observer.position, &looks, self.quality.tolerance, &mut |ray, crossing| {
                 self.dim(&mut veils[ray], &crossing, rays[ray].1);
             });
             for (k, &index) in tile.iter().enumerate() {
@@ -324,9 +324,9 @@ impl Painter<'_> {
     fn sample(&self, x: f64, y: f64) -> Sample {
         let (look, blue) = self.camera.look(x, y);
         let mut veil = (Vec3::ZERO, 1.0);
-        let seen = self
-            .world
-            .look_through(self.camera.position, look, self.quality.tolerance, &mut |crossing| self.dim(&mut veil, &crossing, blue));
+        let seen = self.world.look_through(self.camera.observer.position, look, self.quality.tolerance, &mut |crossing| {
+            self.dim(&mut veil, &crossing, blue)
+        });
         self.ended(seen, veil, blue)
     }
 

@@ -134,10 +134,10 @@ fn shadow_angle(r: f64) -> f64 {
 
 /// Where the camera sees each star, in the first two orders, and how bright. `brightness` is the factor on the catalogue.
 pub fn stars(catalogue: &[Star], camera: &Camera, hole: bool, tolerance: f64, brightness: f64, shift: Shift) -> Vec<Spot> {
-    let radius = camera.position.length();
-    let n = camera.position / radius;
+    let radius = camera.observer.position.length();
+    let n = camera.observer.position / radius;
     let sweep = Sweep::new(radius, hole, tolerance);
-    let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(camera.size[0]);
+    let pixel = 2.0 * (0.5 * camera.observer.field_of_view).tan() / f64::from(camera.size[0]);
     // A spot spreads a star's light over pixels of this solid angle.
     let unit = brightness * f64::from(SKY_UNIT) / (pixel * pixel);
     let beta = if hole { river_speed(radius) } else { 0.0 };

@@ -1,9 +1,9 @@
 //! How the lines of one image of the planet are shifted: its rotation makes one side come nearer and the other go away, which on the screen is linear.
 
+use crate::spacetime::Observer;
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
 
 use super::colours::SHIFTS;
-use crate::render::frame::Camera;
 use crate::render::placements::{View, departure};
 use crate::sim::History;
 use crate::sim::history::Sample;
@@ -98,7 +98,7 @@ struct Ends {
 }
 
 impl Ends {
-    fn new(camera: &Camera, position: DVec3, order: Order) -> Option<Ends> {
+    fn new(camera: &Observer, position: DVec3, order: Order) -> Option<Ends> {
         let (l, r) = (camera.radius(), position.length());
         let n = camera.position / l;
         let across = position - n * position.dot(n);
@@ -115,7 +115,7 @@ impl Ends {
     }
 
     /// ν_observed/ν_emitted for what goes through `position` with that dx/dT.
-    fn ratio(&self, camera: &Camera, position: DVec3, velocity: DVec3) -> Option<f64> {
+    fn ratio(&self, camera: &Observer, position: DVec3, velocity: DVec3) -> Option<f64> {
         // Energy of a photon against what has that momentum, per its own.
         let frequency = |p: DVec3, photon: DVec3| gamma(p) * photon.length() - p.dot(photon);
         let ratio = frequency(camera.momentum, self.arriving) / frequency(momentum_of(position, velocity)?, self.leaving);
@@ -133,7 +133,7 @@ fn moving(history: &History, time: f64, place: DVec3) -> (DVec3, DVec3) {
 }
 
 /// Coordinates on the screen, from −1 to 1, right and up, of a direction in rain axes; None behind the camera.
-fn on_screen(camera: &Camera, look: DVec3, aspect: f64) -> Option<DVec2> {
+fn on_screen(camera: &Observer, look: DVec3, aspect: f64) -> Option<DVec2> {
     let seen = camera.seen_direction(look);
     let wide = (0.5 * camera.field_of_view).tan();
     (seen.z < 0.0).then(|| DVec2::new(seen.x, seen.y / aspect) / (-seen.z * wide))
@@ -146,7 +146,7 @@ fn icosahedron() -> Vec<DVec3> {
 }
 
 /// Directions from the planet's centre (body axes) to the places at [`HEIGHT`] that are seen at points of the screen, as if light went straight: from near it does.
-fn on_grid(camera: &Camera, aspect: f64, planet: &Sample, radius: f64) -> Vec<DVec3> {
+fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<DVec3> {
     let wide = (0.5 * camera.field_of_view).tan();
     let from = camera.position - planet.position;
     let points = ACROSS.iter().flat_map(|&x| ACROSS.map(|y| DVec3::new(x * wide, y * wide * aspect, -1.0)));

@@ -1,5 +1,6 @@
 //! What the aurora looks like now: the simulation of its curtains, and how many streaks are drawn where.
 
+use crate::spacetime::Observer;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
@@ -12,7 +13,6 @@ use super::ration::Ration;
 use super::rows::{ROW, ROWS, Rows, place as node_place};
 use super::shift::Shift;
 use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
-use crate::render::frame::Camera;
 use crate::render::models::ModelRange;
 use crate::render::placements::{Motion as Movement, Object, View, against_static, departure, light_path, place};
 use crate::render::types::Placement;
@@ -486,7 +486,8 @@ fn frequency_ratio(view: &View, time: f64, history: &History, order: Order) -> O
     // A millionth of the radius: the light path is good to 1e-12 of it.
     let h = 1e-6 * camera.radius();
     let path = |s: f64| {
-        light_path(&Camera { position: camera.position + moving * s, ..*camera }, emitted.position, order, Branch::Plus).map(|path| path.0)
+        light_path(&Observer { position: camera.position + moving * s, ..*camera }, emitted.position, order, Branch::Plus)
+            .map(|path| path.0)
     };
     let along = (path(h)? - path(-h)?) / (2.0 * h);
     let received = 1.0 - along;

@@ -1,15 +1,15 @@
 //! Which images of a planet are seen through the accretion disk: those are added before the disk is laid over the picture, and dimmed by it.
 
+use crate::spacetime::Observer;
 use glam::DVec3;
 
-use crate::render::frame::Camera;
 use crate::spacetime::light::{self, Branch, Order};
 
 /// Steps of the integration, radians: the radius where light crosses the plane is good to a millionth.
 const STEP: f64 = 0.02;
 
 /// Radii, in r_s, at which light from `position` crosses the plane z = 0 on its way to the camera; `bends` is false in flat space.
-pub fn crossings(camera: &Camera, position: DVec3, order: Order, bends: bool) -> Vec<f64> {
+pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool) -> Vec<f64> {
     let (l, r) = (camera.radius(), position.length());
     if !bends {
         let part = camera.position.z / (camera.position.z - position.z);
@@ -45,6 +45,6 @@ pub fn crossings(camera: &Camera, position: DVec3, order: Order, bends: bool) ->
 }
 
 /// Whether the disk between two radii is before the place as it is seen in this order.
-pub fn is_behind(camera: &Camera, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
+pub fn is_behind(camera: &Observer, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
     crossings(camera, position, order, bends).into_iter().any(|radius| (inner..outer).contains(&radius))
 }

@@ -1,9 +1,10 @@
 //! Frames of a disk alone, for the chart: one renderer for each representation, all on one device.
 
+use crate::spacetime::Observer;
 use std::time::Instant;
 
 use crate::render::bench::processor_time;
-use crate::render::frame::{Camera, FrameInput};
+use crate::render::frame::FrameInput;
 use crate::render::readback::PictureError;
 use crate::render::renderer::Surroundings;
 use crate::render::stage::settings;
@@ -75,7 +76,7 @@ impl Bench {
     pub fn frame(
         &mut self,
         number: Option<usize>,
-        camera: Camera,
+        camera: Observer,
         time: f64,
         sky: bool,
         picture: Option<[u32; 2]>,

@@ -1,13 +1,14 @@
 //! The disk of polygons: triangles through the stages of geometry, as any other model. As rings that turn with the gas they are those of paper 2;
 //! at rest they are places that gas flows through, as arcs are.
 
+use crate::spacetime::Observer;
 use std::f64::consts::TAU;
 
 use glam::DVec3;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::frame::{Camera, FrameInput};
+use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::method::Method;
@@ -53,7 +54,7 @@ const OFF_AXIS: f64 = 0.12;
 /// The height over the plane z = 0 at which the triangles are drawn, in r_s: none but for a camera that is nearly in that plane. From behind the hole light comes round it
 /// on all sides, and of a disk seen edge on that is all of the image; but where the axis lies in the triangles there is no place from which it could be opened. So
 /// they are kept beside the axis, on the side on which they are anyway: that of the camera.
-fn beside_the_axis(camera: &Camera, width: u32, extent: [f64; 2]) -> f64 {
+fn beside_the_axis(camera: &Observer, width: u32, extent: [f64; 2]) -> f64 {
     let (l, z) = (camera.radius(), camera.position.z);
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
     let missing = extent.map(|r| OFF_AXIS * pixel * (l + r) - z.abs() * r / l);

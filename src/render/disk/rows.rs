@@ -1,5 +1,6 @@
 //! Which circles of the disk an image order draws, and how the gas goes from one to the next: as parabolas over the way that is seen.
 
+use crate::spacetime::Observer;
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
@@ -7,7 +8,6 @@ use glam::{DVec2, DVec3};
 use crate::lensing::Slice;
 use crate::lensing::lookup::lens_lookup_at;
 use crate::render::disk::Disk;
-use crate::render::frame::Camera;
 use crate::scene::disk::radial::LAST_ORBIT;
 use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
 
@@ -102,7 +102,7 @@ pub struct Look<'a> {
     /// The disk that is seen.
     pub disk: &'a Disk,
     /// From where.
-    pub camera: &'a Camera,
+    pub camera: &'a Observer,
     /// The lensing table for the camera's radius.
     pub slice: &'a Slice,
     /// 1 to 3.
@@ -335,12 +335,12 @@ impl SeenCircle {
 }
 
 /// The angle of a pixel in the middle of a picture `width` pixels wide, in rad.
-pub fn pixel_angle(camera: &Camera, width: u32) -> f64 {
+pub fn pixel_angle(camera: &Observer, width: u32) -> f64 {
     2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1))
 }
 
 /// Optical depths along a ray over those straight through: seen face on, and from where the camera is.
-fn slants(camera: &Camera) -> [f64; 2] {
+fn slants(camera: &Observer) -> [f64; 2] {
     let height = camera.position.z.abs() / camera.radius();
     [1.0, 1.0 / height.max(LEAST_COSINE)]
 }

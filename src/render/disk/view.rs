@@ -1,11 +1,12 @@
 //! What a frame needs to know of the disk, in f64: its axes as the camera sees them, the circles to draw in each order, the streaks' generations.
 
+use crate::spacetime::Observer;
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
 use crate::lensing::Slice;
-use crate::render::frame::{Camera, FrameInput};
+use crate::render::frame::FrameInput;
 use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
@@ -159,7 +160,7 @@ fn gap_middles(disk: &Disk) -> Vec<f64> {
 }
 
 /// How much of its own each circle of an image shows: the narrower the whole image, the more one gas stands for all of it.
-fn own_shares(camera: &Camera, seen: &[SeenCircle], width: u32, order: u32) -> [f64; AZIMUTHS] {
+fn own_shares(camera: &Observer, seen: &[SeenCircle], width: u32, order: u32) -> [f64; AZIMUTHS] {
     let widths = widths(camera, &seen[0], &seen[seen.len() - 1], width);
     widths.map(|width| if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], 0.5 * width) })
 }
@@ -202,7 +203,7 @@ fn widest(look: &Look) -> f64 {
 }
 
 /// The width of the image between two circles at each azimuth, in pixels of the middle of a picture `width` pixels wide.
-fn widths(camera: &Camera, inner: &SeenCircle, outer: &SeenCircle, width: u32) -> [f64; AZIMUTHS] {
+fn widths(camera: &Observer, inner: &SeenCircle, outer: &SeenCircle, width: u32) -> [f64; AZIMUTHS] {
     let pixel = pixel_angle(camera, width);
     // Angles in the camera's frame are those of the rain frame over the frequency there; of the camera's motion the part outward, the same all round.
     let gamma = (1.0 + camera.momentum.length_squared()).sqrt();
@@ -215,7 +216,7 @@ fn widths(camera: &Camera, inner: &SeenCircle, outer: &SeenCircle, width: u32) -
 }
 
 /// The cuts between arcs long enough to be told apart.
-fn chosen_cuts(disk: &Disk, camera: &Camera, width: u32) -> Vec<f64> {
+fn chosen_cuts(disk: &Disk, camera: &Observer, width: u32) -> Vec<f64> {
     let all = disk.arcs.cuts.len() - 1;
     let [_, end] = disk.gas.extent();
     let l = camera.radius();

@@ -1,5 +1,6 @@
 //! Stars: projected in compute, both orders, drawn as spots.
 
+use crate::spacetime::Observer;
 use std::cmp::Reverse;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -7,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::render::Gpu;
-use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST, Camera};
+use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
 use crate::render::shaders::Pass;
 use crate::render::types::Star;
@@ -62,7 +63,7 @@ fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
 }
 
 /// Whether the image of this order of a cluster may touch the screen. Errs towards yes: the image is held in a cone around it.
-fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Camera, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
+fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Observer, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
     let n = camera.axis_frame()[0];
     let phi = cluster.middle.angle_between(n);
     let (low, high) = ((phi - cluster.spread).max(0.0), (phi + cluster.spread).min(PI));
@@ -143,7 +144,7 @@ impl Stars {
 
     /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's for
     /// the camera's radius, empty where no stars are wanted; `edge` the angle of the shadow's edge in radians.
-    pub fn prepare(&mut self, gpu: &Gpu, camera: &Camera, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
+    pub fn prepare(&mut self, gpu: &Gpu, camera: &Observer, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
         let aspect = f64::from(size[1]) / f64::from(size[0]);
         let orders = if table.is_empty() { 0 } else { ORDERS };
         let mut listed: Vec<[u32; 4]> = (1..=orders)
@@ -213,7 +214,7 @@ mod tests {
             (DVec3::new(0.5, 0.1, 0.3), DVec3::new(-0.4, 0.0, 0.7), 4.4),
         ] {
             let attitude = DQuat::from_rotation_y(angle) * DQuat::from_rotation_x(0.4);
-            let camera = Camera { position, momentum, attitude, field_of_view: 1.05 };
+            let camera = Observer { position, momentum, attitude, field_of_view: 1.05 };
             let (l, size) = (camera.radius(), [640, 360]);
             let (table, edge) = (sky_table(l), light::shadow_angle(1.0 / l));
             let n = camera.axis_frame()[0];

@@ -1,4 +1,4 @@
-//! `lensrunner compare --flight`: seeded chases flown by the autopilot, judged at many moments.
+//! `lensrunner-lab compare --flight`: seeded chases flown by the autopilot, judged at many moments.
 
 use std::path::PathBuf;
 use std::time::Instant;
@@ -212,7 +212,7 @@ impl Flight<'_> {
     fn leave(&self, name: &str, seed: u64, case: &Case, judged: &Judged) -> Result<(), CompareError> {
         let [width, height] = self.request.size;
         let command = format!(
-            "lensrunner compare --flight {} --seeds 1 --first {seed} --at {} --size {width}x{height}",
+            "lensrunner-lab compare --flight {} --seeds 1 --first {seed} --at {} --size {width}x{height}",
             self.request.scene, case.time
         );
         let notes = vec![format!("T = {} of the flight of {} with seed {seed}: {command}", case.time, self.scene.name)];

@@ -25,7 +25,7 @@ pub fn freeze(text: &str, case: &Case) -> Option<String> {
             ship.insert("attitude".into(), list(&[q.w, q.x, q.y, q.z]));
         }
     }
-    let eye = &case.camera;
+    let eye = &case.camera.observer;
     let mut camera = Table::new();
     camera.insert("position".into(), vector(eye.position));
     camera.insert("momentum".into(), vector(eye.momentum));

@@ -3,7 +3,7 @@
 //! - [`moments`]: which moments are looked at.
 //! - [`freeze`]: a moment as a scene file of its own.
 //! - [`jump`]: whether images grow and shrink smoothly from frame to frame.
-//! - [`command`]: `lensrunner compare --flight`.
+//! - [`command`]: `lensrunner-lab compare --flight`.
 
 pub mod command;
 pub mod freeze;

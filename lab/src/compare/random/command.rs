@@ -1,4 +1,4 @@
-//! `lensrunner compare --random` and `--case`: many cases judged one after the other.
+//! `lensrunner-lab compare --random` and `--case`: many cases judged one after the other.
 
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -90,7 +90,7 @@ pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, Compa
     for number in request.first..request.first.saturating_add(request.count) {
         let drawn = draw(request.seed, number);
         let name = format!("seed-{}-case-{number}", request.seed);
-        let command = format!("lensrunner compare --random 1 --seed {} --first {number}", request.seed);
+        let command = format!("lensrunner-lab compare --random 1 --seed {} --first {number}", request.seed);
         let notes = vec![format!("case {number} of seed {} ({}): {command}", request.seed, drawn.corner.word())];
         let file = CaseFile { notes, text: drawn.text, at: drawn.at, size: drawn.size };
         let keep = Keep { folder: &request.output, reduce: request.reduce };
@@ -206,7 +206,7 @@ pub fn leave(output: &Path, name: &str, file: &CaseFile, case: &Case, judged: &J
     let mut file = file.clone();
     // Those of an earlier verdict.
     file.notes.retain(|note| !["judged by:", "main fault:", "fault:"].iter().any(|old| note.starts_with(old)));
-    file.notes.push(format!("judged by: lensrunner compare --case {name}.toml"));
+    file.notes.push(format!("judged by: lensrunner-lab compare --case {name}.toml"));
     file.notes.extend(main_fault(&judged.faults).map(|fault| format!("main fault: {}: {fault}", fault.kind)));
     file.notes.extend(judged.faults.iter().map(|fault| format!("fault: {}: {fault}", fault.kind)));
     write(&path, &file.to_text())?;

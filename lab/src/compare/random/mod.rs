@@ -5,7 +5,7 @@
 //! - [`reduce`]: a failing case made smaller.
 //! - [`outcome`]: what came of many.
 //! - [`collect`]: runs of many cases in one table.
-//! - [`command`]: `lensrunner compare --random` and `--case`.
+//! - [`command`]: `lensrunner-lab compare --random` and `--case`.
 
 pub mod case_file;
 pub mod collect;
