@@ -3,7 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-use lensrunner::lensing::lookup::{Place, YOUNG, lookup};
+use lensrunner::lensing::lookup::{YOUNG, lookup};
+use lensrunner::lensing::place::Place;
 use lensrunner::lensing::{Scheme, Slice, Table, TableError, double, grid, lens_lookup, lens_lookup_at, load_or_bake, paper, score};
 use lensrunner::spacetime::light::Order;
 use proptest::prelude::*;
@@ -248,7 +249,7 @@ fn a_damaged_file_is_named_and_never_used() {
 /// The paper's equations 3 to 6 at both ends of the range of L and in the middle, worked out by hand.
 #[test]
 fn paper_ones_meshes_are_its_own() {
-    let [low, high] = [paper::RANGES[0], paper::RANGES[1]];
+    let [low, high] = [lensrunner::lensing::paper_format::RANGES[0], lensrunner::lensing::paper_format::RANGES[1]];
     for (x, inside, radial, angular) in [
         (0.0, true, 18.210579, 4.08),
         (0.5, true, -4.226936, 5.750260),

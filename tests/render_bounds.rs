@@ -2,9 +2,10 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::placements::{Motion, Placed, View, place};
 use lensrunner::render::readback::Picture;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
 

@@ -1,9 +1,9 @@
 //! Development: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
 
 use lensrunner::judge::picture::develop::{Development, develop};
-use lensrunner::render::frame::Settings;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::Renderer;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};

@@ -1,7 +1,7 @@
 //! Nozzles shine by what the engines burnt when the light left.
 
 use glam::{DQuat, DVec3};
-use lensrunner::render::frame::Settings;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, third_person};
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{Command, History};

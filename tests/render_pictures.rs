@@ -2,9 +2,10 @@
 
 use glam::DVec3;
 use lensrunner::lensing::Slice;
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::placements::{Motion, Object, Surroundings as Light, View, place};
 use lensrunner::render::readback::{self, Picture};
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::{self, Body, GameConfig};

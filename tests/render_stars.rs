@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::readback::Picture;
 use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::settings::Settings;
 use lensrunner::render::types::Star;
 
 use crate::gpu::GPU;

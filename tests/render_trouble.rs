@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Gpu;
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::placements::{Motion, Placed};
 use lensrunner::render::readback::PictureError;
 use lensrunner::render::renderer::{Renderer, Surroundings};
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::{Material, shapes};
 use lensrunner::spacetime::Observer;

@@ -172,7 +172,10 @@ pub fn run(chart: ChartCommand) -> ExitCode {
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::disk::bench::Bench;
     use lensrunner::render::{Gpu, shot};
-    use lensrunner_lab::disk::chart::{Request, Shown, contestants, run};
+    use lensrunner_lab::disk::{
+        chart::run,
+        request::{Request, Shown, contestants},
+    };
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),

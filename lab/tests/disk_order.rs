@@ -2,8 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Renderer;
-use lensrunner::render::frame::Settings;
 use lensrunner::render::readback::Picture;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;
 use lensrunner::scene::{self, GameConfig};

@@ -4,8 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::readback;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::GameConfig;

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::frame::{FrameInput, Settings};
+use lensrunner::render::frame::FrameInput;
+use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 use lensrunner::spacetime::Observer;

@@ -7,6 +7,7 @@ mod bvh_build;
 mod bvh_rays;
 mod bvh_robust;
 mod charts;
+mod command_line;
 mod compare;
 mod contestant;
 mod disk_near;

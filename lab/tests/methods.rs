@@ -2,7 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
-use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, place, residuals_half, residuals_linear};
+use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear};
+use lensrunner::lensing::place::place;
 use lensrunner::lensing::{LensRay, SMALL_NODES, Scheme, Slice, Table, bake, closed, shooting};
 use lensrunner::render::method::Method;
 use lensrunner::render::race::Race;

@@ -4,7 +4,8 @@
 //! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with the angle α of the ray from the outward radial in the static frame and χ, the
 //! angle it still sweeps on its way to infinity; the impact parameter is the same at both ends. Sources: `lensing::methods`.
 
-use super::lookup::{LensRay, NOTHING, Place, finite, ray_of};
+use super::lookup::{LensRay, NOTHING, finite, ray_of};
+use super::place::Place;
 use super::single::{Camera, HALF_TURN, energy};
 
 /// X of Beloborodov 2002, eq. 1.

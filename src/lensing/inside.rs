@@ -12,7 +12,7 @@
 //! mean = 2 [artanh t − t].
 
 use super::elementary::single::{log1p, stumpff};
-use super::lookup::{Place, angle};
+use super::place::{Place, angle};
 use super::single::Camera;
 
 /// Steps of Newton's method: the sixth changes the direction by less than 0.001°.

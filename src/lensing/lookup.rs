@@ -1,24 +1,12 @@
 //! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 
+use super::place::{Place, place};
 use wide::f32x4;
 
-use super::elementary::single::{above, least, ln4, most, short_arctan, stumpffs};
+use super::elementary::single::{above, ln4, stumpffs};
 use super::inside::inside;
 use super::single::*;
 use super::slice::{HEADER, Slice};
-
-/// Where a point is, as the lookup needs it, free of cancellation near the camera.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    /// r, in r_s.
-    pub r: f32,
-    /// 1 − 1/r.
-    pub room: f32,
-    /// r − L, in r_s.
-    pub dr: f32,
-    /// φ, the angle at the hole, in 0..=π.
-    pub phi: f32,
-}
 
 /// What the lookup returns: directions in the rain frame, momenta per angular momentum (in 1/r_s).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,31 +49,6 @@ pub const NOTHING: LensRay = LensRay {
     energy: 0.0,
     valid: false,
 };
-
-/// The angle in 0..=π of the point `across` ≥ 0 from the axis and `height` along it, at the distance `r`: by the tangent of half of it, which is
-/// accurate near 0 and π and the same on every platform.
-#[inline]
-pub fn angle(across: f32, height: f32, r: f32) -> f32 {
-    let ahead = height.abs();
-    let from = [0.0, 0.5 * HALF_TURN, HALF_TURN, 0.5 * HALF_TURN][usize::from(across > ahead) + 2 * usize::from(height < 0.0)];
-    let twice = [-2.0, 2.0][usize::from((across > ahead) == (height < 0.0))];
-    from + twice * short_arctan(least(across, ahead) / (r + most(across, ahead)))
-}
-
-/// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
-/// rounded from f64: near the camera the offset counts, elsewhere the height.
-#[inline]
-pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
-    let square = along * along + across * across;
-    let r = (height * height + across * across).sqrt();
-    let inverse = 1.0 / r;
-    let phi = angle(across, height, r);
-    let near = 0.25 * cam.l * cam.l - square;
-    let offset = (2.0 * cam.l * along + square) / (r + cam.l);
-    // r − 1 and r − L: near the camera from the offset, elsewhere from the place.
-    let height = above(near, cam.room * cam.l + offset, r - 1.0);
-    Place { r, room: height * inverse, dr: above(near, offset, r - cam.l), phi }
-}
 
 /// The least 1 − 1/r that the logarithm of the horizon is taken of.
 pub const LEAST_ROOM: f32 = 1e-7;

@@ -19,6 +19,8 @@ pub mod lookup;
 pub mod methods;
 pub mod orbit;
 pub mod paper;
+pub mod paper_format;
+pub mod place;
 pub mod project;
 pub mod score;
 pub mod shooting;
@@ -52,7 +54,8 @@ pub mod single {
 
 pub use lookup::{LensRay, lens_lookup, lens_lookup_aged, lens_lookup_at};
 pub use slice::Slice;
-pub use table::{Scheme, Table, TableError, load_or_bake};
+use std::path::Path;
+pub use table::{Scheme, Table, TableError};
 
 /// The camera radii of a full-size bake (`bake::size`).
 pub const FULL_NODES: usize = 112;
@@ -89,4 +92,19 @@ pub fn default_file() -> std::path::PathBuf {
 pub fn default_table() -> Table {
     let complain = |wrong: &TableError| eprintln!("lensrunner: {wrong}; baking the table again");
     load_or_bake(&default_file(), Scheme::Residual, SMALL_NODES, complain, |_| ())
+}
+
+/// The table of `path`; where that cannot be used, `complain` is told why, the table is baked with `nodes` and written there
+/// (`complain` is told if that fails), and never anything drawn from the file.
+pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
+    let wrong = match Table::load(path, scheme) {
+        Ok(table) => return table,
+        Err(wrong) => wrong,
+    };
+    complain(&wrong);
+    let table = bake(scheme, nodes, done);
+    if let Err(wrong) = table.save(path) {
+        complain(&wrong);
+    }
+    table
 }

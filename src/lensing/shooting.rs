@@ -5,8 +5,9 @@
 //! closed form.
 
 use super::inside::INSIDE_NODES;
-use super::lookup::{LEAST_ROOM, LensRay, NOTHING, Place, finite, ray_of};
+use super::lookup::{LEAST_ROOM, LensRay, NOTHING, finite, ray_of};
 use super::orbit::{CRITICAL_SQUARE, FELL, LEFT, MET, PHOTON_SPHERE, carry, critical_excess, pole_orbit, shoot};
+use super::place::Place;
 use super::single::{Camera, HALF_TURN, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
 
 /// A shot from the camera: its fate, u − a and du/dΦ at the end, ∂u/∂x there and the time it took.

@@ -53,7 +53,7 @@ impl Scheme {
         let [x, y, z] = [x as usize, y as usize, z as usize];
         Some(match self {
             Scheme::Residual => (x + 2) * (y + 2) * (z + 2) * 3,
-            Scheme::Paper | Scheme::PaperUniform => x * y * z * super::paper::CHANNELS,
+            Scheme::Paper | Scheme::PaperUniform => x * y * z * super::paper_format::CHANNELS,
         })
     }
 
@@ -65,7 +65,7 @@ impl Scheme {
                 let [low, high] = super::grid::CAMERA_RANGE;
                 [low, high, 1.0 / near, 1.0 / far, 0.0, super::double::LARGEST_SWEEP]
             }
-            _ => super::paper::RANGES,
+            _ => super::paper_format::RANGES,
         }
     }
 }
@@ -182,21 +182,6 @@ impl Table {
         })?;
         Table::from_bytes(path, &bytes, wanted)
     }
-}
-
-/// The table of `path`; where that cannot be used, `complain` is told why, the table is baked with `nodes` and written there
-/// (`complain` is told if that fails), and never anything drawn from the file.
-pub fn load_or_bake(path: &Path, scheme: Scheme, nodes: usize, complain: impl Fn(&TableError), done: impl Fn(f64) + Sync) -> Table {
-    let wrong = match Table::load(path, scheme) {
-        Ok(table) => return table,
-        Err(wrong) => wrong,
-    };
-    complain(&wrong);
-    let table = super::bake(scheme, nodes, done);
-    if let Err(wrong) = table.save(path) {
-        complain(&wrong);
-    }
-    table
 }
 
 /// `text` in N bytes, filled with zeros.

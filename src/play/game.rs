@@ -1,78 +1,21 @@
 //! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
 
+use super::seat::{Flown, GameSet, Seat};
 use std::time::Duration;
 
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
-use crate::scene::GameConfig;
 use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
 use crate::spacetime::matter::gamma;
 
-use super::camera::{Follower, View};
 use super::gaze::Gaze;
 use super::input::{Bindings, Hands, MouseTurn};
 use super::record;
 use super::screens::{Screen, Wish, answer};
 use super::session::Session;
-
-/// How the player plays: what is not in `game.toml`.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Seat {
-    /// The autopilot flies.
-    pub autopilot: bool,
-    /// From where one looks.
-    pub view: View,
-    /// The HUD is off.
-    pub bare: bool,
-    /// The dev overlay is on.
-    pub overlay: bool,
-    /// The flight assist as the player switched it in this chase; None: as it is configured.
-    pub assist: Option<bool>,
-    /// The assist has taken the thrust to keep off the hole.
-    pub avoiding: bool,
-    /// Who has flown in this chase.
-    pub flown: Flown,
-    /// The autopilot was asked for on the command line.
-    pub always_autopilot: bool,
-    /// How the camera follows.
-    pub follower: Follower,
-    /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.
-    pub begun: bool,
-    /// How long that hint has been shown, in seconds of wall time.
-    pub hinted: f64,
-    /// The key that turns the camera to the target is held.
-    pub looking: bool,
-    /// How far the camera has turned to the target.
-    pub gaze: Gaze,
-}
-
-/// Who has had a ship's controls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Flown {
-    /// The player, by hand.
-    pub by_hand: bool,
-    /// The autopilot.
-    pub by_autopilot: bool,
-}
-
-impl Seat {
-    /// Whether the assist is on: as the player switched it, else as `config` says.
-    pub fn assisted(&self, config: &GameConfig) -> bool {
-        self.assist.unwrap_or(config.assist.enabled)
-    }
-}
-
-/// The order of what the game does in a frame.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum GameSet {
-    /// Keys are read.
-    Keys,
-    /// Wishes are answered: screens change, chases begin.
-    Answer,
-}
 
 /// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`Seat`].
 pub struct GamePlugin;
@@ -460,7 +403,7 @@ mod tests {
     /// A good change of `game.toml` is taken up while the game runs; a wrong one is said with its line, and the last good values stay.
     #[test]
     fn the_file_is_read_again_and_a_wrong_one_refused() {
-        use crate::play::live::Notice;
+        use crate::play::notice::Notice;
         use std::time::{Duration, SystemTime};
         let file = std::env::temp_dir().join(format!("lensrunner-reload-{}.toml", std::process::id()));
         let write = |text: &str, age: u64| {

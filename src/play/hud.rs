@@ -9,14 +9,14 @@ use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
 use super::camera::View;
-use super::game::Seat;
 use super::instruments::{Countdown, Instruments, Scale, hold_words};
-use super::live::Notice;
 use super::markers::{self, arc};
+use super::notice::Notice;
+use super::panel::{Panel, Staged, loaded};
 use super::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
 use super::screens::Screen;
+use super::seat::Seat;
 use super::session::Session;
-use super::window::{Panel, Staged, loaded};
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;

@@ -1,6 +1,7 @@
 //! The configuration while the game runs: `game.toml` is read again when it changes, and every change, from there or from the overlay, takes
 //! effect at once.
 
+use super::notice::Notice;
 use std::time::{Duration, SystemTime};
 
 use bevy::prelude::*;
@@ -13,22 +14,13 @@ use crate::scene::ship::Ai;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
-use super::game::{GameSet, Seat};
 use super::input::Bindings;
+use super::panel::Staged;
+use super::seat::{GameSet, Seat};
 use super::session::Session;
-use super::window::Staged;
 
 /// Time between two looks at the file.
 const PERIOD: Duration = Duration::from_secs(1);
-
-/// A line for the player, and the wall time (s) at which it fades.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Notice {
-    /// The line.
-    pub text: String,
-    /// Until when it is shown.
-    pub until: f64,
-}
 
 /// Watches the file and applies changes.
 pub struct LivePlugin;

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::camera::BEHIND;
 use super::layout::settle;
+use super::panel::Panel;
 use super::plate::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
-use super::window::Panel;
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
 #[derive(Clone, Copy, Debug, PartialEq)]

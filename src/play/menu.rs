@@ -6,12 +6,12 @@ use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 
 use crate::sim::{Chase, Outcome};
 
-use super::game::{Flown, Seat};
 use super::instruments::Scale;
+use super::panel::Panel;
 use super::plate::{OWN, SEEN, SHADE, TRUE};
 use super::screens::{Screen, Wish};
+use super::seat::{Flown, Seat};
 use super::session::Session;
-use super::window::Panel;
 
 const PALE: Color32 = Color32::from_rgb(226, 234, 242);
 const FAINT: Color32 = Color32::from_rgb(150, 166, 182);

@@ -12,7 +12,7 @@ use crate::render::types::Counters;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
-use super::game::Seat;
+use super::seat::Seat;
 use super::session::Session;
 
 /// Frames over which mean and worst are taken.
@@ -125,7 +125,7 @@ fn counts(ui: &mut Ui, counters: Option<(Option<String>, String)>) {
 }
 
 /// One setting: its name, its value to change, its unit.
-fn row(ui: &mut Ui, setting: &Setting, config: &mut GameConfig) {
+fn row(ui: &mut Ui, setting: &Setting<GameConfig>, config: &mut GameConfig) {
     let before = setting.get(config);
     let mut value = before.clone();
     ui.horizontal(|ui| {
@@ -138,7 +138,7 @@ fn row(ui: &mut Ui, setting: &Setting, config: &mut GameConfig) {
     }
 }
 
-fn edit(ui: &mut Ui, setting: &Setting, value: &mut Value) {
+fn edit(ui: &mut Ui, setting: &Setting<GameConfig>, value: &mut Value) {
     let suffix = if setting.unit.is_empty() { String::new() } else { format!(" {}", setting.unit) };
     match (value, setting.allowed) {
         (Value::Number(number), Allowed::Number { min, max }) => {

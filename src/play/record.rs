@@ -8,8 +8,8 @@ use bevy::prelude::*;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use super::demonstration::write_png;
-use super::live::Notice;
-use super::window::loaded;
+use super::notice::Notice;
+use super::panel::loaded;
 
 /// Writes frames, and closes the window after so many.
 pub struct RecordPlugin {

@@ -1,13 +1,14 @@
 //! The game in a window: the Bevy app, its schedules, and the systems that join the simulation to the picture.
 
+use super::panel::{Panel, Staged, loaded};
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::{EguiContexts, EguiPlugin, EguiPrimaryContextPass};
 
-use crate::render::frame::Settings;
 use crate::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRenderer};
+use crate::render::settings::Settings;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::scene::ship::Ai;
@@ -18,39 +19,16 @@ use crate::spacetime::orbit::static_momentum;
 
 use super::camera::{View, on_ship, state_of};
 use super::director::{on_caught, wide};
-use super::game::{GamePlugin, GameSet, Seat};
+use super::game::GamePlugin;
 use super::input::MouseTurn;
 use super::instruments::Instruments;
-use super::live::{LivePlugin, Notice};
+use super::live::LivePlugin;
+use super::notice::Notice;
 use super::screens::Screen;
-use super::seen::{Apparition, apparition, true_direction};
+use super::seat::{GameSet, Seat};
+use super::seen::{apparition, true_direction};
 use super::session::Session;
 use super::{hud, menu, overlay, record};
-
-/// The scene's models on the renderer.
-#[derive(Resource, Debug)]
-pub struct Staged(pub Stage);
-
-/// What the HUD shows of this frame.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Panel {
-    /// The dials.
-    pub instruments: Option<Instruments>,
-    /// The target's images of orders 1 and 2.
-    pub images: [Option<Apparition>; 2],
-    /// Where the target is at the same T, in camera axes.
-    pub truth: Option<glam::DVec3>,
-    /// Where the hole is, in camera axes.
-    pub hole: Option<glam::DVec3>,
-    /// The player's own clock when the chase was decided, in r_s/c.
-    pub decided: Option<f64>,
-    /// Where one flies to, against the hovering observers, in camera axes.
-    pub heading: Option<glam::DVec3>,
-    /// The camera's horizontal field of view, in radians.
-    pub field_of_view: f64,
-    /// The camera has turned from where the ship points.
-    pub aside: bool,
-}
 
 /// What the command line asked for beyond the session.
 #[derive(Clone, Debug, Default)]
@@ -99,11 +77,6 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     .add_systems(Update, (fit_interface, welcome, grab_cursor, make_frame).chain().after(GameSet::Answer))
     .add_systems(EguiPrimaryContextPass, (hud::draw, menu::draw, overlay::draw).chain());
     app.run()
-}
-
-/// Whether there is nothing more to load.
-pub(super) fn loaded(staged: Option<Res<Staged>>, renderer: Option<Res<SharedRenderer>>) -> bool {
-    staged.is_some() || renderer.is_none()
 }
 
 /// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.

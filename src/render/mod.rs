@@ -24,6 +24,7 @@ pub mod plugin;
 pub mod race;
 pub mod readback;
 pub mod renderer;
+pub mod settings;
 pub mod shaders;
 pub mod shot;
 pub mod sky;

@@ -14,9 +14,9 @@ use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
 use crate::spacetime::orbit::static_momentum;
 
-use super::frame::Settings;
 use super::method::Method;
 use super::models::ModelRange;
+use super::settings::Settings;
 use super::swing::Swing;
 use super::types::Placement;
 use super::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};

@@ -14,9 +14,9 @@ use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneE
 use crate::sim::History;
 pub use crate::sim::Moment;
 
-use super::frame::Settings;
 use super::readback::{Picture, PictureError};
 use super::renderer::{Renderer, Surroundings};
+use super::settings::Settings;
 use super::stage::{Stage, settings};
 use super::types::Star;
 use super::{DeviceError, Gpu};

@@ -18,10 +18,11 @@ use super::Renderer;
 use super::aurora::{Show, planet_history};
 use super::coarse::coarse;
 use super::disk::Disk;
-use super::frame::{FrameInput, Settings};
+use super::frame::FrameInput;
 use super::method::Method;
 use super::models::ModelRange;
 use super::placements::{Motion, Object, Placed, View, place};
+use super::settings::Settings;
 use super::types::placed::OWN;
 
 /// A scene's objects, ready to be placed.

@@ -1,7 +1,9 @@
 //! The textures that a frame is drawn into, all of the size of the output.
 
-use super::geometry::LAYERS_FORMAT;
 use super::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
+
+/// Format of the layers of a picture.
+pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of about the
 /// same angle it counts the same at every resolution.

@@ -25,8 +25,9 @@ use toml::Spanned;
 
 use super::aurora::dipole::PLANET_RADIUS;
 use super::document::exactly_or_none;
+use super::fault::{Fault, fault, in_range};
 use super::planet::Planet;
-use super::ship::{Fault, MAX_START_MOMENTUM, ShipSpec, fault, in_range};
+use super::ship::{MAX_START_MOMENTUM, ShipSpec};
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::metric::river_speed;

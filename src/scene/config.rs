@@ -10,8 +10,8 @@ pub use super::config_fields::{
 };
 use super::document::{complain_all, one, syntax};
 use super::error::{Complaints, ConfigError};
+use super::fault::Fault;
 pub use super::setting::{Allowed, Setting, Value, is_key};
-use super::ship::Fault;
 
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";
@@ -128,7 +128,7 @@ fn read(value: &DeValue<'_>) -> Option<Value> {
 }
 
 /// The setting with this dotted path, such as `render.orders`.
-pub fn setting(path: &str) -> Option<&'static Setting> {
+pub fn setting(path: &str) -> Option<&'static Setting<GameConfig>> {
     let (section, key) = path.split_once('.')?;
     settings().iter().find(|setting| setting.section == section && setting.key == key)
 }

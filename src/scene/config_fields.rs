@@ -81,8 +81,8 @@ macro_rules! config {
         )*
 
         /// Every setting, in the order of the file.
-        pub fn settings() -> &'static [Setting] {
-            const SETTINGS: &[Setting] = &[$($(
+        pub fn settings() -> &'static [Setting<GameConfig>] {
+            const SETTINGS: &[Setting<GameConfig>] = &[$($(
                 Setting {
                     section: stringify!($section),
                     key: stringify!($key),

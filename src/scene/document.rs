@@ -9,7 +9,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{Complaint, Complaints};
-use super::ship::Fault;
+use super::fault::Fault;
 
 /// Reads a list of exactly `N` values; the TOML reader by itself drops what is too many.
 pub fn exactly<'de, D, T, const N: usize>(reader: D) -> Result<Spanned<[T; N]>, D::Error>

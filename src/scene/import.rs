@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{Mat3, Mat4, Vec2, Vec3, Vec4};
 use gltf::mesh::Mode;
 
-use super::load::assets_folder;
+use super::assets::assets_folder;
 use super::model::{Image, Material, Model, Vertex};
 
 /// Why a model could not be read.

@@ -6,14 +6,16 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::assets::assets_folder;
 use super::camera::{Camera, CameraEntry, check_camera};
 use super::config::{self, GameConfig, RulesConfig};
 use super::document::{complain_all, one, parse, syntax};
 use super::error::{Complaints, SceneError};
+use super::fault::Fault;
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
-use super::ship::{Fault, ShipEntry, ShipSpec, check_ships};
+use super::ship::{ShipEntry, ShipSpec, check_ships};
 
 /// Everything a scene file says.
 #[derive(Debug, Clone)]
@@ -168,15 +170,4 @@ pub fn help(what: &str) -> String {
 
 fn scenes_folder() -> PathBuf {
     assets_folder().join("scenes")
-}
-
-/// The folder `assets/`: in the current folder, beside or above the program, or where the program was built.
-pub fn assets_folder() -> PathBuf {
-    let program = std::env::current_exe().unwrap_or_default();
-    std::iter::once(PathBuf::from("."))
-        .chain(program.ancestors().skip(1).map(Path::to_path_buf))
-        .chain(std::iter::once(PathBuf::from(env!("CARGO_MANIFEST_DIR"))))
-        .map(|folder| folder.join("assets"))
-        .find(|folder| folder.join("scenes").is_dir())
-        .unwrap_or_else(|| PathBuf::from("assets"))
 }

@@ -3,6 +3,7 @@
 //! [`load`] reads a scene by name or path; [`Scene::assemble`] makes its models; [`config::load`] reads `game.toml`.
 
 pub mod assembly;
+pub mod assets;
 pub mod aurora;
 pub mod blackbody;
 pub mod camera;
@@ -11,6 +12,7 @@ mod config_fields;
 pub mod disk;
 mod document;
 pub mod error;
+pub mod fault;
 pub mod import;
 pub mod lighting;
 mod load;
@@ -27,11 +29,12 @@ pub mod texture;
 pub mod viewpoint;
 
 pub use assembly::{Assembly, Body, Object};
+pub use assets::assets_folder;
 pub use camera::{Camera, Mount, picture_size};
 pub use config::GameConfig;
 pub use config_fields::METHODS;
 pub use error::{Complaint, Complaints, ConfigError, SceneError};
-pub use load::{Scene, assets_folder, help, load, names, path};
+pub use load::{Scene, help, load, names, path};
 pub use model::{Image, Material, Model, Vertex};
 pub use planet::{Planet, SkySwitches};
 pub use prop::Prop;

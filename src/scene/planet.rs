@@ -26,8 +26,8 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::fault::{Fault, in_range};
 use super::model::{Material, Model};
-use super::ship::{Fault, in_range};
 use super::{shapes, texture};
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::{Elements, orbital_frequency};

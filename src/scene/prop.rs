@@ -23,9 +23,9 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::document::exactly_or_none;
+use super::fault::{Fault, fault, in_range};
 use super::model::{Material, Model};
 use super::shapes::{self, Anchor};
-use super::ship::{Fault, fault, in_range};
 use super::texture;
 
 /// The most spheres in one lattice.

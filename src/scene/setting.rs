@@ -1,8 +1,6 @@
-//! One tunable value of `game.toml`: its name, unit, allowed range, and how to read and set it in a [`GameConfig`].
+//! One tunable value of `game.toml`: its name, unit, allowed range, and how to read and set it in a configuration `C`.
 
 use std::fmt;
-
-use super::config::GameConfig;
 
 /// A value of one setting.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +42,7 @@ pub enum Allowed {
 
 /// One line of `game.toml`.
 #[derive(Debug, Clone, Copy)]
-pub struct Setting {
+pub struct Setting<C: 'static> {
     /// The section in square brackets.
     pub section: &'static str,
     /// The key in that section.
@@ -55,23 +53,23 @@ pub struct Setting {
     pub help: &'static str,
     /// The values it may take.
     pub allowed: Allowed,
-    pub(super) get: fn(&GameConfig) -> Value,
-    pub(super) set: fn(&mut GameConfig, Value),
+    pub(super) get: fn(&C) -> Value,
+    pub(super) set: fn(&mut C, Value),
 }
 
-impl Setting {
+impl<C> Setting<C> {
     /// `section.key`.
     pub fn path(&self) -> String {
         format!("{}.{}", self.section, self.key)
     }
 
     /// The value in `config`.
-    pub fn get(&self, config: &GameConfig) -> Value {
+    pub fn get(&self, config: &C) -> Value {
         (self.get)(config)
     }
 
     /// Sets the value in `config`, or says what is wrong with it and leaves `config` as it was.
-    pub fn set(&self, config: &mut GameConfig, value: Value) -> Result<(), String> {
+    pub fn set(&self, config: &mut C, value: Value) -> Result<(), String> {
         let value = self.check(value)?;
         (self.set)(config, value);
         Ok(())

@@ -21,6 +21,7 @@
 //! 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its motion)
 //! place it. Angles in radians, 0 if absent; inclination π/2 … π goes round the other way.
 
+use super::fault::{Fault, fault, in_range};
 use std::f64::consts::PI;
 use std::ops::Range;
 
@@ -29,7 +30,6 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::document::{exactly, exactly_or_none};
-use super::setting::range_text;
 use crate::spacetime::matter::{SINGULARITY_RADIUS, ShipState};
 use crate::spacetime::orbit::{Elements, OrbitError};
 
@@ -39,15 +39,6 @@ pub const MAX_START_RADIUS: f64 = 1e6;
 pub const MAX_START_MOMENTUM: f64 = 1e6;
 /// The largest proper acceleration in a programme or of an engine, in c²/r_s.
 pub const MAX_ACCELERATION: f64 = 1e3;
-
-/// Something wrong with a value in a scene file: where, and a sentence with key, value and allowed range.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// Bytes of the file's text.
-    pub span: Range<usize>,
-    /// Key, value, allowed range.
-    pub message: String,
-}
 
 /// Who flies a ship.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -305,19 +296,6 @@ fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
     Ok(checked.into_iter().map(|(_, burn)| burn).collect())
 }
 
-/// A number inside `range`, or the fault that says so.
-pub(crate) fn in_range(value: &Spanned<f64>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<f64, Fault> {
-    let x = *value.get_ref();
-    if range.contains(&x) && x.is_finite() {
-        return Ok(x);
-    }
-    fault(value, format!("{key} = {x} must be from {}", range_text(*range.start(), *range.end(), unit)))
-}
-
 fn optional(value: &Option<Spanned<f64>>, key: &str, range: std::ops::RangeInclusive<f64>, unit: &str) -> Result<Option<f64>, Fault> {
     value.as_ref().map(|value| in_range(value, key, range, unit)).transpose()
-}
-
-pub(crate) fn fault<T, S>(place: &Spanned<S>, message: String) -> Result<T, Fault> {
-    Err(Fault { span: place.span(), message })
 }

@@ -28,7 +28,7 @@ pub use physics::ShipPhysicsPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
 pub use setup::{outcome, set_manual, start};
-pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion, muster};
+pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion};
 
 /// The order of a fixed step.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]

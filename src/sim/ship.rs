@@ -6,8 +6,6 @@ use crate::scene::ship::{Ai, Burn, ShipSpec};
 use crate::spacetime::matter::ShipState;
 
 use super::flight::Command;
-use super::history::History;
-use super::pilot::Mind;
 
 /// A ship.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
@@ -109,59 +107,4 @@ impl Fleet {
     pub fn find(&self, name: &str, specs: &[ShipSpec]) -> Option<Entity> {
         specs.iter().position(|spec| spec.name == name).and_then(|index| self.0.get(index).copied())
     }
-}
-
-/// What a scene leaves open, from the game's configuration.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Defaults {
-    /// For the player and those who pursue, c²/r_s.
-    pub hunter_thrust: f64,
-    /// Δv, in c.
-    pub hunter_fuel: f64,
-    /// For those who flee, c²/r_s.
-    pub quarry_thrust: f64,
-    /// Δv, in c.
-    pub quarry_fuel: f64,
-    /// The fastest turn, rad per proper r_s/c.
-    pub max_rate: f64,
-}
-
-/// Spawns the ships of a scene in its order and inserts the [`Fleet`]. Ships of an earlier scene are despawned.
-pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: f64) {
-    if let Some(old) = world.remove_resource::<Fleet>() {
-        for entity in old.0 {
-            world.despawn(entity);
-        }
-    }
-    let fleet = Fleet(specs.iter().enumerate().map(|(index, spec)| spawn(world, index, spec, defaults, time)).collect());
-    for (index, spec) in specs.iter().enumerate() {
-        let first_other = (0..specs.len()).find(|&other| other != index);
-        let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
-        if let (true, Some(target)) = (spec.ai != Ai::None, target) {
-            world.entity_mut(fleet.0[index]).insert((Pilot { ai: spec.ai, target }, Mind::default()));
-        }
-    }
-    world.insert_resource(fleet);
-}
-
-fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, time: f64) -> Entity {
-    let (thrust, tank) = match (spec.ai, spec.player) {
-        (Ai::Flee, false) => (defaults.quarry_thrust, defaults.quarry_fuel),
-        (Ai::None, false) => (defaults.hunter_thrust, f64::INFINITY),
-        _ => (defaults.hunter_thrust, defaults.hunter_fuel),
-    };
-    let fuel = if spec.fuel.is_finite() { spec.fuel } else { tank };
-    let mut entity = world.spawn((
-        Ship { name: spec.name.clone(), index },
-        ShipMotion(spec.state),
-        Controls::default(),
-        Fuel { left: fuel, capacity: fuel },
-        Engine { max_thrust: spec.max_thrust.unwrap_or(thrust), max_rate: defaults.max_rate },
-        Programme(spec.programme.clone()),
-        History::new(time, &spec.state),
-    ));
-    if spec.player {
-        entity.insert(Player);
-    }
-    entity.id()
 }

@@ -8,6 +8,7 @@
 //! pairs and tabulated widths and places leave: the tests hold it below 2 % (root mean square), and a single splat within 6.8 % of its peak at 2,400 widths and places (10 % was
 //! found between two tabulated widths about half a pixel, 7.6 % elsewhere).
 
+use super::shares::ADDED;
 use bytemuck::cast;
 use std::ops::Range;
 use wide::f32x4;
@@ -20,8 +21,6 @@ use super::shares::{FINEST, MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
-/// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
-pub(super) const ADDED: f32 = 5.0 / 12.0;
 /// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels become to some 6 % of their peak.
 const FINENESS: f32 = 1.0 / (0.85 * 0.85);
 /// From this variance on a splat goes to the first coarser layer, whose pixels are enlarged but once and tell narrower ones: its standard deviation is 0.8 of them.

@@ -4,6 +4,9 @@
 
 use super::points::lesser;
 
+/// Variance that enlarging adds in the end, pixels of a layer squared: 5/4 of a fine pixel's each time.
+pub(super) const ADDED: f32 = 5.0 / 12.0;
+
 /// Most pixels along a side of a splat, where its standard deviation is 2.4 pixels.
 const WIDTH: usize = 13;
 /// How far splats of the finest layer reach beyond half a pixel: a narrow one to so many of its standard deviations, a wide one to so many and a part of a pixel,
@@ -126,7 +129,7 @@ impl Humps {
 
     /// The shares, 1 in sum, whose humps are nearest to a Gaussian, wider than the one asked for by what enlarging adds.
     fn nearest(&self, sigma: f64, middle: f64) -> Vec<f64> {
-        let variance = sigma * sigma + f64::from(super::pyramid::ADDED) * (1.0 - 0.25f64.powi(TIMES as i32));
+        let variance = sigma * sigma + f64::from(ADDED) * (1.0 - 0.25f64.powi(TIMES as i32));
         let first = -(self.half as f64 + 3.5) + 0.5 / FINE as f64;
         let wanted: Vec<f64> = (0..(2 * self.half + 7) * FINE)
             .map(|k| (-0.5 * (first + k as f64 / FINE as f64 - middle).powi(2) / variance).exp())

@@ -2,7 +2,8 @@
 
 use super::super::chart::{Provenance, Sheet};
 use super::super::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};
-use super::rays::{ALL, SCENES, SIZES};
+use super::rays::SIZES;
+use super::request::{ALL, SCENES};
 
 /// Panels: figures 3.17 and 4.8, 4.9 to 4.14 (with 4.16 and 4.17 in castle and balls4A), then the comparisons.
 pub fn draw(sheet: &Sheet) -> Figure {

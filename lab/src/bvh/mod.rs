@@ -7,64 +7,21 @@ mod draw;
 mod embree;
 mod others;
 mod rays;
+mod request;
 
 use std::path::PathBuf;
 
-use super::chart::{Output, Provenance, Sheet, SheetError, interleaved_by, thread_time, times_the_first};
-use super::plot::PlotError;
-use crate::straight::scenes::bunny::PlyError;
+use super::chart::{Provenance, Sheet, interleaved_by, thread_time, times_the_first};
 use rays::Job;
+
+pub use request::{ChartError, Request};
 
 /// How many times as often as everything else runs what is compared with 8 × 8: single percents are to be told apart there.
 const MORE_ROUNDS: usize = 10;
 
-/// What the chart is asked for.
-#[derive(Clone, Debug)]
-pub struct Request {
-    /// Where it goes.
-    pub output: Output,
-    /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, which is not of paper 4.
-    pub scenes: Vec<String>,
-    /// Width and height in pixels.
-    pub size: [usize; 2],
-    /// How often each method runs; the median counts.
-    pub rounds: usize,
-    /// The Stanford bunny as PLY; where there is no such file, a blob of as many triangles takes its place.
-    pub bunny: PathBuf,
-    /// Compares hits instead of timing: the methods with each other, and with brute force in f64.
-    pub check: bool,
-}
-
-/// Why there is no chart.
-#[derive(Debug, thiserror::Error)]
-pub enum ChartError {
-    /// The CSV.
-    #[error(transparent)]
-    Sheet(#[from] SheetError),
-    /// The picture.
-    #[error(transparent)]
-    Plot(#[from] PlotError),
-    /// The bunny.
-    #[error(transparent)]
-    Ply(#[from] PlyError),
-    /// An unknown scene.
-    #[error("--scenes {0}: unknown; there are {all}", all = rays::ALL.join(", "))]
-    Scene(String),
-    /// A method gave an answer that rounding does not explain.
-    #[error("{0} hits are wrong")]
-    Wrong(usize),
-}
-
-impl ChartError {
-    /// Whether the request was at fault.
-    pub fn is_input(&self) -> bool {
-        matches!(self, ChartError::Scene(_) | ChartError::Ply(_))
-    }
-}
-
 /// Measures (or reads) and draws; returns the files written.
 pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
-    if let Some(unknown) = request.scenes.iter().find(|name| !rays::ALL.contains(&name.as_str())) {
+    if let Some(unknown) = request.scenes.iter().find(|name| !request::ALL.contains(&name.as_str())) {
         return Err(ChartError::Scene(unknown.clone()));
     }
     if request.check {

@@ -1,20 +1,15 @@
 //! The scenes of the chart and the rays through them.
 
+use super::request::{ALL, SCENES};
 use std::time::Instant;
 
 use glam::Vec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::{ChartError, Request};
+use super::request::{ChartError, Request};
 use crate::straight::scenes::{Scene, View, bunny, castle, needles, spd};
 use crate::straight::{Hit, Ray, Wide, order};
-
-/// Every scene of paper 4, in its order.
-pub const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];
-
-/// Every scene: those, and one that trees of boxes hold badly.
-pub const ALL: [&str; 7] = [SCENES[0], SCENES[1], SCENES[2], SCENES[3], SCENES[4], SCENES[5], "needles"];
 
 /// No method of ours should take longer than some times this (seconds of single rays in the tree of eight) for a picture: else the picture is made smaller.
 const LONGEST: f64 = 2.0;

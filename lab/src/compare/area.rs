@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Frame;
 use super::fault::{Fault, Kind, Limits};
-use super::metrics::{FULL, Grid, thin_parts};
+use super::grid::{FULL, Grid, thin_parts};
 use lensrunner::judge::picture::Picture;
 
 /// The size of one image of one object.

@@ -1,5 +1,6 @@
 //! How far a picture is from the judge's.
 
+use super::grid::{FULL, Grid, thin_parts};
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use rayon::prelude::*;
@@ -195,18 +196,6 @@ fn all_around([x, y]: [f64; 2], holds: impl Fn(f64, f64) -> bool) -> bool {
     (0..3 * DOUBT).all(|row| (0..3 * DOUBT).all(|column| holds(x + step(column), y + step(row))))
 }
 
-/// Whose the coverage is that a contestant shows in a pixel. Where several thin images cover one it knows their common area alone, and names the
-/// nearest: it counts for each as the judge sees them there. Each image with its part, of 1 in all.
-pub(super) fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<((u32, u32), f64)> {
-    let there: Vec<_> =
-        shares.iter().filter(|share| is_thin(share.0, share.1)).map(|share| ((share.0, share.1), f64::from(share.2))).collect();
-    if !there.iter().any(|(image, _)| *image == shown) {
-        return vec![(shown, 1.0)];
-    }
-    let sum: f64 = there.iter().map(|(_, share)| share).sum();
-    there.into_iter().map(|(image, share)| (image, share / sum)).collect()
-}
-
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
 /// by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
 fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
@@ -235,8 +224,6 @@ fn drawn_by_centres(frame: &Frame) -> HashSet<(u32, u32)> {
     images(false).filter(|image| !by_coverage.contains(image)).collect()
 }
 
-/// A pixel is filled from this part on: all samples of any number but for rounding.
-pub(super) const FULL: f32 = 0.999;
 /// What fills no more pixels than this is nowhere two pixels wide.
 const FEW: usize = 1;
 /// One in so many pixels filled is still narrow: of a line one pixel wide, across any grid, none to a third is.
@@ -282,30 +269,5 @@ impl Tally {
             touched: self.touched,
             flip: self.flip / self.pixels.max(1) as f64,
         }
-    }
-}
-
-/// The pixels of a picture.
-pub(super) struct Grid {
-    width: usize,
-    height: usize,
-}
-
-impl Grid {
-    pub(super) fn of(size: [u32; 2]) -> Grid {
-        let [width, height] = size.map(|side| side as usize);
-        Grid { width, height }
-    }
-
-    /// Column and row: the upper left corner, in pixels.
-    pub(super) fn place(&self, i: usize) -> [f64; 2] {
-        [(i % self.width) as f64, (i / self.width) as f64]
-    }
-
-    /// The pixel and those around it that exist.
-    pub(super) fn around(&self, i: usize) -> Vec<usize> {
-        let (x, y) = (i % self.width, i / self.width);
-        let columns = x.saturating_sub(1)..=(x + 1).min(self.width - 1);
-        (y.saturating_sub(1)..=(y + 1).min(self.height - 1)).flat_map(|y| columns.clone().map(move |x| y * self.width + x)).collect()
     }
 }

@@ -6,6 +6,7 @@
 //! - [`report`]: the numbers as text, the pictures side by side.
 //! - [`area`]: how large each image is.
 //! - [`fault`]: the limits and what is beyond them.
+//! - [`beyond`]: what of a verdict is beyond its limits.
 //! - [`deadline`]: how long the judge may take.
 //! - [`judged`]: one case before the judge, from the picture to its faults.
 //! - [`random`]: scenes that nobody chose.
@@ -14,12 +15,14 @@
 //! - [`command`]: `lensrunner-lab compare`.
 
 pub mod area;
+pub mod beyond;
 pub mod collect;
 pub mod command;
 pub mod deadline;
 pub mod displacement;
 pub mod fault;
 pub mod flight;
+mod grid;
 pub mod judged;
 pub mod metrics;
 pub mod narrow;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::Frame;
 use super::deadline::Deadline;
 use super::displacement::Probe;
-use super::metrics::Grid;
+use super::grid::Grid;
 use lensrunner::judge::picture::Picture;
 
 /// Rays along each side of a pixel in which a narrow image lies.

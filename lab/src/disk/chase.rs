@@ -3,9 +3,9 @@
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::disk::Gas;
 
-use super::chart::{ChartError, Contestant, DISK_PASSES, Draw, Request, View, median, own, timed};
 use super::error::{compare, peak};
 use super::exact::picture;
+use super::request::{ChartError, Contestant, DISK_PASSES, Draw, Request, View, median, own, timed};
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.

@@ -3,7 +3,7 @@
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::GameConfig;
 
-use super::chart::{ChartError, DISK_PASSES, Draw, REFERENCE, Request, View, contestants};
+use super::request::{ChartError, DISK_PASSES, Draw, REFERENCE, Request, View, contestants};
 use super::script::script;
 
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.

@@ -6,6 +6,7 @@ pub mod error;
 pub mod exact;
 pub mod flight;
 pub mod places;
+pub mod request;
 pub mod script;
 
 pub use error::{PictureError, compare, peak};

@@ -8,9 +8,9 @@ use glam::DVec3;
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::disk::Gas;
 
-use super::chart::{ChartError, Contestant, Draw, Request, TIME, View, eye};
 use super::error::{compare, peak};
 use super::exact::picture;
+use super::request::{ChartError, Contestant, Draw, Request, TIME, View, eye};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use lensrunner::spacetime::Observer;
 
-use super::chart::eye;
+use super::request::eye;
 
 /// A place on the way.
 struct Stop {

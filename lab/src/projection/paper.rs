@@ -13,7 +13,8 @@ use super::Request;
 use crate::chart::{Provenance, Sheet};
 use lensrunner::lensing::Scheme;
 use lensrunner::lensing::methods::{self, Exact, Projector, Query};
-use lensrunner::lensing::paper::{RANGES, camera_mesh, slice_meshes};
+use lensrunner::lensing::paper::{camera_mesh, slice_meshes};
+use lensrunner::lensing::paper_format::RANGES;
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// How r, φ, L may have been drawn.

@@ -96,7 +96,7 @@ mod tests {
     use crate::straight::lanes::{Pair, Portable};
     use crate::straight::ray::Ray;
     use crate::straight::triangle::{Shear, fastest};
-    use crate::straight::wide_group::GROUP;
+    use crate::straight::wide_best::GROUP;
 
     /// Triangles of any size and shape at any distance, and rays through their corners, along their edges and beside them: none that `Shear` says is met is
     /// left out, and of the others few are kept.

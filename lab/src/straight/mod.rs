@@ -10,6 +10,7 @@
 // An axis indexes several arrays at once.
 #![allow(clippy::needless_range_loop)]
 
+mod bundle;
 mod edges;
 mod hull;
 mod lanes;
@@ -29,10 +30,11 @@ mod wide_group;
 mod wide_packet;
 mod wide_ray;
 
+pub use bundle::EyePacket;
 pub use lensrunner::judge::bvh::{
     Bounds, Census, Costs, Fault, MAX_DEPTH, Node, Scalar, Settings, Tree, bounds, build, order, tree, validate,
 };
-pub use packet::{EyePacket, EyePackets};
+pub use packet::EyePackets;
 pub use ray::{Hit, Ray};
 pub use single::Mesh;
 pub use wide::{Instructions, Wide};

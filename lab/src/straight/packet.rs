@@ -2,7 +2,8 @@
 //! chapter 4 with one split in four at each node, section 4.4 with two (in sixteen); more are allowed.
 
 use super::bounds::Bounds;
-use super::ray::{Hit, Ray, Slabs, WIDENING, widening};
+use super::bundle::{EyePacket, Ready};
+use super::ray::{Hit, Ray, Slabs, widening};
 use super::single::Mesh;
 use super::split::{Bundle, bundles};
 use super::triangle::Shear;
@@ -10,40 +11,11 @@ use super::triangle::Shear;
 /// A packet is split at most this often at one node.
 pub const MOST_SPLITS: u32 = 3;
 
-/// Rays from one eye, in an order in which every aligned run of 4ᵏ is a square of 2ᵏ × 2ᵏ pixels ([`super::order::squares`]).
-#[derive(Clone, Copy, Debug)]
-pub struct EyePacket<'a> {
-    /// Where all rays start.
-    pub eye: [f32; 3],
-    /// Where they go. A packet splits if their number is a power of 4.
-    pub directions: &'a [[f32; 3]],
-    /// The camera's axes to the right and upwards, V_right and V_up.
-    pub screen: [[f32; 3]; 2],
-}
-
 /// What a packet needs to remember on its way; keep one for each thread.
 #[derive(Clone, Debug, Default)]
 pub struct EyePackets {
     rays: Vec<Ready>,
     bundles: Vec<Bundle>,
-}
-
-/// A ray made ready for boxes and triangles.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Ready {
-    slabs: Slabs,
-    shear: Shear,
-}
-
-impl Ready {
-    pub(super) fn inverse(&self) -> [f32; 3] {
-        self.slabs.inverse
-    }
-
-    /// The eye as the planes are tested against it where rays enter and where they leave.
-    pub(super) fn shifts(&self) -> [[f32; 3]; 2] {
-        [self.slabs.enter, self.slabs.leave]
-    }
 }
 
 impl Mesh {
@@ -170,11 +142,4 @@ impl Descent<'_> {
     fn meets(&self, ray: usize, bounds: &Bounds<f32>) -> bool {
         self.rays[ray].slabs.enter(bounds, self.hits[ray].t).is_some()
     }
-}
-
-/// The widening of a box as [`widening`] has it, for a plane through the eye with this normal.
-#[inline]
-pub(super) fn slack(normal: [f32; 3], wide: f32) -> f32 {
-    // Rounding of the three products, of the same size as what the widening stands for.
-    (normal[0].abs() + normal[1].abs() + normal[2].abs()) * wide * (1.0 + WIDENING)
 }

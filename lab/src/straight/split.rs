@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::bounds::Bounds;
-use super::packet::{EyePacket, Ready, slack};
+use super::bundle::{EyePacket, Ready, slack};
 
 /// A plane through the eye between two halves of a packet.
 #[derive(Clone, Copy, Debug)]

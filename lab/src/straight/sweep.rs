@@ -5,8 +5,9 @@ use super::lanes::{Eight, Mask, Sixteen};
 use super::ray::{Ray, widening};
 use super::triangle::fastest;
 use super::wide::Wide;
+use super::wide_best::GROUP;
 use super::wide_eye::Laid;
-use super::wide_group::{ALL, EIGHT, GROUP, NO_END, filled, lanes};
+use super::wide_group::{ALL, EIGHT, NO_END, filled, lanes};
 
 /// Of seven times sixteen numbers, which are sixteen rays of seven, those that are not of an origin: one bit each.
 const OTHER: [u32; 7] = {

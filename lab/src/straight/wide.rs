@@ -1,9 +1,9 @@
 //! The tree of eight children a node: one instruction tests eight boxes, or eight triangles.
 
 use super::bounds::Bounds;
-use super::build::{Costs, Settings, build};
+use super::build::{Settings, build};
 use super::single::bounds;
-use super::tree::{MAX_DEPTH, Tree};
+use super::tree::{Costs, MAX_DEPTH, Tree};
 
 /// Marks a child that is a [`Block`] and not a [`Wide8`].
 pub(super) const LEAF: u32 = 1 << 31;

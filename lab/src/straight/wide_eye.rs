@@ -10,7 +10,8 @@ use super::ray::{Hit, Ray};
 use super::triangle::Shear;
 use super::wide::{Block, LEAF, Stack, Waits, Wide, Wide8, leaf};
 use super::wide_best::Best;
-use super::wide_group::{GROUP, Item, corner, push};
+use super::wide_best::GROUP;
+use super::wide_group::{Item, corner, push};
 use super::wide_ray::{self, meet, sheared, splat};
 
 /// Groups that descend together, 8 × 8 pixels: from one to two castle gains a fifth, from two to four a tenth.

@@ -5,13 +5,11 @@ use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::ray::{Hit, Ray};
 use super::wide::{Block, LEAF, Stack, Waits, Wide, leaf};
 use super::wide_best::Best;
+use super::wide_best::GROUP;
 use super::wide_ray::{meet, sheared};
 
 /// Rays that a transposition takes at once.
 pub(super) const EIGHT: usize = 8;
-
-/// Rays that descend together: a look at a node costs the same for all, and 4 × 4 pixels have hardly more in front of them than 4 × 2.
-pub(super) const GROUP: usize = 16;
 
 /// Every lane of a group.
 pub(super) const ALL: u32 = 0xffff;

@@ -12,8 +12,9 @@ use super::lanes_x86::{Avx, Avx512};
 use super::ray::{Hit, Ray};
 use super::sweep;
 use super::wide::{Instructions, STACK, Stack, Waits, Wide};
+use super::wide_best::GROUP;
 use super::wide_eye::{self, Laid, Run, TOGETHER};
-use super::wide_group::{EIGHT, GROUP, Item, group, push};
+use super::wide_group::{EIGHT, Item, group, push};
 
 /// So many groups at most share their last list, the one that is sorted; twice as many are as fast.
 const SHARE: usize = TOGETHER;

@@ -25,23 +25,7 @@
 //! ```
 
 use super::bounds::{Bounds, Scalar};
-use super::tree::{MAX_DEPTH, Node, Tree};
-
-/// What the heuristic takes a test to cost, in any unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Costs {
-    /// One ray against one box, T_AABB.
-    pub node: f64,
-    /// One ray against one primitive, T_tri.
-    pub primitive: f64,
-}
-
-impl Default for Costs {
-    /// 2 : 1 (paper 4, section 3.3, after Reshetov et al. 2005).
-    fn default() -> Costs {
-        Costs { node: 2.0, primitive: 1.0 }
-    }
-}
+use super::tree::{Costs, MAX_DEPTH, Node, Tree};
 
 /// How a tree is built.
 #[derive(Clone, Copy, Debug, PartialEq)]

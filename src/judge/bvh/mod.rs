@@ -13,6 +13,6 @@ pub mod tree;
 pub mod validate;
 
 pub use bounds::{Bounds, Scalar};
-pub use build::{Costs, Settings, build};
-pub use tree::{MAX_DEPTH, Node, Tree};
+pub use build::{Settings, build};
+pub use tree::{Costs, MAX_DEPTH, Node, Tree};
 pub use validate::{Census, Fault, validate};

@@ -63,7 +63,7 @@ impl<T: Scalar> Tree<T> {
     }
 
     /// The expected cost of a random ray that meets the root, by the surface area heuristic (paper 4, equation 3.1 over the whole tree).
-    pub fn cost(&self, costs: super::build::Costs) -> f64 {
+    pub fn cost(&self, costs: Costs) -> f64 {
         let Some(root) = self.nodes.first() else { return 0.0 };
         let total: f64 = self
             .nodes
@@ -74,5 +74,21 @@ impl<T: Scalar> Tree<T> {
             })
             .sum();
         total / root.bounds.half_area()
+    }
+}
+
+/// What the heuristic takes a test to cost, in any unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Costs {
+    /// One ray against one box, T_AABB.
+    pub node: f64,
+    /// One ray against one primitive, T_tri.
+    pub primitive: f64,
+}
+
+impl Default for Costs {
+    /// 2 : 1 (paper 4, section 3.3, after Reshetov et al. 2005).
+    fn default() -> Costs {
+        Costs { node: 2.0, primitive: 1.0 }
     }
 }

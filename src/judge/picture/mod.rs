@@ -20,6 +20,7 @@ mod sweep;
 pub mod texture;
 pub mod tree;
 pub mod world;
+mod worldline;
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -30,7 +31,8 @@ use rayon::prelude::*;
 
 pub use disk::{Crossing, Disk};
 pub use find::Seen;
-pub use world::{Motion, Pose, Sway, Thing, World, Worldline};
+pub use world::{Thing, World};
+pub use worldline::{Motion, Pose, Sway, Worldline};
 
 use super::bvh::order::squares;
 use super::trace::{Camera, Hit};

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::texture::Pyramid;
-use super::world::{Motion, Thing, World};
+use super::world::{Thing, World};
+use super::worldline::Motion;
 use crate::judge::trace::Hit;
 use crate::scene::lighting::Surroundings;
 use crate::scene::model::Material;

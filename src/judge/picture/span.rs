@@ -1,9 +1,7 @@
 //! At which delays a camera may see a flying body at all, and how far out: by a walk along its worldline in steps as long as it is far.
 
-use std::sync::Arc;
-
 use super::sweep::fastest_since;
-use super::world::{Motion, Pose, World, Worldline};
+use super::worldline::{Pose, Worldline};
 use crate::spacetime::matter::gamma;
 
 /// Light winds at the photon sphere for this long at most (r_s/c): a deviation grows by e in (3√3/2) r_s/c, and 10¹⁶ is e^36.8.
@@ -37,17 +35,33 @@ pub(super) struct Scope {
 }
 
 impl Scope {
+    /// Of a camera at radius `camera` (r_s) at T = `time`, where nothing is held beyond `radius`; `lines` are the flying bodies with their reach (r_s), in their order.
+    pub fn new<'a>(camera: f64, radius: f64, time: f64, hole: bool, lines: impl Iterator<Item = (&'a dyn Worldline, f64)>) -> Scope {
+        let (lingers, spans) = ([0.0; GAPS.len()], Vec::new());
+        let mut scope = Scope { camera, radius, clings_until: 0.0, gap: GAPS[0], lingers, spans };
+        for (line, reach) in lines {
+            scope.add(time, hole, line, reach);
+        }
+        scope.settle();
+        scope
+    }
+
+    /// Whether it is that of a camera at this radius (r_s).
+    pub fn is_of(&self, camera: f64) -> bool {
+        self.camera == camera
+    }
+
     /// Whether the flying body of this number may be met at delays from `from` to `to` (r_s/c).
     pub fn allows(&self, number: u32, from: f64, to: f64) -> bool {
         let [newest, oldest] = self.spans[number as usize];
         to >= newest && from <= oldest
     }
 
-    fn add(&mut self, world: &World, line: &dyn Worldline, reach: f64) {
-        let pose = |delay: f64| line.at(world.time - delay);
+    fn add(&mut self, time: f64, hole: bool, line: &dyn Worldline, reach: f64) {
+        let pose = |delay: f64| line.at(time - delay);
         let at = |delay: f64| pose(delay).position.length();
         // Light to the camera, followed backwards, comes no nearer to the hole than this; nor does a body that is inside ever come out.
-        let floor = if world.hole { self.camera.min(1.0) } else { 0.0 };
+        let floor = if hole { self.camera.min(1.0) } else { 0.0 };
         let newest = last_below(|delay| at(delay) + reach < floor);
         let mut delay = newest;
         let mut here = pose(delay);
@@ -60,8 +74,8 @@ impl Scope {
                 r = here.position.length();
                 continue;
             }
-            let clings = world.hole && r <= 2.0 + 2.0 * reach && delay < self.inwards() + CLINGING;
-            if self.is_past(world.hole, r + reach, delay) && !clings {
+            let clings = hole && r <= 2.0 + 2.0 * reach && delay < self.inwards() + CLINGING;
+            if self.is_past(hole, r + reach, delay) && !clings {
                 break;
             }
             let strays = STEP * r.max(reach);
@@ -77,7 +91,7 @@ impl Scope {
                 self.radius = self.radius.max(far);
             }
             if clings {
-                let room = room(world.time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
+                let room = room(time, line, reach, [(newer, &last), (delay, &here)]).unwrap_or_else(|| {
                     let strays = 0.5 * strays + reach;
                     Room { room: (before.min(r) - strays - 1.0).max(1.0 - before.max(r) - strays), stands: 0.0 }
                 });
@@ -170,27 +184,4 @@ fn last_below(holds: impl Fn(f64) -> bool) -> f64 {
         }
     }
     low
-}
-
-impl World<'_> {
-    /// What light to a camera at radius `camera` (r_s) may meet; kept for the next ray.
-    pub(super) fn scope(&self, camera: f64) -> Arc<Scope> {
-        let mut kept = self.scope.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        match &*kept {
-            Some(scope) if scope.camera == camera => scope.clone(),
-            _ => {
-                let (lingers, spans) = ([0.0; GAPS.len()], Vec::new());
-                let mut scope = Scope { camera, radius: self.held_radius, clings_until: 0.0, gap: GAPS[0], lingers, spans };
-                for flying in &self.flying {
-                    if let Motion::Flying(line) = self.things[flying.thing as usize].motion {
-                        scope.add(self, line, flying.reach);
-                    }
-                }
-                scope.settle();
-                let scope = Arc::new(scope);
-                *kept = Some(scope.clone());
-                scope
-            }
-        }
-    }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::tree::Chord;
-use super::world::Worldline;
+use super::worldline::Worldline;
 use crate::judge::bvh::Bounds;
 
 /// A window is halved until the body moves by less than this part of its reach and the bound on its speed holds.

@@ -5,7 +5,7 @@ use wide::f32x8;
 
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::batch::{self, LANES};
-use crate::lensing::lookup::place;
+use crate::lensing::place::place;
 use crate::lensing::single::{Camera, camera};
 use crate::lensing::{Table, paper};
 use crate::spacetime::light::{Branch, Order};
@@ -91,11 +91,11 @@ impl Paper {
         let mut sum = [0.0f32; 2];
         for (k, wz) in [(layer, 1.0 - share), (layer + 1, share)] {
             for (j, wy) in [(j, 1.0 - y), (j + 1, y)] {
-                let base = ((k * n + j) * n + i) * paper::CHANNELS + channel;
-                let corner = &self.0.values[base..base + paper::CHANNELS + 2];
+                let base = ((k * n + j) * n + i) * crate::lensing::paper_format::CHANNELS + channel;
+                let corner = &self.0.values[base..base + crate::lensing::paper_format::CHANNELS + 2];
                 let weight = wz * wy;
                 for h in 0..2 {
-                    sum[h] += weight * (corner[h] * (1.0 - x) + corner[paper::CHANNELS + h] * x);
+                    sum[h] += weight * (corner[h] * (1.0 - x) + corner[crate::lensing::paper_format::CHANNELS + h] * x);
                 }
             }
         }
@@ -167,7 +167,7 @@ impl Projector for PaperBatch {
 
 /// Whether the tables of paper 1 reach so far.
 fn answers(query: Query, order: Order) -> bool {
-    let [l_low, l_high, r_low, r_high, ..] = paper::RANGES;
+    let [l_low, l_high, r_low, r_high, ..] = crate::lensing::paper_format::RANGES;
     order.number() <= 2 && (l_low..=l_high).contains(&query.camera) && (r_low..=r_high).contains(&query.r)
 }
 

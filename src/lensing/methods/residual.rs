@@ -5,7 +5,8 @@ use half::f16;
 
 use super::slice::{in_range, seen};
 use super::{Frame, Projector, Query, Sight, Vertex, each};
-use crate::lensing::lookup::{LensRay, OLD, YOUNG, lookup_with, place, swept};
+use crate::lensing::lookup::{LensRay, OLD, YOUNG, lookup_with, swept};
+use crate::lensing::place::place;
 use crate::lensing::single::{Camera, camera};
 use crate::lensing::{Table, grid, spline};
 use crate::spacetime::light::{Branch, Order};

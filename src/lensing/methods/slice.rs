@@ -2,7 +2,8 @@
 
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
 use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
-use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, place, residuals_half, residuals_linear, swept};
+use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear, swept};
+use crate::lensing::place::place;
 use crate::lensing::single::Camera;
 use crate::lensing::slice::Cut;
 use crate::lensing::{self, LensRay, Slice};

@@ -1,14 +1,10 @@
 //! The colours of the lines over an image: a few of them by frequency ratio, and where on the screen which of them holds.
 
+use super::shift::SHIFTS;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
 use super::shift::Shift;
-
-/// Frequency ratios that colours are given at: over the 8 % between the sides of a planet that turns once in 40 r_s/c, straight lines between them are off by
-/// less than a thousandth of green's brightness, and over twice as much, from 0.88 to 1.05, by a quarter of a hundredth. The colour of violet bands,
-/// which come into sight there, changes fastest.
-pub const SHIFTS: usize = 16;
 
 /// `Lines` in shaders/aurora/lit_corners.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

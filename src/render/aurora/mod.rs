@@ -18,9 +18,10 @@ mod show;
 pub mod sight;
 pub mod veil;
 
-pub use colours::{Colours, SHIFTS};
+pub use colours::Colours;
 pub use levels::PYRAMID;
 pub use pass::Aurora;
+pub use shift::SHIFTS;
 pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};
 
 use bytemuck::{Pod, Zeroable};

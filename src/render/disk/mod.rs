@@ -5,6 +5,7 @@
 
 pub mod arcs;
 pub mod bench;
+mod drawn;
 pub mod polygons;
 pub mod rows;
 pub mod sigma;
@@ -18,62 +19,17 @@ use std::ops::RangeInclusive;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::lensing::Slice;
-use crate::scene::GameConfig;
-use crate::scene::config;
-use crate::scene::disk::arcs::Arcs;
-use crate::scene::disk::{Gas, PATTERN_HEIGHT};
 
 use super::Gpu;
 use super::frame::FrameInput;
 use super::layout::{Slot, bind, buffer, layout, storage};
 use arcs::ArcPass;
+pub use drawn::Disk;
 use polygons::PolygonPass;
 use sprites::SpritePass;
 use textures::Textures;
 use types::DiskFrame;
 use view::DiskView;
-
-/// Radii in the table that sprites and polygons look their gas up in.
-const RADII: usize = 512;
-
-/// A disk ready to be drawn.
-#[derive(Clone, Debug)]
-pub struct Disk {
-    /// The gas.
-    pub gas: Gas,
-    /// Its arcs.
-    pub arcs: Arcs,
-    /// What `game.toml` and the scene say.
-    pub config: config::Disk,
-    /// Least width of thin images, in pixels.
-    pub min_width: f64,
-}
-
-impl Disk {
-    /// The disk of `disk` around the hole of `config`.
-    pub fn new(disk: config::Disk, config: &GameConfig) -> Disk {
-        let gas = Gas::new(&disk, config.hole.mass_solar);
-        let arcs = Arcs::new(&disk, &gas.radial);
-        Disk { gas, arcs, config: disk, min_width: config.render.min_width }
-    }
-
-    /// Two rows for each radius, as `shaders/disk/radial.wgsl` reads them.
-    fn radial_table(&self) -> Vec<[f32; 4]> {
-        let radial = &self.gas.radial;
-        let [start, end] = self.gas.extent();
-        (0..RADII)
-            .flat_map(|k| {
-                let r = start + (end - start) * k as f64 / (RADII - 1) as f64;
-                let [outward, along] = radial.momentum(r);
-                let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
-                [
-                    [radial.temperature(r).ln(), radial.depth(r), outward, along].map(|value| value as f32),
-                    [radial.lag(r), self.gas.half_height(r), pattern, r].map(|value| value as f32),
-                ]
-            })
-            .collect()
-    }
-}
 
 /// How the disk is drawn.
 #[derive(Debug)]

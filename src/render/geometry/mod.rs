@@ -6,6 +6,7 @@
 mod ground;
 mod stages;
 
+use super::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
 
 use ground::Ground;
@@ -13,11 +14,11 @@ use stages::{Makings, Shelf};
 
 use super::Gpu;
 use super::aurora::ground::GroundFrame;
-use super::frame::Capacity;
 use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use super::method::Method;
 use super::models::Models;
 use super::placements::Placed;
+use super::settings::Capacity;
 use super::shaders::{Pass, Worldlines};
 use super::types::placed::THIN;
 use super::types::{self, Chunk, Counters, Placement, SeenVertex};
@@ -28,8 +29,6 @@ const LANES: u32 = 64;
 const GROUPS: u32 = 32_768;
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
-/// Format of the layers of a picture.
-pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at edges;
 /// blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than `most` bytes, which

@@ -21,9 +21,9 @@ use super::flight::Command;
 use super::history::History;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Pilot, ShipMotion};
 use super::{ChaseRules, SimSet};
-use plan::{Aim, Burn, Task, plan};
+use plan::{Aim, Task, plan};
 use rendezvous::rendezvous;
-use rollout::Point;
+use rollout::{Burn, Point};
 
 /// How well a pilot flies.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rand::{RngExt, rngs::StdRng};
 
-use super::rollout::{Point, Span, advance, track};
+use super::rollout::{Burn, Point, Span, advance, track};
 
 /// A ship that comes under this radius (r_s) in a plan is judged as nearly lost: twice the horizon, above the photon sphere.
 pub const SAFE_RADIUS: f64 = 2.0;
@@ -18,27 +18,6 @@ pub enum Aim {
     Catch,
     /// To stay away from it.
     Escape,
-}
-
-impl Burn {
-    /// The proper acceleration (rest-frame axes) at `at`, in the middle of a step of `h` that begins `time` after the burn did.
-    pub fn acceleration(&self, at: &Point, time: f64, h: f64) -> DVec3 {
-        if time + 0.5 * h < self.duration { at.from_local(self.thrust) } else { DVec3::ZERO }
-    }
-}
-
-/// A burn: constant thrust on local axes, then coasting.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Burn {
-    /// Proper acceleration on local axes (outward, along the motion around the hole, along the orbit's axis), c²/r_s.
-    pub thrust: DVec3,
-    /// For this long, in r_s/c.
-    pub duration: f64,
-}
-
-impl Burn {
-    /// No thrust at all.
-    pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
 }
 
 /// What an orbit that falls in costs, in r_s of distance per unit of E² over the barrier.

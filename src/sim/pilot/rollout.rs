@@ -7,7 +7,24 @@ use glam::DVec3;
 use crate::spacetime::matter::{ShipState, boosted_acceleration, gamma, tidal_pull};
 use crate::spacetime::metric::river_speed;
 
-use super::plan::Burn;
+/// A burn: constant thrust on local axes, then coasting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burn {
+    /// Proper acceleration on local axes (outward, along the motion around the hole, along the orbit's axis), c²/r_s.
+    pub thrust: DVec3,
+    /// For this long, in r_s/c.
+    pub duration: f64,
+}
+
+impl Burn {
+    /// No thrust at all.
+    pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
+
+    /// The proper acceleration (rest-frame axes) at `at`, in the middle of a step of `h` that begins `time` after the burn did.
+    pub fn acceleration(&self, at: &Point, time: f64, h: f64) -> DVec3 {
+        if time + 0.5 * h < self.duration { at.from_local(self.thrust) } else { DVec3::ZERO }
+    }
+}
 
 /// Position (r_s) and rain-frame momentum per mass (c).
 #[derive(Clone, Copy, Debug, PartialEq)]

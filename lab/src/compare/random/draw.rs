@@ -1,5 +1,6 @@
 //! Scenes that nobody chose: a case is drawn from a seed and its number alone, and is the text of a scene file.
 
+use super::corner::Corner;
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -10,40 +11,6 @@ use rand::{RngExt, SeedableRng};
 use super::place;
 use super::text::{Text, rounded};
 use lensrunner::scene::{GameConfig, Scene};
-
-/// Where a case was drawn from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Corner {
-    /// Anywhere.
-    Open,
-    /// Things on the line through camera and hole, or beside it by less than their size, behind the hole.
-    Axis,
-    /// The camera at r = 3/2 or close to it.
-    PhotonSphere,
-    /// The camera or the things just outside or inside of the horizon.
-    Horizon,
-    /// Ships at up to 0.99 c.
-    Fast,
-    /// Spheres of thousands of triangles on the axis.
-    Small,
-}
-
-impl Corner {
-    /// All of them.
-    pub const ALL: [Corner; 6] = [Corner::Open, Corner::Axis, Corner::PhotonSphere, Corner::Horizon, Corner::Fast, Corner::Small];
-
-    /// A word for tables.
-    pub fn word(self) -> &'static str {
-        match self {
-            Corner::Open => "open",
-            Corner::Axis => "axis",
-            Corner::PhotonSphere => "photon-sphere",
-            Corner::Horizon => "horizon",
-            Corner::Fast => "fast",
-            Corner::Small => "small-triangles",
-        }
-    }
-}
 
 /// A case: a scene, when it is looked at, and how large the picture is.
 #[derive(Clone, Debug, PartialEq)]

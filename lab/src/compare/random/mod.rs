@@ -10,6 +10,7 @@
 pub mod case_file;
 pub mod collect;
 pub mod command;
+pub mod corner;
 pub mod draw;
 pub mod outcome;
 pub mod place;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rand::RngExt;
 use rand::rngs::StdRng;
 
-use super::draw::Corner;
+use super::corner::Corner;
 use lensrunner::scene::{Body, GameConfig, Scene};
 use lensrunner::spacetime::frames::{rest_to_rain, seen_direction};
 use lensrunner::spacetime::light::{Branch, connect, rain_angle};

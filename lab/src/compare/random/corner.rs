@@ -1,0 +1,35 @@
+//! Where scenes are drawn from.
+
+/// Where a case was drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Corner {
+    /// Anywhere.
+    Open,
+    /// Things on the line through camera and hole, or beside it by less than their size, behind the hole.
+    Axis,
+    /// The camera at r = 3/2 or close to it.
+    PhotonSphere,
+    /// The camera or the things just outside or inside of the horizon.
+    Horizon,
+    /// Ships at up to 0.99 c.
+    Fast,
+    /// Spheres of thousands of triangles on the axis.
+    Small,
+}
+
+impl Corner {
+    /// All of them.
+    pub const ALL: [Corner; 6] = [Corner::Open, Corner::Axis, Corner::PhotonSphere, Corner::Horizon, Corner::Fast, Corner::Small];
+
+    /// A word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Corner::Open => "open",
+            Corner::Axis => "axis",
+            Corner::PhotonSphere => "photon-sphere",
+            Corner::Horizon => "horizon",
+            Corner::Fast => "fast",
+            Corner::Small => "small-triangles",
+        }
+    }
+}

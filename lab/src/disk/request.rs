@@ -1,0 +1,166 @@
+//! What the chart is asked for, what it draws, and how a frame is timed.
+
+use glam::DVec3;
+use lensrunner::scene::GameConfig;
+use lensrunner::scene::camera::static_momentum;
+use lensrunner::spacetime::{Observer, frames};
+
+use crate::chart::{Output, SheetError};
+use crate::plot::PlotError;
+
+/// What the chart is asked for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Where it goes.
+    pub output: Output,
+    /// Width and height of the pictures that are timed.
+    pub size: [u32; 2],
+    /// Width and height of the pictures that are compared with the exact one.
+    pub error_size: [u32; 2],
+    /// Rounds of timing; all contestants take turns in each.
+    pub rounds: usize,
+    /// Places along the scripted chase.
+    pub steps: usize,
+    /// Frames in which the chase is flown as in the game; 0 for none.
+    pub flight: usize,
+}
+
+/// One way to draw the disk.
+#[derive(Clone, Debug)]
+pub struct Contestant {
+    /// What it is called.
+    pub name: String,
+    /// 0 arcs, 1 polygons, 2 sprites, 3 arcs at another error budget.
+    pub family: usize,
+    /// The configuration that draws it.
+    pub config: GameConfig,
+}
+
+/// A drawn frame.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    /// The whole frame on the clock, in ms.
+    pub whole: f64,
+    /// The processor time of all threads, in ms, where a software adapter draws.
+    pub processor: Option<f64>,
+    /// Until it was handed to the adapter, on the clock, in ms.
+    pub before: f64,
+    /// Passes with their times by the adapter's timestamps, in ms.
+    pub passes: Vec<(String, f64)>,
+    /// Fragments that the disk's draw shaded, where the adapter counts them.
+    pub fragments: Option<u64>,
+    /// Linear light, if it was asked for.
+    pub picture: Vec<[f32; 3]>,
+}
+
+impl Shown {
+    /// The time of a pass in ms; 0 if it is not there.
+    pub(super) fn pass(&self, label: &str) -> f64 {
+        self.passes.iter().filter(|(name, _)| name == label).map(|(_, time)| time).sum()
+    }
+}
+
+/// What is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct View {
+    /// From where.
+    pub eye: Observer,
+    /// T, in r_s/c.
+    pub time: f64,
+    /// Whether stars and the Milky Way stand behind the disk, as the configuration has them; black else.
+    pub sky: bool,
+    /// Whether fragments are counted, which takes a little time.
+    pub counted: bool,
+}
+
+/// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that size.
+pub type Draw<'a> = dyn FnMut(Option<usize>, &View, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
+
+/// Why there is no chart.
+#[derive(Debug, thiserror::Error)]
+pub enum ChartError {
+    /// The CSV.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// The picture.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// The renderer.
+    #[error("{0}")]
+    Draw(String),
+}
+
+/// Passes that are the disk's own.
+pub(super) const DISK_PASSES: [&str; 3] = ["disk arcs", "disk mesh", "disk"];
+
+/// What ratios are told against.
+pub(super) const REFERENCE: &str = "arcs 4200";
+
+/// T of all frames but the chase's, in r_s/c.
+pub(super) const TIME: f64 = 100.0;
+
+/// All ways, in the order of paper 2's tables, then arcs at other budgets.
+pub fn contestants(config: &GameConfig) -> Vec<Contestant> {
+    let with = |name: String, family, change: &dyn Fn(&mut GameConfig)| {
+        let mut config = config.clone();
+        change(&mut config);
+        Contestant { name, family, config }
+    };
+    let mut all = vec![
+        with("polygons 960".into(), 1, &|c| c.disk.representation = "polygons".into()),
+        with("polygons 960 at rest".into(), 1, &|c| c.disk.representation = "polygons-at-rest".into()),
+        with("sprites 100 000".into(), 2, &|c| c.disk.representation = "sprites".into()),
+    ];
+    for arcs in [570u32, 1_100, 2_100, 4_200, 8_500, 17_000] {
+        all.push(with(format!("arcs {arcs}"), 0, &|c| {
+            c.disk.arcs = arcs;
+            c.disk.width = 0.16 * (4200.0 / f64::from(arcs)).sqrt();
+        }));
+    }
+    for budget in [3e-3, 1e-3, 1e-4] {
+        all.push(with(format!("arcs 4200; Δ {budget} rad"), 3, &|c| c.disk.error_budget = budget));
+    }
+    all
+}
+
+/// A hovering eye that looks along `look`.
+pub(super) fn eye(position: DVec3, look: DVec3) -> Observer {
+    Observer {
+        position,
+        momentum: static_momentum(position).unwrap_or_default(),
+        attitude: frames::look(look, DVec3::Z).unwrap_or_default(),
+        field_of_view: 60f64.to_radians(),
+    }
+}
+
+/// What the disk costs: the passes that are its own by timestamps. A software adapter draws on the processor, where other programs run as well and
+/// passes overlap: there it is the processor time of the frame less that of a frame without a disk.
+pub(super) fn own(shown: &Shown, without: &Shown) -> f64 {
+    match (shown.processor, without.processor) {
+        (Some(with), Some(without)) => with - without,
+        _ => passes(shown),
+    }
+}
+
+pub(super) fn passes(shown: &Shown) -> f64 {
+    DISK_PASSES.iter().map(|label| shown.pass(label)).sum()
+}
+
+/// The middle one; NaN of none.
+pub(super) fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// A frame: the mean of two, after two that make targets and whose timestamps are another's.
+pub(super) fn timed(number: Option<usize>, view: &View, draw: &mut Draw) -> Result<Shown, ChartError> {
+    let mut frame = || draw(number, view, None).map_err(ChartError::Draw);
+    frame()?;
+    frame()?;
+    let (first, second) = (frame()?, frame()?);
+    Ok(Shown {
+        whole: 0.5 * (first.whole + second.whole),
+        processor: first.processor.zip(second.processor).map(|(a, b)| 0.5 * (a + b)),
+        ..second
+    })
+}

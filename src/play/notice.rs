@@ -1,0 +1,12 @@
+//! Words shown for a while.
+
+use bevy::prelude::*;
+
+/// A line for the player, and the wall time (s) at which it fades.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Notice {
+    /// The line.
+    pub text: String,
+    /// Until when it is shown.
+    pub until: f64,
+}

@@ -1,0 +1,62 @@
+//! The player at the controls, and the order of the systems that ask and answer.
+
+use super::camera::{Follower, View};
+use super::gaze::Gaze;
+use crate::scene::GameConfig;
+use bevy::prelude::*;
+
+/// How the player plays: what is not in `game.toml`.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Seat {
+    /// The autopilot flies.
+    pub autopilot: bool,
+    /// From where one looks.
+    pub view: View,
+    /// The HUD is off.
+    pub bare: bool,
+    /// The dev overlay is on.
+    pub overlay: bool,
+    /// The flight assist as the player switched it in this chase; None: as it is configured.
+    pub assist: Option<bool>,
+    /// The assist has taken the thrust to keep off the hole.
+    pub avoiding: bool,
+    /// Who has flown in this chase.
+    pub flown: Flown,
+    /// The autopilot was asked for on the command line.
+    pub always_autopilot: bool,
+    /// How the camera follows.
+    pub follower: Follower,
+    /// The player has thrust, looked at the target or let the autopilot fly, as the hint of the first flight says; or had time to read it.
+    pub begun: bool,
+    /// How long that hint has been shown, in seconds of wall time.
+    pub hinted: f64,
+    /// The key that turns the camera to the target is held.
+    pub looking: bool,
+    /// How far the camera has turned to the target.
+    pub gaze: Gaze,
+}
+
+/// Who has had a ship's controls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flown {
+    /// The player, by hand.
+    pub by_hand: bool,
+    /// The autopilot.
+    pub by_autopilot: bool,
+}
+
+impl Seat {
+    /// Whether the assist is on: as the player switched it, else as `config` says.
+    pub fn assisted(&self, config: &GameConfig) -> bool {
+        self.assist.unwrap_or(config.assist.enabled)
+    }
+}
+
+/// The order of what the game does in a frame.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GameSet {
+    /// Keys are read.
+    Keys,
+    /// Wishes are answered: screens change, chases begin.
+    Answer,
+}

@@ -1,0 +1,121 @@
+//! How the picture is made.
+
+use super::method::Method;
+
+/// How the picture is made; the numbers come from `game.toml`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Greatest error of any drawn point, in pixels.
+    pub pixel_error: f32,
+    /// Image orders drawn, 1 to 3.
+    pub orders: u32,
+    /// How a vertex is projected.
+    pub method: Method,
+    /// Moving things are seen where they were when the light left.
+    pub light_delay: bool,
+    /// How often an edge of a model may be halved.
+    pub halvings: u32,
+    /// Room for the vertices of the mesh stage.
+    pub vertex_budget: u32,
+    /// Triangles of thin images are drawn at least this wide, in pixels; 0: there are no thin images.
+    pub min_width: f32,
+    /// Images narrower than this are thin ones, in pixels: from two down single triangles would miss pixel centres.
+    pub thin_below: f64,
+    /// Images narrower than this show the coarse model, in pixels: at six its cells (a sixth of the object) are a pixel wide.
+    pub coarse_below: f64,
+    /// Images of order 2 and 3 narrower than this are not drawn, in pixels: a line of which they cover a twentieth is lost among the stars that
+    /// crowd at the edge of the shadow, and the stages of geometry would take longer over it than over the ship itself.
+    pub least_width: f64,
+    /// Light changes its colour with g.
+    pub doppler: bool,
+    /// Light changes its strength with g.
+    pub beaming: bool,
+    /// Stars are drawn.
+    pub stars: bool,
+    /// The Milky Way is drawn.
+    pub milky_way: bool,
+    /// Factor on the light of stars.
+    pub star_brightness: f32,
+    /// Standard deviation of a star's spot, in pixels.
+    pub star_sigma: f32,
+    /// Stars of less flux (1 for magnitude 0) are left out.
+    pub faintest_star: f32,
+    /// Factor on the light of the Milky Way.
+    pub sky_brightness: f32,
+    /// Share of the light that the lens spreads.
+    pub bloom: f32,
+    /// Least and greatest exposure.
+    pub exposure_range: [f32; 2],
+    /// The light that the metered part of the picture is brought to, of 1 for white.
+    pub exposure_key: f32,
+    /// Factor on the exposure that was found.
+    pub exposure_bias: f32,
+    /// How far the exposure moves in this frame towards what it should be, (0, 1]; 1 at once.
+    pub adaptation: f32,
+    /// The exposure stays as it is.
+    pub hold_exposure: bool,
+    /// The player's own ship, by its number among the scene's: lit for the picture and not metered. None for what is measured.
+    pub own_ship: Option<usize>,
+    /// Greatest thrust (c²/r_s) of ships that hunt and of those that flee, where the scene does not say it: nozzles shine by what share of it the ship
+    /// burns. None: as at full thrust.
+    pub engines: Option<[f64; 2]>,
+    /// Least and greatest light that middle grey on the own ship is brought to, of 1 for white.
+    pub fill: [f32; 2],
+    /// The circle of the picture that the meter leaves out: its middle from the picture's, right and down, and its radius (0: none), in widths of the picture.
+    /// The stage says it.
+    pub unmetered: [f32; 3],
+    /// Outlines of bodies are smoothed.
+    pub smooth: bool,
+    /// Nearest drawn distance, in r_s.
+    pub near: f32,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            pixel_error: 0.25,
+            orders: 3,
+            method: Method::Table,
+            light_delay: true,
+            halvings: 13,
+            vertex_budget: 600_000,
+            min_width: 1.0,
+            thin_below: 1.0,
+            coarse_below: 0.0,
+            least_width: 0.05,
+            doppler: true,
+            beaming: true,
+            stars: true,
+            milky_way: true,
+            star_brightness: 1.0,
+            star_sigma: 0.7,
+            faintest_star: 0.0,
+            sky_brightness: 1.0,
+            bloom: 0.08,
+            exposure_range: [1e-4, 40.0],
+            exposure_key: 0.35,
+            exposure_bias: 1.0,
+            adaptation: 1.0,
+            hold_exposure: false,
+            own_ship: None,
+            engines: None,
+            fill: [0.0, f32::MAX],
+            unmetered: [0.0; 3],
+            smooth: true,
+            near: 1e-3,
+        }
+    }
+}
+
+/// Room in the buffers of geometry: past it patches are drawn coarser, and counted.
+#[derive(Clone, Copy, Debug)]
+pub struct Capacity {
+    /// Seen vertices.
+    pub vertices: u32,
+    /// Indices of opaque triangles.
+    pub indices: u32,
+    /// Pieces and work items.
+    pub work: u32,
+    /// Vertices of thin triangles.
+    pub thin: u32,
+}
