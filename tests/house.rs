@@ -52,7 +52,7 @@ struct Named {
 
 /// The text without comments and without the module of its tests.
 fn code(text: &str) -> String {
-    let text = text.split("#[cfg(test)]\nmod ").next().unwrap_or("");
+    let text = text.split("mod tests {").next().unwrap_or("");
     text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
 }
 
@@ -161,7 +161,7 @@ fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
         let mut path = path.clone();
         for _ in 0..8 {
             let module = module_of(&path, &modules);
-            match path.get(module.len()).and_then(|name| handed_on.get(&[&module[..], &[name.clone()]].concat())) {
+            match path.get(module.len()).and_then(|name| handed_on.get(&[&module[..], std::slice::from_ref(name)].concat())) {
                 Some(target) if *target != path => path = target.clone(),
                 _ => break,
             }

@@ -2,7 +2,7 @@
 
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{self, GameConfig, Model, Scene};
 

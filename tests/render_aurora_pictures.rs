@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use lensrunner::render::aurora::PYRAMID;
-use lensrunner::render::placements::against_static;
-use lensrunner::render::readback;
+use lensrunner::render::gpu::readback;
+use lensrunner::render::instances::against_static;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::{self, GameConfig, Scene};

@@ -3,8 +3,8 @@
 use glam::DVec2;
 use lensrunner::render::aurora::rows::{ROW, ROWS, Rows};
 use lensrunner::render::aurora::{AuroraSettings, Segment};
-use lensrunner::render::layout;
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::layout;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::aurora::curve::between_nodes;
 use lensrunner::scene::aurora::motion::Node;

@@ -5,7 +5,7 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraFrame, Show};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::placements::View;
+use lensrunner::render::instances::View;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::random::hash;
 use lensrunner::scene::{self, GameConfig, Scene};

@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::placements::{Motion, Placed, View, place};
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::instances::{Motion, Placed, View, place};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;

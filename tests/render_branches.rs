@@ -6,8 +6,8 @@
 
 use std::collections::{HashMap, HashSet};
 
+use lensrunner::render::gpu::shaders::{Pass, Worldlines};
 use lensrunner::render::method::Method;
-use lensrunner::render::shaders::{Pass, Worldlines};
 use naga::{AddressSpace, Arena, Block, Expression, Function, Handle, LocalVariable, Module, Statement};
 
 /// What a value depends on.

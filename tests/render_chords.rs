@@ -1,7 +1,7 @@
 //! How many segments stand for a curve: by the shipped shader.
 
 use glam::DVec3;
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::shaders::Pass;
 
 use crate::twin::run;
 

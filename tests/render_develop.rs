@@ -1,7 +1,7 @@
 //! Development: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
 
 use lensrunner::judge::picture::develop::{Development, develop};
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage;

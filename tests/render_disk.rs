@@ -10,8 +10,8 @@ use lensrunner::render::disk::arcs::ArcPass;
 use lensrunner::render::disk::sigma::{bearing, sigma};
 use lensrunner::render::disk::types::DiskVertex;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::readback;
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::readback;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::scene::disk::{Gas, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 

@@ -8,7 +8,7 @@ use lensrunner::render::disk::Disk;
 use lensrunner::render::disk::rows::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
 use lensrunner::render::disk::view::DiskView;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::PATTERN_HEIGHT;

@@ -1,6 +1,6 @@
 //! Adapters that lack what is optional draw the same pictures.
 
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::render::{Gpu, Renderer};

@@ -1,6 +1,6 @@
 //! How much arithmetic the disk's pixels ask for: what docs/disk.md weighs of where shading belongs.
 
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::shaders::Pass;
 use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator};
 use naga::{Block, Expression, Function, Module, Statement, TypeInner};
 

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
+use lensrunner::render::gpu::readback;
+use lensrunner::render::models::outside::{AGAINST, ALONG, LONE, OPEN, sides};
 use lensrunner::render::models::{ALONE, Prepared};
-use lensrunner::render::outside::{AGAINST, ALONG, LONE, OPEN, sides};
-use lensrunner::render::readback;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::Stage;

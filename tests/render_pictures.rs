@@ -3,11 +3,11 @@
 use glam::DVec3;
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::placements::{Motion, Object, Surroundings as Light, View, place};
-use lensrunner::render::readback::{self, Picture};
+use lensrunner::render::gpu::readback::{self, Picture};
+use lensrunner::render::gpu::types::SeenVertex;
+use lensrunner::render::instances::{Motion, Object, Surroundings as Light, View, place};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
-use lensrunner::render::types::SeenVertex;
 use lensrunner::scene::{self, Body, GameConfig};
 use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light::{self, Branch, Order};

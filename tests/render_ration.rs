@@ -2,7 +2,7 @@
 
 use lensrunner::render::aurora::ration::{Ration, shares};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 

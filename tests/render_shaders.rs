@@ -2,8 +2,8 @@
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::method::Method;
-use lensrunner::render::shaders::Pass;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
 use lensrunner::scene::milky_way;
 use rand::rngs::StdRng;
@@ -28,7 +28,7 @@ fn every_pass_compiles_by_every_method() {
             let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
             let source = wgpu::ShaderSource::Wgsl(pass.source_by(method, true).into());
             let _ = GPU.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-            let error = lensrunner::render::device::wait(scope.pop());
+            let error = lensrunner::render::gpu::device::wait(scope.pop());
             assert!(error.is_none(), "{method:?} {pass:?}: {}", error.unwrap());
         }
     }
@@ -189,7 +189,7 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
 #[test]
 fn hidden_parts_count_the_same_in_both_languages() {
     use glam::Vec3;
-    use lensrunner::render::hiding::{direction_of, seen_part};
+    use lensrunner::render::models::hiding::{direction_of, seen_part};
     let body = "
     let outward = select(vec3<f32>(0.0), direction_of(u32(row.w)), row.w >= 0.0);
     twin_out[id.x] = vec4<f32>(direction_of(id.x % 32u), seen_part(id.x * 2654435761u, outward, row.xyz));";

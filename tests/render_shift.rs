@@ -3,9 +3,9 @@
 use glam::{DQuat, DVec2, DVec3};
 use lensrunner::render::aurora::shift::Shift;
 use lensrunner::render::aurora::{Colours, SHIFTS, planet_history};
-use lensrunner::render::layout;
-use lensrunner::render::placements::{View, light_path};
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::layout;
+use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::instances::{View, light_path};
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::lines::kilorayleigh_xyz;
 use lensrunner::scene::planet::Planet;

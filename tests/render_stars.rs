@@ -6,10 +6,10 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
+use lensrunner::render::gpu::types::Star;
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
-use lensrunner::render::types::Star;
 
 use crate::gpu::GPU;
 

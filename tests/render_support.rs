@@ -8,7 +8,7 @@ use lensrunner::lensing::{self, SMALL_NODES, Scheme, Table, bake};
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{self, Stage, static_camera};

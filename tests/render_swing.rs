@@ -1,11 +1,11 @@
 //! Moving bodies while light crosses them: the few numbers that the GPU gets against the whole worldline.
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
-use lensrunner::render::placements::{Motion, place};
-use lensrunner::render::shaders::Pass;
+use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::gpu::types::Placement;
+use lensrunner::render::instances::swing::swing_at;
+use lensrunner::render::instances::{Motion, place};
 use lensrunner::render::stage::static_camera;
-use lensrunner::render::swing::swing_at;
-use lensrunner::render::types::Placement;
 use lensrunner::sim::History;
 use lensrunner::sim::flight::Command;
 use lensrunner::spacetime::Observer;
@@ -48,10 +48,10 @@ fn placed(jolt: f64, now: f64) -> (History, Placement, f64) {
     let history = history(jolt);
     let bench = bench();
     let camera = static_camera(DVec3::new(6.8, 1.2, 0.5), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
-    let object = lensrunner::render::placements::Object { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
+    let object = lensrunner::render::instances::Object { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
-    let view = lensrunner::render::placements::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
+    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
     let placement = place(&view, now, &object, 1)[0].placement;
     (history.clone(), placement, now - f64::from(placement.offset[3]))
 }
@@ -85,10 +85,10 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let centre = planet.state(0.0).unwrap().position;
     let camera = static_camera(centre + DVec3::new(0.0, 0.8, 0.01), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
     let object = bench.object(Motion::Flying(&history), 1.6, 1);
-    let object = lensrunner::render::placements::Object { reach: 0.8, ..object };
+    let object = lensrunner::render::instances::Object { reach: 0.8, ..object };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
-    let view = lensrunner::render::placements::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
+    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
     let placement = place(&view, 0.0, &object, 1)[0].placement;
     let emission = -f64::from(placement.offset[3]);
     let at = |t: f64| {
@@ -122,13 +122,13 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     }
     let reach = 0.157;
     let bench = bench();
-    let object = lensrunner::render::placements::Object { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
+    let object = lensrunner::render::instances::Object { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
     let momentum = DVec3::ZERO;
     let camera = Observer { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
     let camera = Observer { position: DVec3::Z * 0.6942, ..camera };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
-    let view = lensrunner::render::placements::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
+    let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
     let placement = place(&view, 1.5, &object, 1)[0].placement;
     let emission = 1.5 - f64::from(placement.offset[3]);
     assert!((1.3..1.35).contains(&emission), "{emission}");

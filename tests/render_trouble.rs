@@ -3,8 +3,8 @@
 use glam::{DQuat, DVec3};
 use lensrunner::render::Gpu;
 use lensrunner::render::frame::FrameInput;
-use lensrunner::render::placements::{Motion, Placed};
-use lensrunner::render::readback::PictureError;
+use lensrunner::render::gpu::readback::PictureError;
+use lensrunner::render::instances::{Motion, Placed};
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
@@ -135,14 +135,14 @@ fn the_settings_of_geometry_do_what_they_say() {
         let mut placed = ball(bench, far, size, &settings);
         if pixel {
             // The bench places by tiny pixels; here the image is thin.
-            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::types::placed::THIN);
+            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::gpu::types::placed::THIN);
         }
         bench.renderer.picture(&frame(placed, settings), false).unwrap();
         bench.renderer.counters().unwrap()
     };
     let fine = counters(&mut bench, quiet(), 2.0, false);
     let coarse = counters(&mut bench, Settings { halvings: 1, ..quiet() }, 2.0, false);
-    let made = |c: lensrunner::render::types::Counters| c.vertices - c.model_vertices;
+    let made = |c: lensrunner::render::gpu::types::Counters| c.vertices - c.model_vertices;
     assert!(made(fine) > 2 * made(coarse) && made(coarse) > 0, "{} and {} vertices", made(fine), made(coarse));
     let thin = counters(&mut bench, quiet(), 0.02, true);
     assert!(thin.thin > 0);
@@ -151,8 +151,8 @@ fn the_settings_of_geometry_do_what_they_say() {
 
     // Thresholds of the placements, by a pixel of 0.01 rad.
     use lensrunner::lensing::Slice;
-    use lensrunner::render::placements::{View, place};
-    use lensrunner::render::types::placed::THIN;
+    use lensrunner::render::gpu::types::placed::THIN;
+    use lensrunner::render::instances::{View, place};
     let eye = camera();
     let slice = Slice::new(bench.renderer.table(), 15.0);
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
@@ -184,7 +184,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
         let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
         let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
         let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
-        use lensrunner::render::placements::{View, place};
+        use lensrunner::render::instances::{View, place};
         let placed = place(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
         assert_eq!(placed.len(), 3);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
@@ -204,7 +204,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
             });
             gaps += usize::from(!near);
         }
-        // The third image is thinner than f32 tells beside the axis: it is broken in places (33 of 720; docs/trace.md).
+        // The third image is thinner than f32 tells beside the axis: it is broken in places (33 of 720; docs/lab/verdict.md).
         let allowed = if order == 3 { 40 } else { 0 };
         assert!(gaps <= allowed, "the ring at Φ = {order}π has {gaps} gaps of 720");
     }

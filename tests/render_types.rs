@@ -10,14 +10,14 @@ use lensrunner::render::disk::rows::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex};
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
-use lensrunner::render::layout::TABLE_ROW;
-use lensrunner::render::models::ALONE;
-use lensrunner::render::outside;
-use lensrunner::render::shaders::{self, Pass};
-use lensrunner::render::types::{
+use lensrunner::render::gpu::layout::TABLE_ROW;
+use lensrunner::render::gpu::shaders::{self, Pass};
+use lensrunner::render::gpu::types::{
     self, CellDraws, Chunk, Counters, Frame, Material, ModelTriangle, ModelVertex, Placement, SeenVertex, Star,
 };
-use lensrunner::render::types::{flags, placed};
+use lensrunner::render::gpu::types::{flags, placed};
+use lensrunner::render::models::ALONE;
+use lensrunner::render::models::outside;
 use naga::{ArraySize, Literal, Module, Scalar, ScalarKind, StructMember, TypeInner};
 
 fn module(pass: Pass) -> Module {

@@ -1,7 +1,7 @@
 //! Runs a function of a shipped shader beside its Rust twin.
 
-use lensrunner::render::shaders::Pass;
-use lensrunner::render::{layout, readback};
+use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::gpu::{layout, readback};
 
 use crate::gpu::GPU;
 

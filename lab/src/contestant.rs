@@ -6,7 +6,7 @@ use crate::compare::command::MARKS;
 use crate::compare::{Frame, Shown};
 use lensrunner::judge::case::Case;
 use lensrunner::render::Renderer;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::shot::{Compared, ShotError, for_comparison, marked, renderer};
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.

@@ -6,7 +6,7 @@ use crate::projection::Adapter;
 use lensrunner::lensing;
 use lensrunner::render::Gpu;
 use lensrunner::render::method::Method;
-use lensrunner::render::race::Race;
+use lensrunner::render::method::race::Race;
 
 /// The race on the best adapter there is; None, and a word on stderr, where there is none.
 pub fn race() -> Option<Race> {
@@ -19,7 +19,7 @@ pub fn race() -> Option<Race> {
     }
 }
 
-/// The index of the method's family in `measure::methods::FAMILIES`.
+/// The index of the method's family in `lensing::methods::FAMILIES`.
 fn family(method: Method) -> usize {
     match method {
         Method::Table | Method::TableFull | Method::TableLinear | Method::TableHalf | Method::Newton => 0,

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Renderer;
-use lensrunner::render::readback::Picture;
+use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, static_camera};
 use lensrunner::scene::disk::Gas;

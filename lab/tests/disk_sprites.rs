@@ -3,8 +3,8 @@
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::FrameInput;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::settings::Settings;
-use lensrunner::render::shaders::Pass;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::sprites::Sprites;
 use lensrunner::spacetime::Observer;

@@ -6,7 +6,7 @@ use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, res
 use lensrunner::lensing::place::place;
 use lensrunner::lensing::{LensRay, SMALL_NODES, Scheme, Slice, Table, bake, closed, shooting};
 use lensrunner::render::method::Method;
-use lensrunner::render::race::Race;
+use lensrunner::render::method::race::Race;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 

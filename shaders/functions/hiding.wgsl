@@ -1,4 +1,4 @@
-// How much of a triangle is seen past the other parts of its model: the twin of src/render/hiding.rs.
+// How much of a triangle is seen past the other parts of its model: the twin of src/render/models/hiding.rs.
 
 /// a : b of the rectangles whose corners are those of an icosahedron and, together with those of a cube, of a dodecahedron, of unit length.
 const GOLDEN_SHORT: f32 = 0.5257311;

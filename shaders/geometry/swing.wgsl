@@ -4,7 +4,7 @@
 const FARTHEST_TURN: f32 = 2.0;
 
 /// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
-/// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/swing.rs.
+/// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/instances/swing.rs.
 fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
     let scale = placement.velocity.w;
     if scale == 0.0 {

@@ -1,6 +1,6 @@
 //! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
 
-use super::seat::{Flown, GameSet, Seat};
+use crate::play::seat::{Flown, GameSet, Seat};
 use std::time::Duration;
 
 use bevy::prelude::*;
@@ -11,11 +11,11 @@ use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
 use crate::spacetime::matter::gamma;
 
-use super::gaze::Gaze;
-use super::input::{Bindings, Hands, MouseTurn};
-use super::record;
-use super::screens::{Screen, Wish, answer};
-use super::session::Session;
+use crate::play::input::gaze::Gaze;
+use crate::play::input::{Bindings, Hands, MouseTurn};
+use crate::play::menus::screens::{Screen, Wish, answer};
+use crate::play::session::Session;
+use crate::play::window::record;
 
 /// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`Seat`].
 pub struct GamePlugin;
@@ -208,7 +208,7 @@ fn fly_by_hand(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::play::live::LivePlugin;
+    use crate::play::overlay::live::LivePlugin;
     use crate::sim::{Outcome, SimulationPlugins};
     use bevy::input::InputPlugin;
     use bevy::state::app::StatesPlugin;
@@ -403,7 +403,7 @@ mod tests {
     /// A good change of `game.toml` is taken up while the game runs; a wrong one is said with its line, and the last good values stay.
     #[test]
     fn the_file_is_read_again_and_a_wrong_one_refused() {
-        use crate::play::notice::Notice;
+        use crate::play::hud::notice::Notice;
         use std::time::{Duration, SystemTime};
         let file = std::env::temp_dir().join(format!("lensrunner-reload-{}.toml", std::process::id()));
         let write = |text: &str, age: u64| {

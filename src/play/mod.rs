@@ -5,26 +5,13 @@
 
 pub mod camera;
 pub mod demonstration;
-pub mod director;
 pub mod game;
-pub mod gaze;
 pub mod hud;
 pub mod input;
-pub mod instruments;
-pub mod layout;
-pub mod live;
-pub mod markers;
-pub mod menu;
-pub mod notice;
+pub mod menus;
 pub mod overlay;
-pub mod panel;
-pub mod plate;
-pub mod record;
-pub mod screens;
 pub mod seat;
-pub mod seen;
 pub mod session;
-pub mod sheet;
 pub mod window;
 
 use std::path::PathBuf;

@@ -1,7 +1,7 @@
 //! The player at the controls, and the order of the systems that ask and answer.
 
-use super::camera::{Follower, View};
-use super::gaze::Gaze;
+use crate::play::camera::{Follower, View};
+use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
 use bevy::prelude::*;
 

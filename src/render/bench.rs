@@ -6,15 +6,15 @@ use std::time::Instant;
 
 use crate::scene::{self, GameConfig, Scene};
 
-use super::aurora::ration::shares;
-use super::disk::types::DiskCounters;
-use super::readback::PictureError;
-use super::renderer::Surroundings;
-use super::shot::{Moment, ShotError, surroundings};
-use super::stage::{Stage, settings};
-use super::targets::target;
-use super::types::Counters;
-use super::{Gpu, Renderer};
+use crate::render::aurora::ration::shares;
+use crate::render::disk::types::DiskCounters;
+use crate::render::gpu::readback::PictureError;
+use crate::render::gpu::targets::target;
+use crate::render::gpu::types::Counters;
+use crate::render::renderer::Surroundings;
+use crate::render::shot::{Moment, ShotError, surroundings};
+use crate::render::stage::{Stage, settings};
+use crate::render::{Gpu, Renderer};
 
 /// What to time.
 #[derive(Clone, Debug)]

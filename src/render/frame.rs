@@ -1,6 +1,6 @@
 //! What one frame needs from below: a camera, things to see, settings. Plain data, made by `extract` in the game and by hand in tests.
 
-use super::settings::{Capacity, Settings};
+use crate::render::settings::{Capacity, Settings};
 use crate::spacetime::Observer;
 use glam::DVec3;
 
@@ -9,9 +9,9 @@ use crate::scene::{blackbody, milky_way};
 use crate::spacetime::orbit::static_momentum;
 use crate::spacetime::{frames, light};
 
-use super::aurora::AuroraFrame;
-use super::placements::Placed;
-use super::types::{self, flags};
+use crate::render::aurora::AuroraFrame;
+use crate::render::gpu::types::{self, flags};
+use crate::render::instances::Placed;
 
 /// All that a frame shows.
 #[derive(Clone, Debug)]

@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use super::aurora::Aurora;
-use super::disk::DiskPasses;
-use super::geometry::Geometry;
-use super::targets::Targets;
-use super::timing::Timing;
+use crate::render::aurora::Aurora;
+use crate::render::disk::DiskPasses;
+use crate::render::geometry::Geometry;
+use crate::render::gpu::targets::Targets;
+use crate::render::gpu::timing::Timing;
 
 /// Lays these orders of the disk over the picture, if there are any.
 pub fn draw_disk(

@@ -10,10 +10,10 @@ use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, Ren
 use bevy::render::view::ViewTarget;
 use bevy::render::{Extract, ExtractSchedule, RenderApp};
 
-use super::Gpu;
-use super::device::{Watch, missing_limits};
-use super::frame::FrameInput;
-use super::renderer::{Renderer, Surroundings};
+use crate::render::Gpu;
+use crate::render::frame::FrameInput;
+use crate::render::gpu::device::{Watch, missing_limits};
+use crate::render::renderer::{Renderer, Surroundings};
 
 /// The renderer, for the main world (models, timings) and the render world (frames) alike.
 #[derive(Resource, Clone, Debug)]

@@ -8,26 +8,26 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::lensing::{Slice, Table};
 use crate::scene::model::Model;
 
-use super::Gpu;
-use super::aurora::Aurora;
-use super::develop::Develop;
-use super::develop::coverage::covered;
-use super::disk::types::DiskCounters;
-use super::disk::{Disk, DiskPasses};
-use super::frame::{FrameInput, blackbody_table, uniform};
-use super::geometry::Geometry;
-use super::layout::{Slot, TableTexture, bind, buffer, layout, storage};
-use super::method::Method;
-use super::models::{ModelRange, Models};
-use super::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
-use super::readback::{self, Picture, PictureError};
-use super::shaders::Worldlines;
-use super::sky::table::{NODES, sky_table, straight_sky_table};
-use super::sky::{Background, Stars};
-use super::tables::Tables;
-use super::targets::Targets;
-use super::timing::Timing;
-use super::types::{self, Counters, Star};
+use crate::render::Gpu;
+use crate::render::aurora::Aurora;
+use crate::render::develop::Develop;
+use crate::render::develop::coverage::covered;
+use crate::render::disk::types::DiskCounters;
+use crate::render::disk::{Disk, DiskPasses};
+use crate::render::frame::{FrameInput, blackbody_table, uniform};
+use crate::render::geometry::Geometry;
+use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, layout, storage};
+use crate::render::gpu::readback::{self, Picture, PictureError};
+use crate::render::gpu::shaders::Worldlines;
+use crate::render::gpu::targets::Targets;
+use crate::render::gpu::timing::Timing;
+use crate::render::gpu::types::{self, Counters, Star};
+use crate::render::method::Method;
+use crate::render::method::tables::Tables;
+use crate::render::models::{ModelRange, Models};
+use crate::render::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
+use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
+use crate::render::sky::{Background, Stars};
 
 /// What does not change from frame to frame.
 #[derive(Clone, Debug)]
@@ -37,7 +37,7 @@ pub struct Surroundings {
     /// The catalogue.
     pub stars: Vec<Star>,
     /// The Milky Way.
-    pub milky_way: super::sky::Panorama,
+    pub milky_way: crate::render::sky::Panorama,
 }
 
 /// All passes and their buffers.
@@ -336,7 +336,7 @@ impl Renderer {
     /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice.
     pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let (texture, view) = super::targets::target(&self.gpu.device, "output", self.targets.size, format);
+        let (texture, view) = crate::render::gpu::targets::target(&self.gpu.device, "output", self.targets.size, format);
         for _ in 0..2 {
             if !self.prepare(input) {
                 return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
@@ -399,9 +399,9 @@ impl Renderer {
         let bytes = readback::buffer(&self.gpu, self.aurora.draws())?;
         let draws: Vec<[u32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
         let levels = self.aurora.levels().count();
-        let all = draws.chunks(super::aurora::rooms::FOURS).take(self.aurora.images() as usize);
+        let all = draws.chunks(crate::render::aurora::rooms::FOURS).take(self.aurora.images() as usize);
         Ok(Some(all.fold(vec![0; levels], |sum, image| {
-            sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / super::aurora::rooms::CORNERS).collect()
+            sum.iter().zip(image).map(|(sum, draw)| sum + draw[0] / crate::render::aurora::rooms::CORNERS).collect()
         })))
     }
 

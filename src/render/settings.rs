@@ -1,6 +1,6 @@
 //! How the picture is made.
 
-use super::method::Method;
+use crate::render::method::Method;
 
 /// How the picture is made; the numbers come from `game.toml`.
 #[derive(Clone, Copy, Debug, PartialEq)]

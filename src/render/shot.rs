@@ -14,12 +14,12 @@ use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneE
 use crate::sim::History;
 pub use crate::sim::Moment;
 
-use super::readback::{Picture, PictureError};
-use super::renderer::{Renderer, Surroundings};
-use super::settings::Settings;
-use super::stage::{Stage, settings};
-use super::types::Star;
-use super::{DeviceError, Gpu};
+use crate::render::gpu::readback::{Picture, PictureError};
+use crate::render::gpu::types::Star;
+use crate::render::renderer::{Renderer, Surroundings};
+use crate::render::settings::Settings;
+use crate::render::stage::{Stage, settings};
+use crate::render::{DeviceError, Gpu};
 
 /// Why there is no picture.
 #[derive(Debug, Error)]

@@ -14,16 +14,16 @@ use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
-use super::Renderer;
-use super::aurora::{Show, planet_history};
-use super::coarse::coarse;
-use super::disk::Disk;
-use super::frame::FrameInput;
-use super::method::Method;
-use super::models::ModelRange;
-use super::placements::{Motion, Object, Placed, View, place};
-use super::settings::Settings;
-use super::types::placed::OWN;
+use crate::render::Renderer;
+use crate::render::aurora::{Show, planet_history};
+use crate::render::disk::Disk;
+use crate::render::frame::FrameInput;
+use crate::render::gpu::types::placed::OWN;
+use crate::render::instances::{Motion, Object, Placed, View, place};
+use crate::render::method::Method;
+use crate::render::models::ModelRange;
+use crate::render::models::coarse::coarse;
+use crate::render::settings::Settings;
 
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]

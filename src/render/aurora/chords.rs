@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::{BOTH_POLES, Segment};
-use crate::render::placements::{View, departure};
+use crate::render::aurora::{BOTH_POLES, Segment};
+use crate::render::instances::{View, departure};
 use crate::scene::aurora::dipole::{REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::lines::{self, Line};
 use crate::sim::History;

@@ -1,10 +1,10 @@
 //! The colours of the lines over an image: a few of them by frequency ratio, and where on the screen which of them holds.
 
-use super::shift::SHIFTS;
+use crate::render::aurora::shift::SHIFTS;
 use bytemuck::{Pod, Zeroable};
 use glam::DVec2;
 
-use super::shift::Shift;
+use crate::render::aurora::shift::Shift;
 
 /// `Lines` in shaders/aurora/lit_corners.wgsl.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

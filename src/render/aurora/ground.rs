@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec2, Mat3};
 use half::f16;
 
-use super::rows::{Row, Rows, place};
+use crate::render::aurora::rows::{Row, Rows, place};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 use crate::scene::aurora::ground::GroundMap;

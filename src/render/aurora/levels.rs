@@ -7,10 +7,10 @@
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::layout::{Raster, Slot, bind, buffer, layout, module, raster};
-use crate::render::shaders::Pass;
-use crate::render::targets::target;
-use crate::render::timing::Timing;
+use crate::render::gpu::layout::{Raster, Slot, bind, buffer, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::targets::target;
+use crate::render::gpu::timing::Timing;
 
 /// Levels of the pyramid, each of half the size of the one before; as in lit_tiles.wgsl.
 pub const PYRAMID: u32 = 7;

@@ -4,19 +4,19 @@ use std::sync::Arc;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use super::colours::Colours;
-use super::levels::{Levels, PYRAMID, Ranges, light_format};
-use super::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
-use super::rows::{ROWS, Rows};
-use super::show::AuroraFrame;
-use super::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::Gpu;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster};
+use crate::render::aurora::colours::Colours;
+use crate::render::aurora::levels::{Levels, PYRAMID, Ranges, light_format};
+use crate::render::aurora::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
+use crate::render::aurora::rows::{ROWS, Rows};
+use crate::render::aurora::show::AuroraFrame;
+use crate::render::aurora::{AuroraSettings, BOTH_POLES, Segment};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::targets::Targets;
+use crate::render::gpu::timing::Timing;
+use crate::render::gpu::types::Placement;
 use crate::render::method::Method;
-use crate::render::shaders::Pass;
-use crate::render::targets::Targets;
-use crate::render::timing::Timing;
-use crate::render::types::Placement;
 use crate::scene::blackbody::xyz_to_rgb;
 
 /// Image orders that may show it.

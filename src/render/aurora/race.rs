@@ -7,11 +7,11 @@ use bytemuck::{Pod, Zeroable};
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
-use crate::render::readback::{self, PictureError};
-use crate::render::shaders;
-use crate::render::stopwatch::Stopwatch;
-use crate::render::targets::target;
+use crate::render::gpu::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
+use crate::render::gpu::readback::{self, PictureError};
+use crate::render::gpu::shaders;
+use crate::render::gpu::stopwatch::Stopwatch;
+use crate::render::gpu::targets::target;
 
 /// `Experiment` in WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]

@@ -1,7 +1,7 @@
 //! Where the strokes of an image are kept until they are drawn: by pairs of levels of the pyramid, which share a room. One of a pair fills it from the
 //! beginning and the other from the end, so that it does not matter which of them strokes go to. Coarser pairs have half as much room each.
 
-use super::levels::PYRAMID;
+use crate::render::aurora::levels::PYRAMID;
 
 /// Lit tiles, which the screen is divided into, columns and rows: the passes that go over whole pictures leave out those without light. As in lit_tiles.wgsl.
 pub const LIT_TILES: [u32; 2] = [32, 16];

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::Segment;
+use crate::render::aurora::Segment;
 use crate::scene::aurora::curve::between_nodes;
 use crate::scene::aurora::motion::Node;
 

@@ -3,7 +3,7 @@
 use crate::spacetime::Observer;
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
 
-use crate::render::placements::{View, departure};
+use crate::render::instances::{View, departure};
 use crate::sim::History;
 use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};

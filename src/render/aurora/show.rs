@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::chords::Bend;
-use super::colours::Colours;
-use super::ground::{Glow, Ground, GroundFrame};
-use super::levels::PYRAMID;
-use super::ration::Ration;
-use super::rows::{ROW, ROWS, Rows, place as node_place};
-use super::shift::Shift;
-use super::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
+use crate::render::aurora::chords::Bend;
+use crate::render::aurora::colours::Colours;
+use crate::render::aurora::ground::{Glow, Ground, GroundFrame};
+use crate::render::aurora::levels::PYRAMID;
+use crate::render::aurora::ration::Ration;
+use crate::render::aurora::rows::{ROW, ROWS, Rows, place as node_place};
+use crate::render::aurora::shift::Shift;
+use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
+use crate::render::gpu::types::Placement;
+use crate::render::instances::{Motion as Movement, Object, View, against_static, departure, light_path, place};
 use crate::render::models::ModelRange;
-use crate::render::placements::{Motion as Movement, Object, View, against_static, departure, light_path, place};
-use crate::render::types::Placement;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
 use crate::scene::aurora::fall::Spectrum;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use crate::render::placements::{View, departure};
-use crate::render::visibility::cone_may_be_seen;
+use crate::render::instances::visibility::cone_may_be_seen;
+use crate::render::instances::{View, departure};
 use crate::sim::History;
 use crate::spacetime::light::Order;
 

@@ -4,12 +4,12 @@ pub mod coverage;
 
 use wgpu::ShaderStages;
 
-use super::Gpu;
-use super::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
-use super::passes::colour;
-use super::shaders::Pass;
-use super::targets::{Targets, target};
-use super::timing::Timing;
+use crate::render::Gpu;
+use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::targets::{Targets, target};
+use crate::render::gpu::timing::Timing;
+use crate::render::passes::colour;
 
 /// Pixels along the side of a tile in which outlines are smoothed; as in shaders/develop/smooth.wgsl.
 const TILE: u32 = 16;

@@ -5,11 +5,11 @@ use std::ops::RangeInclusive;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
-use crate::render::shaders::Pass;
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
 
-use super::types::{self, DiskCounters, DiskVertex};
-use super::view::DiskView;
+use crate::render::disk::types::{self, DiskCounters, DiskVertex};
+use crate::render::disk::view::DiskView;
 
 /// Room for vertices that halving makes.
 const EXTRA: u32 = 250_000;

@@ -5,14 +5,14 @@ use std::time::Instant;
 
 use crate::render::bench::processor_time;
 use crate::render::frame::FrameInput;
-use crate::render::readback::PictureError;
+use crate::render::gpu::readback::PictureError;
+use crate::render::gpu::targets::target;
 use crate::render::renderer::Surroundings;
 use crate::render::stage::settings;
-use crate::render::targets::target;
 use crate::render::{Gpu, Renderer};
 use crate::scene::GameConfig;
 
-use super::Disk;
+use crate::render::disk::Disk;
 
 /// Renderers by representation. One for each configuration would be more shaders than a software driver keeps compiled.
 #[derive(Debug)]

@@ -20,9 +20,9 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use crate::lensing::Slice;
 
-use super::Gpu;
-use super::frame::FrameInput;
-use super::layout::{Slot, bind, buffer, layout, storage};
+use crate::render::Gpu;
+use crate::render::frame::FrameInput;
+use crate::render::gpu::layout::{Slot, bind, buffer, layout, storage};
 use arcs::ArcPass;
 pub use drawn::Disk;
 use polygons::PolygonPass;

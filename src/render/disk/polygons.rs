@@ -10,16 +10,16 @@ use wgpu::{BufferUsages, ShaderStages};
 use crate::render::Gpu;
 use crate::render::frame::FrameInput;
 use crate::render::geometry::Geometry;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
+use crate::render::gpu::shaders::{Pass, Worldlines};
+use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
+use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Placement};
+use crate::render::instances::{Placed, by_axis};
 use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
-use crate::render::placements::{Placed, by_axis};
-use crate::render::shaders::{Pass, Worldlines};
-use crate::render::types::placed::{HELD, TWO_SIDED};
-use crate::render::types::{ARGUMENTS_OPAQUE, Placement};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
-use super::Disk;
+use crate::render::disk::Disk;
 
 /// Two-sided triangles whose light is told by what hovers where they are, as the gas's own motion comes in with its colour.
 const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;

@@ -5,13 +5,13 @@ use std::ops::RangeInclusive;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
-use crate::render::shaders::Pass;
+use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
+use crate::render::gpu::shaders::Pass;
 use crate::scene::disk::sprites::Sprites;
 
-use super::Disk;
-use super::types::SEEN_SPRITE_BYTES;
-use super::view::DiskView;
+use crate::render::disk::Disk;
+use crate::render::disk::types::SEEN_SPRITE_BYTES;
+use crate::render::disk::view::DiskView;
 
 /// Which share of the sprites orders 1, 2 and 3 are drawn with: one of so many. The images behind the first are many times as narrow.
 const SHARES: [u32; 3] = [1, 4, 4];

@@ -10,10 +10,10 @@ use crate::render::frame::FrameInput;
 use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
-use super::Disk;
-use super::rows::{AZIMUTHS, Bend, FROM_FAR, FROM_NEAR, Look, Rows, SeenCircle, azimuth, pixel_angle, radii};
-use super::sigma::sigma;
-use super::types::{Circle, DiskFrame};
+use crate::render::disk::Disk;
+use crate::render::disk::rows::{AZIMUTHS, Bend, FROM_FAR, FROM_NEAR, Look, Rows, SeenCircle, azimuth, pixel_angle, radii};
+use crate::render::disk::sigma::sigma;
+use crate::render::disk::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;

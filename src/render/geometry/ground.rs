@@ -6,7 +6,7 @@ use wgpu::BufferUsages;
 
 use crate::render::Gpu;
 use crate::render::aurora::ground::{GroundFrame, GroundLight};
-use crate::render::layout::buffer;
+use crate::render::gpu::layout::buffer;
 
 /// The map and its numbers on the GPU.
 #[derive(Debug)]

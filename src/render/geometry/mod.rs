@@ -6,22 +6,22 @@
 mod ground;
 mod stages;
 
-use super::targets::LAYERS_FORMAT;
+use crate::render::gpu::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
 
 use ground::Ground;
 use stages::{Makings, Shelf};
 
-use super::Gpu;
-use super::aurora::ground::GroundFrame;
-use super::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
-use super::method::Method;
-use super::models::Models;
-use super::placements::Placed;
-use super::settings::Capacity;
-use super::shaders::{Pass, Worldlines};
-use super::types::placed::THIN;
-use super::types::{self, Chunk, Counters, Placement, SeenVertex};
+use crate::render::Gpu;
+use crate::render::aurora::ground::GroundFrame;
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
+use crate::render::gpu::shaders::{Pass, Worldlines};
+use crate::render::gpu::types::placed::THIN;
+use crate::render::gpu::types::{self, Chunk, Counters, Placement, SeenVertex};
+use crate::render::instances::Placed;
+use crate::render::method::Method;
+use crate::render::models::Models;
+use crate::render::settings::Capacity;
 
 /// Threads of a workgroup; `@workgroup_size` of the stages.
 const LANES: u32 = 64;

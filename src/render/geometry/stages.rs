@@ -4,9 +4,9 @@
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
-use crate::render::layout::compute_of;
+use crate::render::gpu::layout::compute_of;
+use crate::render::gpu::shaders::{Pass, Worldlines};
 use crate::render::method::Method;
-use crate::render::shaders::{Pass, Worldlines};
 
 /// A method of projection, and whether the camera is inside the horizon.
 pub(super) type Side = (Method, bool);

@@ -3,9 +3,9 @@
 use std::mem::offset_of;
 
 use crate::render::Gpu;
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
-use crate::render::shaders::Pass;
-use crate::render::types::{CellDraws, SKY_CORNER_BYTES};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::types::{CellDraws, SKY_CORNER_BYTES};
 
 /// Side of a cell in pixels: at 16, few cells near the hole are drawn exactly, and corners are a thousandth of the pixels.
 const CELL: u32 = 16;

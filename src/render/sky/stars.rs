@@ -9,13 +9,13 @@ use rayon::prelude::*;
 
 use crate::render::Gpu;
 use crate::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
-use crate::render::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
-use crate::render::shaders::Pass;
-use crate::render::types::Star;
-use crate::render::visibility::may_be_seen;
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster, storage};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::types::Star;
+use crate::render::instances::visibility::may_be_seen;
 use crate::scene::blackbody;
 
-use super::table::sky_seen;
+use crate::render::sky::table::sky_seen;
 
 /// Bytes of `SeenStar` in WGSL.
 const SEEN_STAR_BYTES: u64 = 32;

@@ -1,0 +1,299 @@
+//! The HUD: dials, painted with egui, and the messages. The numbers come from [`crate::play::hud::instruments`], the markers from [`crate::play::hud::markers`].
+
+pub mod instruments;
+pub mod layout;
+pub mod markers;
+pub mod notice;
+pub mod panel;
+pub mod plate;
+
+use bevy::prelude::*;
+use bevy_egui::EguiContexts;
+use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
+
+use crate::render::plugin::SharedRenderer;
+use crate::scene::GameConfig;
+use crate::sim::{Chase, ChaseRules};
+
+use crate::play::camera::View;
+use crate::play::hud::instruments::{Countdown, Instruments, Scale, hold_words};
+use crate::play::hud::notice::Notice;
+use crate::play::hud::panel::{Panel, Staged, loaded};
+use crate::play::hud::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
+use crate::play::menus::screens::Screen;
+use crate::play::seat::Seat;
+use crate::play::session::Session;
+use markers::arc;
+
+/// Space between the screen's edge and the dials, in points.
+const MARGIN: f32 = 18.0;
+/// Space between two plates one above the other, in points.
+const BETWEEN: f32 = 6.0;
+/// What comes down from the upper edge ends above this, in points.
+const BELOW_DIALS: f32 = 122.0;
+
+/// Draws the HUD.
+#[allow(clippy::too_many_arguments)]
+pub fn draw(
+    mut contexts: EguiContexts,
+    screen: Res<State<Screen>>,
+    session: Res<Session>,
+    player: Res<Seat>,
+    panel: Res<Panel>,
+    chase: Option<Res<Chase>>,
+    rules: Res<ChaseRules>,
+    notice: Res<Notice>,
+    real: Res<Time<Real>>,
+    (staged, renderer): (Option<Res<Staged>>, Option<Res<SharedRenderer>>),
+) -> Result {
+    let context = contexts.ctx_mut()?;
+    let painter = context.layer_painter(egui::LayerId::background());
+    let rect = context.content_rect();
+    lay_in(context, &painter);
+    if !loaded(staged, renderer) {
+        text(&painter, rect.center() + vec2(0.2 * rect.width(), 0.0), Align2::CENTER_CENTER, "loading the scene…", 18.0, TEXT);
+    }
+    let shown = shows(*screen.get(), player.bare);
+    if let Some(words) = left_out(&session.config) {
+        let at = pos2(rect.center().x, rect.bottom() - MARGIN);
+        Plate::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
+    }
+    let mut taken = Vec::new();
+    if real.elapsed_secs_f64() < notice.until {
+        // In front of menus and the overlay too.
+        let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
+        let message = message(&front, rect, &notice.text);
+        taken.push(message.frame);
+        message.paint(&front);
+    }
+    if !shown {
+        return Ok(());
+    }
+    let Some(read) = panel.instruments else { return Ok(()) };
+    let mut plates = dials(&painter, rect, &session, &player, &read);
+    let rules = rules.0;
+    if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
+        if chase.held > 0.0 {
+            taken.push(hold(&painter, rect.center(), chase.held, rules.hold_time));
+        }
+        let scale = Scale::of(session.config.hole.mass_solar);
+        plates.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
+    }
+    taken.extend(plates.iter().map(|plate| plate.frame));
+    if player.view == View::ThirdPerson {
+        taken.push(markers::own_ship(rect, panel.field_of_view));
+    }
+    // Below the dials, and named off them.
+    markers::paint(&painter, rect, &panel, taken);
+    for plate in plates {
+        plate.paint(&painter);
+    }
+    warnings(&painter, rect, player.avoiding, read.radius);
+    Ok(())
+}
+
+/// Whether dials and markers are shown: in play alone, since menus lie on them.
+fn shows(screen: Screen, bare: bool) -> bool {
+    screen == Screen::Playing && !bare
+}
+
+/// A line for the player, wrapped where it is wider than the screen.
+fn message(painter: &Painter, rect: Rect, words: &str) -> Plate {
+    let at = pos2(rect.center().x, rect.top() + BELOW_DIALS);
+    Plate::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
+}
+
+/// Sizes of all text of the HUD, in points.
+const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
+
+/// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what is
+/// written with it, and a digit that is seen for the first time would be missing meanwhile.
+fn lay_in(context: &egui::Context, painter: &Painter) {
+    if context.global_style().visuals.text_options.subpixel_binning {
+        context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);
+    }
+    let letters: String = (' '..='~').chain("\u{a0}“”—–−·×°²⁰¹³⁴⁵⁶⁷⁸⁹γτ…".chars()).collect();
+    for size in SIZES {
+        // Kept by the fonts as long as it is asked for.
+        let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
+    }
+}
+
+/// What is left out of the picture's physics, for the player to know.
+fn left_out(config: &GameConfig) -> Option<&'static str> {
+    match (config.render.doppler, config.render.beaming) {
+        (true, true) => None,
+        (false, false) => Some("as in the film: without the Doppler shift of colour and brightness"),
+        (false, true) => Some("without the Doppler shift of colour"),
+        (true, false) => Some("without the Doppler shift of brightness"),
+    }
+}
+
+/// How long one has been near enough, on a ring and in words; returns where the words are.
+fn hold(painter: &Painter, middle: Pos2, held: f64, needed: f64) -> Rect {
+    arc(painter, middle, 46.0, (held / needed.max(1e-9)).clamp(0.0, 1.0), Stroke::new(4.0, OWN));
+    text(painter, middle + vec2(0.0, 58.0), Align2::CENTER_TOP, &hold_words(held, needed), 15.0, OWN)
+}
+
+/// What is left of the chase's time, on the far clock, over a bar that grows shorter.
+fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown) -> Plate {
+    let [colour, filled] = if countdown.late() { [ALARM; 2] } else { [TEXT, OWN] };
+    let lines = [
+        ("TIME LEFT", 11.0, FAINT),
+        (&scale.clock(countdown.left), 19.0, colour),
+        (&format!("T = {:.1} of {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
+    ];
+    let top = pos2(rect.center().x, rect.top() + MARGIN);
+    Plate::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
+}
+
+/// The dials in the corners, and above the speed who flies and what is in the tanks.
+fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: &Instruments) -> Vec<Plate> {
+    let mut plates = Vec::new();
+    let lay = |at, anchor, lines: &[(&str, f32, Color32)]| Plate::lay(painter, at, anchor, f32::INFINITY, lines);
+    let mut plate = |at, anchor, lines: &[(&str, f32, Color32)]| plates.push(lay(at, anchor, lines));
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
+    let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
+
+    let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
+    plate(
+        pos2(left, top),
+        Align2::LEFT_TOP,
+        &[
+            ("OWN CLOCK", 11.0, FAINT),
+            (&scale.clock(read.own_time), 19.0, TEXT),
+            ("FAR CLOCK", 11.0, FAINT),
+            (&scale.clock(read.far_time), 19.0, TEXT),
+            (&rate, 12.0, FAINT),
+        ],
+    );
+
+    let near = if read.radius < 1.0 {
+        ALARM
+    } else if read.radius < 3.0 {
+        TRUE
+    } else {
+        TEXT
+    };
+    plate(
+        pos2(right, top),
+        Align2::RIGHT_TOP,
+        &[
+            ("FROM THE HOLE  r", 11.0, FAINT),
+            (&format!("{:.2} r_s", read.radius), 19.0, near),
+            (&scale.kilometres(read.radius), 13.0, TEXT),
+            (&format!("camera  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
+        ],
+    );
+
+    let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
+    let gees = scale.gees(read.acceleration);
+    let load = format!("{gees:.1} g");
+    plate(
+        pos2(left, bottom),
+        Align2::LEFT_BOTTOM,
+        &[
+            ("SPEED  (0: hovering)", 11.0, FAINT),
+            (&speed, 30.0, TEXT),
+            ("LOAD", 11.0, FAINT),
+            (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),
+        ],
+    );
+
+    if let Some(target) = read.target {
+        let closing = format!("{:+.3} c", target.closing);
+        plate(
+            pos2(right, bottom),
+            Align2::RIGHT_BOTTOM,
+            &[
+                ("RANGE", 11.0, FAINT),
+                (&format!("{:.2} r_s", target.range), 30.0, TEXT),
+                (&scale.kilometres(target.range), 12.0, FAINT),
+                ("CLOSING", 11.0, FAINT),
+                (&closing, 19.0, if target.closing > 0.0 { OWN } else { TRUE }),
+            ],
+        );
+    }
+
+    let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
+    let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
+    let view = match player.view {
+        _ if player.gaze.aside() => "at the target",
+        View::Cockpit => "cockpit",
+        View::ThirdPerson => "third person",
+    };
+    let state = format!("{pilot}  ·  {view}");
+    let pace = format!("pace {:.2} r_s/c a second", session.config.clock.pace);
+    let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
+    let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };
+    let lines = [(&*state, 12.0, TEXT), (&*pace, 12.0, TEXT), (&*tanks, 12.0, colour)];
+    // Above the speed: below the middle it would lie on one's own ship.
+    let above = plates[2].frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM);
+    plates.push(lay(above, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
+    plates
+}
+
+/// What must not be missed, in large letters.
+fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
+    let words = match (avoiding, radius < 1.0) {
+        (true, _) => "PULLING AWAY FROM THE HOLE",
+        (false, true) => "BELOW THE HORIZON",
+        (false, false) => return,
+    };
+    text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, words, 18.0, ALARM);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::hud::layout::overlap;
+    use crate::play::hud::plate::tests::on_canvas;
+    use crate::scene::config::parse;
+    use crate::spacetime::matter::ShipState;
+    use glam::DVec3;
+
+    /// The longest complaint about game.toml names every key of [controls].
+    #[test]
+    fn a_long_message_stays_on_the_screen() {
+        let file = std::path::Path::new("a/folder/of/somebody/game.toml");
+        let complaint = parse(file, "[controls]\nnone = 1\n").expect_err("no such key").to_string();
+        assert!(complaint.len() > 300, "{complaint}");
+        for size in [[900.0, 620.0], [1280.0, 720.0]] {
+            on_canvas(size, |painter, rect| {
+                let frame = message(painter, rect, &complaint).frame;
+                assert!(rect.contains_rect(frame) && frame.height() > 40.0, "{frame}");
+            });
+        }
+    }
+
+    #[test]
+    fn dials_are_shown_in_play_alone() {
+        assert!(shows(Screen::Playing, false) && !shows(Screen::Playing, true));
+        for screen in [Screen::Title, Screen::Paused, Screen::Result] {
+            assert!(!shows(screen, false), "{screen:?}");
+        }
+    }
+
+    /// Clocks, time, hole, speed, range, who flies: none lies on another in the narrowest window and at 16:9, however full the tanks.
+    #[test]
+    fn dials_do_not_overlap() {
+        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let scale = Scale::of(session.config.hole.mass_solar);
+        let state = ShipState::new(DVec3::X * 9.0, DVec3::ZERO);
+        let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
+        for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
+            on_canvas(size, |painter, rect| {
+                let mut plates = dials(painter, rect, &session, &Seat::default(), &read);
+                plates.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
+                assert_eq!(plates.len(), 6);
+                for (k, plate) in plates.iter().enumerate() {
+                    assert!(rect.contains_rect(plate.frame), "{}", plate.frame);
+                    assert!(!overlap(&plate.frame, &markers::own_ship(rect, 60_f64.to_radians())), "{}", plate.frame);
+                    assert!(plate.frame.bottom() < BELOW_DIALS || plate.frame.top() > rect.center().y, "{}", plate.frame);
+                    assert!(plates[..k].iter().all(|other| !overlap(&other.frame, &plate.frame)), "{}", plate.frame);
+                }
+            });
+        }
+    }
+}

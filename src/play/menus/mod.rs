@@ -1,0 +1,298 @@
+//! Title, pause and result.
+
+pub mod screens;
+
+use bevy::prelude::*;
+use bevy_egui::EguiContexts;
+use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
+
+use crate::sim::{Chase, Outcome};
+
+use crate::play::hud::instruments::Scale;
+use crate::play::hud::panel::Panel;
+use crate::play::hud::plate::{OWN, SEEN, SHADE, TRUE};
+use crate::play::menus::screens::{Screen, Wish};
+use crate::play::seat::{Flown, Seat};
+use crate::play::session::Session;
+
+const PALE: Color32 = Color32::from_rgb(226, 234, 242);
+const FAINT: Color32 = Color32::from_rgb(150, 166, 182);
+const WARM: Color32 = Color32::from_rgb(255, 190, 110);
+
+/// Draws the menu of the screen.
+pub fn draw(
+    mut contexts: EguiContexts,
+    screen: Res<State<Screen>>,
+    mut session: ResMut<Session>,
+    chase: Option<Res<Chase>>,
+    panel: Res<Panel>,
+    seat: Res<Seat>,
+    mut wishes: MessageWriter<Wish>,
+) -> Result {
+    let context = contexts.ctx_mut()?;
+    let mut ask = |wish| _ = wishes.write(wish);
+    match screen.get() {
+        Screen::Playing => (),
+        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &mut session, &mut ask)),
+        // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
+        Screen::Paused => card(context, "pause", WIDE, |ui| {
+            ui.label(RichText::new("Paused").size(34.0).color(PALE));
+            ui.add_space(10.0);
+            buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
+            calm(ui, &mut session);
+            ui.add_space(6.0);
+            controls(ui, &session);
+        }),
+        Screen::Result => card(context, "result", NARROW, |ui| {
+            result(ui, &session, chase.as_deref(), &panel, seat.flown);
+            buttons(ui, &mut ask, &[("Once more", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
+        }),
+    }
+    Ok(())
+}
+
+/// From the screen's left edge to a card, in points.
+const ASIDE: f32 = 24.0;
+/// Between a card's edge and what it says, in points.
+const INSIDE: f32 = 24.0;
+/// Width of what the title and the pause say, in points.
+const WIDE: f32 = 470.0;
+/// Width of what the result says, in points: it leaves the middle of the narrowest window free.
+const NARROW: f32 = 330.0;
+
+/// A dark card at the left of the screen, with room for `width` points.
+fn card(context: &egui::Context, name: &'static str, width: f32, content: impl FnOnce(&mut Ui)) {
+    egui::Area::new(egui::Id::new(name)).anchor(Align2::LEFT_CENTER, [ASIDE, 0.0]).show(context, |ui| {
+        egui::Frame::new().fill(SHADE).corner_radius(12.0).inner_margin(INSIDE).show(ui, |ui| {
+            ui.vertical_centered(|ui| {
+                ui.set_width(width);
+                content(ui);
+            })
+        });
+    });
+}
+
+fn buttons(ui: &mut Ui, ask: &mut impl FnMut(Wish), choices: &[(&str, Wish)]) {
+    for &(words, wish) in choices {
+        let button = egui::Button::new(RichText::new(words).size(18.0).color(PALE)).min_size(egui::vec2(230.0, 34.0));
+        if ui.add(button).clicked() {
+            ask(wish);
+        }
+        ui.add_space(4.0);
+    }
+}
+
+fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(Wish)) {
+    ui.label(RichText::new("LENSRUNNER").size(42.0).color(PALE).strong());
+    ui.label(RichText::new("a chase in the spacetime of a black hole").size(15.0).color(FAINT));
+    ui.add_space(8.0);
+    ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
+    calm(ui, session);
+    ui.add_space(6.0);
+    ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
+    ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
+    ui.add_space(8.0);
+    buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
+    ui.add_space(4.0);
+    controls(ui, session);
+}
+
+/// The switch of `video.reduced_motion`, until the game ends or `game.toml` says otherwise.
+fn calm(ui: &mut Ui, session: &mut Session) {
+    let mut on = session.config.video.reduced_motion;
+    let words = RichText::new("Reduced motion: the camera does not sway or glide").size(12.5).color(PALE);
+    if ui.checkbox(&mut on, words).changed() {
+        session.config.video.reduced_motion = on;
+    }
+}
+
+/// A number and its unit, which stay on one line.
+fn together(words: &str) -> String {
+    words.replace(' ', "\u{a0}")
+}
+
+/// What the chase is about, in a sentence.
+pub fn goal(session: &Session) -> String {
+    let rules = session.scene.rules(&session.config);
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let within = together(&format!("{} r_s", rules.capture_radius));
+    let hold = together(&format!("{} r_s/c ({})", rules.hold_time, scale.span(rules.hold_time)));
+    let before = together(&format!("T = {} r_s/c ({})", rules.time_limit, scale.span(rules.time_limit)));
+    format!("Catch the quarry: stay within {within} of it for {hold}, before {before}, and do not fall into the hole.")
+}
+
+/// What r_s is, in a sentence.
+pub fn measure(session: &Session) -> String {
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let [radius, light] = [scale.kilometres(1.0), scale.span(1.0)].map(|words| together(&words));
+    format!("r_s is the hole's radius, {radius}; light goes as far in r_s/c, {light}.")
+}
+
+/// What to begin with, for the first flight.
+pub fn hint(session: &Session) -> String {
+    let keys = &session.config.controls;
+    let [thrust, look, pilot] = [&keys.thrust_forward, &keys.look_at_target, &keys.toggle_autopilot].map(|name| key(name));
+    let [thrust, look, pilot] =
+        [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
+            .map(|words| together(&words));
+    format!("{thrust}  ·  {look}  ·  {pilot}  ·  fly to the dashed ring “now”")
+}
+
+/// The keys, as they are bound.
+fn controls(ui: &mut Ui, session: &Session) {
+    let keys = &session.config.controls;
+    let rows = [
+        (
+            "Thrust",
+            format!("{} {} {} {}", key(&keys.thrust_forward), key(&keys.thrust_left), key(&keys.thrust_back), key(&keys.thrust_right)),
+        ),
+        ("Up, down, full thrust", format!("{}  {}  {}", key(&keys.thrust_up), key(&keys.thrust_down), key(&keys.boost))),
+        ("Turn", "mouse or arrow keys".to_owned()),
+        ("Roll", format!("{}  {}", key(&keys.roll_left), key(&keys.roll_right))),
+        ("Assist, autopilot", format!("{}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot))),
+        ("Camera, look at the target", format!("{}  {} (hold)", key(&keys.toggle_camera), key(&keys.look_at_target))),
+        (
+            "Slower, faster, pause, start again",
+            format!("{}  {}  {}  {}", key(&keys.slower), key(&keys.faster), key(&keys.pause), key(&keys.restart)),
+        ),
+        ("HUD, dev overlay, picture", format!("{}  {}  {}", key(&keys.toggle_hud), key(&keys.toggle_overlay), key(&keys.screenshot))),
+    ];
+    let rows = rows.map(|(what, how)| (RichText::new(what).color(FAINT), RichText::new(how).color(PALE)));
+    table(ui, "controls", rows);
+    ui.add_space(6.0);
+    table(ui, "markers", MARKERS.map(|(name, colour, meaning)| (RichText::new(name).color(colour), RichText::new(meaning).color(FAINT))));
+}
+
+/// The names of the HUD's markers, their colours, and what they mean.
+const MARKERS: [(&str, Color32, &str); 4] = [
+    ("now", TRUE, "dashed ring: where the quarry is at this moment. Fly to this one."),
+    ("seen, 7.8 r_s/c ago", SEEN, "its picture: the light left so long ago, from where it was."),
+    ("2nd image", SEEN, "the same ship by light that went round the hole's far side."),
+    ("course", OWN, "where you fly to; the nose points to the middle."),
+];
+
+fn table<const N: usize>(ui: &mut Ui, name: &str, rows: [(RichText, RichText); N]) {
+    egui::Grid::new(name).num_columns(2).min_row_height(15.0).spacing([16.0, 2.0]).show(ui, |ui| {
+        for (what, how) in rows {
+            ui.label(what.size(12.5));
+            ui.label(how.size(12.5));
+            ui.end_row();
+        }
+    });
+}
+
+/// A key as it is written on the keyboard.
+fn key(name: &str) -> &str {
+    let name = name.strip_prefix("Key").or_else(|| name.strip_prefix("Digit")).unwrap_or(name);
+    match name {
+        "ControlLeft" => "Ctrl",
+        "ShiftLeft" => "Shift",
+        "Escape" => "Esc",
+        "Comma" => ", (comma)",
+        "Period" => ". (period)",
+        other => other,
+    }
+}
+
+fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
+    let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };
+    let (words, colour) = headline(outcome);
+    ui.label(RichText::new(words).size(38.0).color(colour).strong());
+    ui.label(RichText::new(outcome.to_string()).size(16.0).color(PALE));
+    if let Some(words) = pilot(flown) {
+        ui.label(RichText::new(words).size(14.0).color(WARM));
+    }
+    ui.add_space(10.0);
+    let scale = Scale::of(session.config.hole.mass_solar);
+    let mut lines = vec![format!("Far clock  {}   (T = {time:.1} r_s/c)", scale.clock(time))];
+    if let Some(own) = panel.decided {
+        lines.push(format!("Own clock  {}", scale.clock(own)));
+        lines.push(format!("Younger than those far away by  {}", scale.clock((time - own).max(0.0))));
+    }
+    if let Some(read) = panel.instruments {
+        lines.extend(read.fuel.map(|fuel| format!("Fuel left  {:.0} %", 100.0 * fuel)));
+    }
+    for line in lines {
+        ui.label(RichText::new(line).size(14.0).color(PALE));
+    }
+    ui.add_space(14.0);
+}
+
+/// What the result says of the autopilot, if it flew.
+fn pilot(flown: Flown) -> Option<&'static str> {
+    match (flown.by_autopilot, flown.by_hand) {
+        (false, _) => None,
+        (true, true) => Some("the autopilot flew a part of the way"),
+        (true, false) => Some("the autopilot flew"),
+    }
+}
+
+/// What the result says, large, and its colour.
+fn headline(outcome: Outcome) -> (&'static str, Color32) {
+    match outcome {
+        Outcome::Caught => ("CAUGHT", Color32::from_rgb(150, 240, 150)),
+        Outcome::HunterLost => ("LOST", Color32::from_rgb(255, 96, 80)),
+        Outcome::QuarryLost => ("IT IS GONE", WARM),
+        Outcome::TimeOut => ("TOO LATE", WARM),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::window::INTERFACE;
+
+    #[test]
+    fn the_result_says_when_the_autopilot_flew() {
+        let said = |by_hand, by_autopilot| pilot(Flown { by_hand, by_autopilot });
+        assert_eq!(said(true, false), None);
+        assert!(said(false, true).is_some_and(|words| !words.contains("part")));
+        assert!(said(true, true).is_some_and(|words| words.contains("part")));
+    }
+
+    #[test]
+    fn the_result_leaves_the_middle_free() {
+        // The narrowest the interface is laid out for; ship and quarry are about the middle.
+        let right = ASIDE + NARROW + 2.0 * INSIDE;
+        assert!(right < 0.5 * INTERFACE[0] - 40.0, "{right}");
+    }
+
+    #[test]
+    fn keys_as_written_on_the_keyboard() {
+        assert_eq!(["KeyW", "Digit4", "ControlLeft", "F3", "Space"].map(key), ["W", "4", "Ctrl", "F3", "Space"]);
+    }
+
+    /// A line never ends between a number and its unit, and what a unit is long is said.
+    #[test]
+    fn the_goal_keeps_numbers_and_units_together() {
+        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let said = goal(&session);
+        for words in ["0.5\u{a0}r_s", "T\u{a0}=\u{a0}400\u{a0}r_s/c\u{a0}(456\u{a0}days)"] {
+            assert!(said.contains(words), "{said}");
+        }
+        assert!(measure(&session).contains("29.5\u{a0}bn\u{a0}km"), "{}", measure(&session));
+    }
+
+    #[test]
+    fn the_hint_names_the_keys_as_bound() {
+        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        assert!(hint(&session).contains("hold\u{a0}V"), "{}", hint(&session));
+        session.config.controls.look_at_target = "KeyL".into();
+        assert!(hint(&session).contains("hold\u{a0}L"), "{}", hint(&session));
+    }
+
+    /// The title, the highest of the cards, is no higher than the lowest window the interface is laid out for.
+    #[test]
+    fn the_title_fits() {
+        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let mut height = f32::INFINITY;
+        crate::play::hud::plate::tests::on_canvas(INTERFACE, |painter, _| {
+            // The first picture of an area only measures it.
+            card(painter.ctx(), "title", WIDE, |ui| {
+                title(ui, &mut session, &mut |_| ());
+                height = ui.min_rect().height() + 2.0 * INSIDE;
+            });
+        });
+        assert!(height < INTERFACE[1], "{height}");
+    }
+}

@@ -1,0 +1,148 @@
+//! The configuration while the game runs: `game.toml` is read again when it changes, and every change, from there or from the overlay, takes
+//! effect at once.
+
+use crate::play::hud::notice::Notice;
+use std::time::{Duration, SystemTime};
+
+use bevy::prelude::*;
+
+use crate::render::plugin::SharedRenderer;
+use crate::render::stage::Stage;
+use crate::scene::GameConfig;
+use crate::scene::config;
+use crate::scene::ship::Ai;
+use crate::sim::setup::skills;
+use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
+
+use crate::play::hud::panel::Staged;
+use crate::play::input::Bindings;
+use crate::play::seat::{GameSet, Seat};
+use crate::play::session::Session;
+
+/// Time between two looks at the file.
+const PERIOD: Duration = Duration::from_secs(1);
+
+/// Watches the file and applies changes.
+pub struct LivePlugin;
+
+impl Plugin for LivePlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Notice>().add_systems(Update, (reload, apply).chain().before(GameSet::Keys));
+    }
+}
+
+fn reload(
+    mut session: ResMut<Session>,
+    real: Res<Time<Real>>,
+    mut notice: ResMut<Notice>,
+    mut look: Local<(Duration, Option<SystemTime>)>,
+    mut last: Local<Option<GameConfig>>,
+) {
+    let (next, seen) = &mut *look;
+    let Some(file) = session.config_file.clone() else { return };
+    if real.elapsed() < *next {
+        return;
+    }
+    *next = real.elapsed() + PERIOD;
+    let Some(changed) = std::fs::metadata(&file).and_then(|data| data.modified()).ok() else { return };
+    // What plays at the first look is what the file said.
+    let said = last.get_or_insert_with(|| session.config.clone());
+    if seen.replace(changed).is_none_or(|before| before == changed) {
+        return;
+    }
+    let text = match config::load(&file) {
+        Ok(config) => {
+            session.config = taken_up(&session.config, said, &config);
+            *said = config;
+            format!("{} read again", file.display())
+        }
+        Err(error) => {
+            warn!("{error}\nThe last good values stay.");
+            format!("{error}\nThe last good values stay.")
+        }
+    };
+    // Time to read each line.
+    let seconds = 4.0 + 2.0 * text.lines().count() as f64;
+    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
+}
+
+/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace, reduced motion)
+/// stays as it is in `playing` unless the file changed just that.
+fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
+    let mut config = now.clone();
+    if now.clock.pace == before.clock.pace {
+        config.clock.pace = playing.clock.pace;
+    }
+    if now.video.reduced_motion == before.video.reduced_motion {
+        config.video.reduced_motion = playing.video.reduced_motion;
+    }
+    config
+}
+
+/// Whether the models and the disk of the scene are to be made again.
+fn restage(before: &GameConfig, now: &GameConfig) -> bool {
+    if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
+        return true;
+    }
+    before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient
+}
+
+fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
+    let session = world.resource::<Session>();
+    if before.as_ref() == Some(&session.config) {
+        return;
+    }
+    let session = session.clone();
+    let config = &session.config;
+    world.insert_resource(Bindings::of(config));
+    world.insert_resource::<Skills>(skills(config));
+    world.insert_resource(ChaseRules(session.scene.rules(config)));
+    // The clock counts steps: a change of the step takes effect with the next chase, so that T never jumps.
+    let fleet = world.get_resource::<Fleet>().cloned().unwrap_or_default();
+    for (&ship, spec) in fleet.0.iter().zip(&session.scene.ships) {
+        if let Some(mut engine) = world.get_mut::<Engine>(ship) {
+            let thrust = if spec.ai == Ai::Flee && !spec.player { config.enemy.thrust } else { config.ship.thrust };
+            engine.max_thrust = spec.max_thrust.unwrap_or(thrust);
+            engine.max_rate = config.ship.turn_rate / config.clock.pace;
+        }
+    }
+    // The key switches for the chase; a change of the configuration is newer.
+    if before.as_ref().is_some_and(|before| before.assist.enabled != config.assist.enabled)
+        && let Some(mut seat) = world.get_resource_mut::<Seat>()
+    {
+        seat.assist = None;
+    }
+    if before.as_ref().is_some_and(|before| restage(before, config))
+        && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()
+    {
+        let stage = Stage::new(&mut renderer.lock(), &session.scene, config).watched();
+        world.insert_resource(Staged(stage));
+    } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora)
+        && let Some(staged) = world.get_resource::<Staged>()
+    {
+        staged.0.change_aurora(&config.aurora);
+    }
+    *before = Some(session.config);
+    debug_assert!(world.get_resource::<Clock>().is_some());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The player's pace outlives a change of anything else in the file, and ends with a change of its own.
+    #[test]
+    fn a_reload_keeps_what_the_keys_changed() {
+        let before = GameConfig::default();
+        let mut playing = before.clone();
+        playing.clock.pace = 3.0;
+        playing.video.reduced_motion = true;
+        let mut now = before.clone();
+        now.disk.arcs = 900;
+        let kept = taken_up(&playing, &before, &now);
+        assert_eq!((kept.disk.arcs, kept.clock.pace, kept.video.reduced_motion), (900, 3.0, true));
+
+        now.clock.pace = 0.5;
+        assert_eq!(taken_up(&kept, &before, &now).clock.pace, 0.5);
+    }
+}

@@ -1,0 +1,149 @@
+//! Bringing pictures and buffers back from the GPU, and writing pictures to files.
+
+use std::path::Path;
+
+use thiserror::Error;
+
+use crate::render::Gpu;
+
+/// Why a picture could not be written.
+#[derive(Debug, Error)]
+pub enum PictureError {
+    /// The GPU did not hand the data over.
+    #[error("the GPU did not return the picture: {0}")]
+    Map(String),
+    /// The device is gone, or refuses.
+    #[error("{0}")]
+    Device(String),
+    /// There is nothing to draw.
+    #[error("nothing was drawn: the camera's numbers are not finite, or the picture has no size")]
+    Nothing,
+    /// The file could not be written.
+    #[error("cannot write {path}: {reason}")]
+    Write {
+        /// The file.
+        path: String,
+        /// What went wrong.
+        reason: String,
+    },
+    /// The name says nothing known.
+    #[error("cannot write {0}: the name must end in .png or .exr")]
+    Format(String),
+}
+
+/// The bytes of a buffer.
+pub fn buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: source.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_buffer_to_buffer(source, 0, &copy, 0, source.size());
+    gpu.queue.submit([encoder.finish()]);
+    map(gpu, &copy)
+}
+
+/// The texels of a texture of `bytes` bytes a texel, row by row from the top.
+pub fn texture(gpu: &Gpu, source: &wgpu::Texture, bytes: u32) -> Result<Vec<u8>, PictureError> {
+    let (width, height) = (source.width(), source.height());
+    // Rows of a copy start at multiples of 256 bytes.
+    let row = (width * bytes).next_multiple_of(256);
+    let copy = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    encoder.copy_texture_to_buffer(
+        source.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &copy,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
+        },
+        source.size(),
+    );
+    gpu.queue.submit([encoder.finish()]);
+    let padded = map(gpu, &copy)?;
+    Ok(padded.chunks_exact(row as usize).flat_map(|line| &line[..(width * bytes) as usize]).copied().collect())
+}
+
+/// The texels of a texture of four 32-bit floats a texel.
+pub fn floats(gpu: &Gpu, source: &wgpu::Texture) -> Result<Vec<[f32; 4]>, PictureError> {
+    let bytes = texture(gpu, source, 16)?;
+    Ok(bytes.chunks_exact(16).map(bytemuck::pod_read_unaligned).collect())
+}
+
+fn map(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    mapped(gpu, copy).map_err(|error| gpu.watch.complaint().map_or(error, PictureError::Device))
+}
+
+fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
+    if let Some(complaint) = gpu.watch.complaint() {
+        return Err(PictureError::Device(complaint));
+    }
+    let (send, receive) = std::sync::mpsc::channel();
+    copy.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+        // The receiver waits below; if it is gone there is nobody to tell.
+        let _ = send.send(result);
+    });
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+    receive.recv().map_err(|error| PictureError::Map(error.to_string()))?.map_err(|error| PictureError::Map(error.to_string()))?;
+    let bytes = copy.slice(..).get_mapped_range().to_vec();
+    copy.unmap();
+    Ok(bytes)
+}
+
+/// A picture on the processor.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Developed, sRGB, 4 bytes a pixel.
+    pub developed: Vec<u8>,
+    /// Linear light before development, RGBA.
+    pub linear: Vec<[f32; 4]>,
+    /// Object id, image order, travel time, g of the nearest surface; empty unless asked for.
+    pub layers: Vec<[f32; 4]>,
+    /// Texture coordinates and coverage of that surface; as `layers`.
+    pub surface: Vec<[f32; 4]>,
+    /// The part of each pixel that thin images cover together, whatever of the disk is before them; as `layers`, and empty where there are none.
+    pub thin: Vec<f32>,
+}
+
+impl Picture {
+    /// Writes the developed picture (.png) or the linear light and layers (.exr).
+    pub fn write(&self, path: &Path) -> Result<(), PictureError> {
+        let failed = |reason: String| PictureError::Write { path: path.display().to_string(), reason };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| failed(error.to_string()))?;
+        }
+        match path.extension().and_then(|extension| extension.to_str()) {
+            Some("png") => {
+                let [width, height] = self.size;
+                let opaque: Vec<u8> = self.developed.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+                image::save_buffer(path, &opaque, width, height, image::ColorType::Rgb8).map_err(|error| failed(error.to_string()))
+            }
+            Some("exr") => self.write_exr(path).map_err(|error| failed(error.to_string())),
+            _ => Err(PictureError::Format(path.display().to_string())),
+        }
+    }
+
+    fn write_exr(&self, path: &Path) -> exr::error::UnitResult {
+        use exr::prelude::*;
+        let channel =
+            |name: &str, data: &[[f32; 4]], k: usize| AnyChannel::new(name, FlatSamples::F32(data.iter().map(|p| p[k]).collect()));
+        let mut channels: SmallVec<[AnyChannel<FlatSamples>; 4]> =
+            ["R", "G", "B"].iter().enumerate().map(|(k, name)| channel(name, &self.linear, k)).collect();
+        if !self.layers.is_empty() {
+            let names = ["object.id", "image.order", "travel.time", "frequency.ratio"];
+            channels.extend(names.iter().enumerate().map(|(k, name)| channel(name, &self.layers, k)));
+            channels.extend(["texture.u", "texture.v"].iter().enumerate().map(|(k, name)| channel(name, &self.surface, k)));
+        }
+        let size = (self.size[0] as usize, self.size[1] as usize);
+        let layer = Layer::new(size, LayerAttributes::named("lensrunner"), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
+        Image::from_layer(layer).write().to_file(path)
+    }
+}

@@ -1,0 +1,118 @@
+//! The textures that a frame is drawn into, all of the size of the output.
+
+use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
+
+/// Format of the layers of a picture.
+pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+
+/// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of about the
+/// same angle it counts the same at every resolution.
+const METERED_WIDTH: u32 = 80;
+
+/// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all
+/// the others, for a glow of two pixels.
+const BLOOM_LEVELS: usize = 5;
+
+/// The targets of the layers of a picture.
+#[derive(Debug)]
+pub struct LayerTargets {
+    /// Object id, order, travel time, g.
+    pub what: (wgpu::Texture, wgpu::TextureView),
+    /// Texture coordinates, coverage.
+    pub surface: (wgpu::Texture, wgpu::TextureView),
+    /// A depth of their own.
+    pub depth: wgpu::TextureView,
+}
+
+/// Targets of one size.
+#[derive(Debug)]
+pub struct Targets {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// The picture in linear light, as a texture to copy from.
+    pub picture_texture: wgpu::Texture,
+    /// The picture in linear light.
+    pub picture: wgpu::TextureView,
+    /// Depth, reversed.
+    pub depth: wgpu::TextureView,
+    /// Sum of thin triangles, as a texture to copy from.
+    pub thin_texture: wgpu::Texture,
+    /// Sum of thin triangles.
+    pub thin: wgpu::TextureView,
+    /// Sums of their coverage with signs and of what is laid over them later of the same images, as a texture to copy from.
+    pub thin_signed_texture: wgpu::Texture,
+    /// Sums of their coverage with signs and of what is laid over them later of the same images.
+    pub thin_signed: wgpu::TextureView,
+    /// The picture at a quarter of its size, halved, halved again, and so on.
+    pub bloom: Vec<wgpu::TextureView>,
+    /// As large as the finest of them: room to soften it.
+    pub glow: wgpu::TextureView,
+    /// What the pixels show; made when first asked for.
+    pub layers: Option<LayerTargets>,
+}
+
+impl Targets {
+    /// Makes them; no side is smaller than a pixel.
+    pub fn new(device: &wgpu::Device, size: [u32; 2]) -> Self {
+        let size = size.map(|side| side.max(1));
+        let (picture_texture, picture) = target(device, "picture", size, HDR_FORMAT);
+        let (thin_texture, thin) = target(device, "thin", size, HDR_FORMAT);
+        let (thin_signed_texture, thin_signed) = target(device, "thin signed", size, SIGNED_FORMAT);
+        let glow = target(device, "glow", size.map(|side| side.div_ceil(4)), HDR_FORMAT).1;
+        let mut bloom = Vec::new();
+        let mut level = size;
+        while bloom.len() < BLOOM_LEVELS {
+            let step = if bloom.is_empty() { 4 } else { 2 };
+            level = level.map(|side: u32| side.div_ceil(step));
+            bloom.push(target(device, "bloom", level, HDR_FORMAT).1);
+            if level[0].min(level[1]) <= 4 {
+                break;
+            }
+        }
+        Targets {
+            size,
+            picture_texture,
+            picture,
+            depth: target(device, "depth", size, DEPTH_FORMAT).1,
+            thin_texture,
+            thin,
+            thin_signed_texture,
+            thin_signed,
+            bloom,
+            glow,
+            layers: None,
+        }
+    }
+
+    /// The level of the bloom that is metered: the first that is no more than `METERED_WIDTH` texels wide, or the smallest there is.
+    pub fn meter_level(&self) -> usize {
+        let wide = |level: &usize| self.size[0] >> (2 + level) > METERED_WIDTH;
+        (0..self.bloom.len() - 1).find(|level| !wide(level)).unwrap_or(self.bloom.len() - 1)
+    }
+
+    /// The targets of the layers.
+    pub fn layers(&mut self, device: &wgpu::Device) -> &LayerTargets {
+        let size = self.size;
+        self.layers.get_or_insert_with(|| LayerTargets {
+            what: target(device, "layers", size, LAYERS_FORMAT),
+            surface: target(device, "layers surface", size, LAYERS_FORMAT),
+            depth: target(device, "layers depth", size, DEPTH_FORMAT).1,
+        })
+    }
+}
+
+/// A texture that is drawn into, sampled and copied from.
+pub fn target(device: &wgpu::Device, label: &str, size: [u32; 2], format: wgpu::TextureFormat) -> (wgpu::Texture, wgpu::TextureView) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = texture.create_view(&Default::default());
+    (texture, view)
+}

@@ -1,0 +1,106 @@
+//! Where the image of an object can be: the image of a ball that holds it. `shaders/geometry/bounds.wgsl` leaves out what would be drawn outside.
+//!
+//! The image of a ball in one order lies between two angles ψ from outwards, and on one side of the axis as far round as the ball reaches. Each of the three is a
+//! cap of directions, the one about the axis or the one about the ball's middle; aberration turns caps into caps. Far from the axis and the horizon the last is enough.
+
+use crate::spacetime::Observer;
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use glam::{DVec3, DVec4};
+
+use crate::spacetime::light::Order;
+
+use crate::render::instances::{Extent, MARGIN, View};
+use crate::render::method::Method;
+
+/// Three caps of directions in camera axes, as `Placement.bounds` of WGSL: xyz their middle; w the square of the chord from there to their rim, positive if the image lies
+/// inside, negative if outside, 0 if it may lie anywhere.
+pub type Bounds = [[f32; 4]; 3];
+
+/// By how much an image may be drawn beyond its ball's, in pixels of the screen's middle: half a pixel is what patches may be off.
+const MARGIN_PIXELS: f64 = 2.0;
+/// By how much the ball is taken larger, for what lies between the places on it that are looked at: an octagon round a circle reaches 1.08 as far.
+const LARGER: f64 = 1.1;
+/// A ball this small, against its distances from the axis and from the horizon, is seen in one small patch, which its extent tells.
+const FAR: f64 = 0.3;
+/// Places that are looked at on the ball's circle in the plane of the axis.
+const PLACES: u32 = 8;
+/// Nearer to the hole nothing sends light to a camera outside, in r_s.
+const LEAST_RADIUS: f64 = 1.0001;
+
+impl View<'_> {
+    /// The bounds of the image of a ball at `position` (rain axes), of `longer` times the radius `reach` (r_s) whose `extent` is given; `age` decides, inside the
+    /// horizon, which light is meant. Without bounds if the ball holds the hole or the camera, or part of it is not seen.
+    pub(super) fn bounds(&self, extent: &Extent, position: DVec3, reach: f64, longer: f64, order: Order, age: f64) -> Bounds {
+        let camera = self.camera;
+        let radius = LARGER * longer * reach;
+        // Approximations of light do not keep to where it is.
+        let exact = matches!(self.settings.method, Method::Table | Method::TableFull | Method::Newton | Method::Exact);
+        if !exact
+            || !radius.is_finite()
+            || camera.radius() < 1.0
+            || position.length() < radius
+            || position.distance(camera.position) < radius
+        {
+            return Bounds::default();
+        }
+        let from_axis = position.cross(camera.position).length() / camera.radius();
+        if radius < FAR * from_axis.min(position.length() - 1.0) {
+            let seen = seen_cap(camera, extent.look, MARGIN * longer * extent.radius, MARGIN_PIXELS * self.pixel);
+            return [[0.0; 4], [0.0; 4], seen];
+        }
+        self.caps(position, radius, order, age).unwrap_or_default()
+    }
+
+    fn caps(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Option<Bounds> {
+        let camera = self.camera;
+        let [n, a, _] = camera.axis_frame();
+        let height = position.dot(n);
+        let across = position - n * height;
+        let distance = across.length();
+        let turn = (0..PLACES).map(|k| 2.0 * PI * f64::from(k) / f64::from(PLACES)).map(f64::sin_cos);
+        let mut places: Vec<[f64; 2]> = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]).collect();
+        let round = if reach < distance {
+            (reach / distance).asin()
+        } else {
+            let half = (reach * reach - distance * distance).sqrt();
+            places.extend([[height - half, 0.0], [height + half, 0.0]]);
+            PI
+        };
+        let (mut low, mut high) = (PI, 0.0f64);
+        for [height, across] in places {
+            let nearer = (LEAST_RADIUS / height.hypot(across)).max(1.0);
+            let [height, across] = [height * nearer, across * nearer];
+            let (psi, _) = self.angle([height - camera.radius(), across, height], order, age)?;
+            (low, high) = (low.min(psi), high.max(psi));
+        }
+        let turn = if order.flips() { -1.0 } else { 1.0 };
+        let side = if round < PI { across * (turn / distance) } else { a };
+        let middle = 0.5 * (low + high);
+        let look = n * middle.cos() + side * middle.sin();
+        // The farthest point from the middle is on the border of the patch between both angles, at one of its ends round the axis.
+        let farthest = (0..=8).map(|k| {
+            let psi = low + (high - low) * f64::from(k) / 8.0;
+            (middle.cos() * psi.cos() + middle.sin() * psi.sin() * round.cos()).clamp(-1.0, 1.0).acos()
+        });
+        let radius = if round < FRAC_PI_2 { farthest.fold(0.0, f64::max) } else { PI };
+        let margin = MARGIN_PIXELS * self.pixel;
+        Some([seen_cap(camera, n, high, margin), seen_cap(camera, -n, PI - low, margin), seen_cap(camera, look, radius, margin)])
+    }
+}
+
+/// The cap of directions within `radius` of `middle` (rain axes) as the camera sees it, wider by `margin`; all in radians.
+///
+/// It is d · middle ≥ cos radius for directions d, linear in the light's (d, −1), which the Lorentz matrix takes to the camera.
+fn seen_cap(camera: &Observer, middle: DVec3, radius: f64, margin: f64) -> [f32; 4] {
+    if radius >= PI {
+        return [0.0; 4];
+    }
+    let row: DVec4 = camera.rain_from_camera().transpose() * middle.extend(radius.cos());
+    let across = row.truncate();
+    let middle = across.normalize();
+    let radius = (row.w / across.length()).clamp(-1.0, 1.0).acos() + margin;
+    let chord = |angle: f64| 4.0 * (0.5 * angle).sin().powi(2);
+    let (middle, w) = if radius <= FRAC_PI_2 { (middle, chord(radius)) } else { (-middle, -chord((PI - radius).max(0.0))) };
+    [middle.x as f32, middle.y as f32, middle.z as f32, w as f32]
+}

@@ -1,0 +1,274 @@
+//! Models on the GPU: vertices, edges and triangles of all models in shared buffers, materials, and their textures in one array.
+
+pub mod coarse;
+pub mod hiding;
+pub mod outside;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::scene::model::{Image, Model};
+
+use crate::render::Gpu;
+use crate::render::gpu::layout::Growing;
+use crate::render::gpu::types::{Material, ModelTriangle, ModelVertex};
+use crate::render::models::hiding::seen_from;
+use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
+
+/// Side of a layer of the texture array, in pixels; images of other sizes are resampled.
+pub const TEXTURE_SIZE: u32 = 1024;
+/// Layers of the texture array: a scene has few images.
+const TEXTURE_LAYERS: u32 = 4;
+
+/// Where a model lies in the shared buffers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ModelRange {
+    /// First vertex and their number.
+    pub vertices: [u32; 2],
+    /// First edge and their number.
+    pub edges: [u32; 2],
+    /// First triangle and their number.
+    pub triangles: [u32; 2],
+    /// First material.
+    pub material: u32,
+}
+
+/// No vertex is opposite to an edge, or more than two are; as in shaders/geometry/bindings.wgsl.
+pub const ALONE: u32 = u32::MAX;
+
+/// A model made ready: vertices in the order that edges need, and its edges.
+#[derive(Debug, Default)]
+pub struct Prepared {
+    /// Vertices, each of one material, sorted by position.
+    pub vertices: Vec<ModelVertex>,
+    /// Two vertices each, the lower first, and those opposite to it in the two triangles that meet there; of another number of triangles,
+    /// [`ALONE`] twice.
+    pub edges: Vec<[u32; 4]>,
+    /// Triangles with ascending vertices.
+    pub triangles: Vec<ModelTriangle>,
+}
+
+impl Prepared {
+    /// Sorts vertices by position and triangles by vertex. An edge then has one direction, the same for all triangles that share it, even
+    /// where the model keeps two vertices at one place for their normals: so its points are the same bits from every side and no crack opens.
+    pub fn new(model: &Model) -> Prepared {
+        let mut corners: Vec<(u32, u32)> = Vec::new();
+        for (triangle, &material) in model.triangles.iter().zip(&model.triangle_materials) {
+            corners.extend(triangle.iter().map(|&vertex| (vertex, material)));
+        }
+        corners.sort_unstable();
+        corners.dedup();
+        let key = |&(vertex, material): &(u32, u32)| {
+            let vertex = &model.vertices[vertex as usize];
+            let bits = |v: [f32; 3]| v.map(|x| (x + 0.0).to_bits());
+            (vertex.position.map(Total), bits(vertex.normal), vertex.uv.map(f32::to_bits), material)
+        };
+        corners.sort_by_key(key);
+        let place: HashMap<(u32, u32), u32> = corners.iter().enumerate().map(|(i, &corner)| (corner, i as u32)).collect();
+        let vertices: Vec<ModelVertex> = corners
+            .iter()
+            .map(|&(vertex, material)| {
+                let v = &model.vertices[vertex as usize];
+                let [x, y, z] = v.position;
+                let [nx, ny, nz] = v.normal;
+                ModelVertex { position: [x, y, z, v.uv[0]], normal: [nx, ny, nz, v.uv[1]], info: [material, 0, 0, 0] }
+            })
+            .collect();
+        let mut edges = Vec::new();
+        let mut numbers: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut triangles = Vec::with_capacity(model.triangles.len());
+        let known = sides(model).into_iter().zip(seen_from(model));
+        for ((triangle, &material), (side, seen)) in model.triangles.iter().zip(&model.triangle_materials).zip(known) {
+            let mut v = triangle.map(|vertex| place[&(vertex, material)]);
+            let side = if in_turn(v) || side == OPEN { side } else { side ^ (ALONG | AGAINST) };
+            v.sort_unstable();
+            if v[0] == v[1] || v[1] == v[2] {
+                continue;
+            }
+            let mut edge = |a: u32, b: u32| {
+                *numbers.entry([a, b]).or_insert_with(|| {
+                    edges.push([a, b, ALONE, ALONE]);
+                    edges.len() as u32 - 1
+                })
+            };
+            triangles.push(ModelTriangle {
+                vertices: [v[0], v[1], v[2], side],
+                edges: [edge(v[1], v[2]), edge(v[0], v[2]), edge(v[0], v[1]), seen],
+            });
+        }
+        find_opposite(&vertices, &triangles, &mut edges);
+        Prepared { vertices, edges, triangles }
+    }
+}
+
+/// Fills in the vertices opposite to each edge. Vertices at one place are one corner of the body, whatever their normals.
+fn find_opposite(vertices: &[ModelVertex], triangles: &[ModelTriangle], edges: &mut [[u32; 4]]) {
+    let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
+    let corner: Vec<u32> = (0u32..)
+        .zip(vertices)
+        .map(|(i, vertex)| *corners.entry([0, 1, 2].map(|k| (vertex.position[k] + 0.0).to_bits())).or_insert(i))
+        .collect();
+    let key = |a: u32, b: u32| {
+        let [a, b] = [a, b].map(|vertex| corner[vertex as usize]);
+        [a.min(b), a.max(b)]
+    };
+    let mut opposite: HashMap<[u32; 2], Vec<u32>> = HashMap::new();
+    for triangle in triangles {
+        let [a, b, c, _] = triangle.vertices;
+        for (edge, third) in [(key(b, c), a), (key(a, c), b), (key(a, b), c)] {
+            opposite.entry(edge).or_default().push(third);
+        }
+    }
+    for edge in edges {
+        if let Some(&[c, d]) = opposite.get(&key(edge[0], edge[1])).map(Vec::as_slice) {
+            (edge[2], edge[3]) = (c, d);
+        }
+    }
+}
+
+/// Whether sorting three vertices keeps the sense in which they go round.
+fn in_turn([a, b, c]: [u32; 3]) -> bool {
+    (a < b) ^ (b < c) ^ (a < c)
+}
+
+/// f32 with a total order, for sorting.
+#[derive(Clone, Copy, PartialEq)]
+struct Total(f32);
+
+impl Eq for Total {}
+
+impl PartialOrd for Total {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Total {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        // −0 and 0 are one place.
+        (self.0 + 0.0).total_cmp(&(other.0 + 0.0))
+    }
+}
+
+/// The shared buffers of all models.
+#[derive(Debug)]
+pub struct Models {
+    vertices: Vec<ModelVertex>,
+    edges: Vec<[u32; 4]>,
+    triangles: Vec<ModelTriangle>,
+    materials: Vec<Material>,
+    images: Vec<Arc<Image>>,
+    /// All vertices.
+    pub vertex_buffer: Growing,
+    /// All edges.
+    pub edge_buffer: Growing,
+    /// All triangles.
+    pub triangle_buffer: Growing,
+    /// All materials.
+    pub material_buffer: Growing,
+    /// All images.
+    pub texture: wgpu::Texture,
+}
+
+impl Models {
+    /// No models yet.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let storage = wgpu::BufferUsages::STORAGE;
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("surface textures"),
+            size: wgpu::Extent3d { width: TEXTURE_SIZE, height: TEXTURE_SIZE, depth_or_array_layers: TEXTURE_LAYERS },
+            mip_level_count: TEXTURE_SIZE.ilog2() + 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8UnormSrgb,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+            view_formats: &[],
+        });
+        Models {
+            vertices: Vec::new(),
+            edges: Vec::new(),
+            triangles: Vec::new(),
+            materials: Vec::new(),
+            images: Vec::new(),
+            vertex_buffer: Growing::new(device, "model vertices", storage),
+            edge_buffer: Growing::new(device, "model edges", storage),
+            triangle_buffer: Growing::new(device, "model triangles", storage),
+            material_buffer: Growing::new(device, "materials", storage),
+            texture,
+        }
+    }
+
+    /// Forgets every model, for a new scene.
+    pub fn clear(&mut self) {
+        self.vertices.clear();
+        self.edges.clear();
+        self.triangles.clear();
+        self.materials.clear();
+        self.images.clear();
+    }
+
+    /// Adds a model and says where it lies. Buffers may be replaced: bind groups must be made after the last model.
+    pub fn add(&mut self, gpu: &Gpu, model: &Model) -> ModelRange {
+        let prepared = Prepared::new(model);
+        let range = ModelRange {
+            vertices: [self.vertices.len() as u32, prepared.vertices.len() as u32],
+            edges: [self.edges.len() as u32, prepared.edges.len() as u32],
+            triangles: [self.triangles.len() as u32, prepared.triangles.len() as u32],
+            material: self.materials.len() as u32,
+        };
+        self.vertices.extend(prepared.vertices);
+        self.edges.extend(prepared.edges);
+        self.triangles.extend(prepared.triangles);
+        for material in &model.materials {
+            let layer = material.texture.as_ref().and_then(|image| self.layer(gpu, image));
+            let [r, g, b] = material.emissive;
+            self.materials.push(Material {
+                base: material.base_colour,
+                emissive: [r, g, b, material.roughness],
+                surface: [
+                    material.metallic,
+                    layer.map_or(-1.0, |layer| layer as f32),
+                    material.temperature,
+                    f32::from(u8::from(material.drive)),
+                ],
+            });
+        }
+        self.vertex_buffer.write(gpu, &self.vertices);
+        self.edge_buffer.write(gpu, &self.edges);
+        self.triangle_buffer.write(gpu, &self.triangles);
+        self.material_buffer.write(gpu, &self.materials);
+        range
+    }
+
+    /// The layer of an image, uploaded with its mip chain the first time. None when the array is full: the surface is then plain.
+    fn layer(&mut self, gpu: &Gpu, image: &Arc<Image>) -> Option<u32> {
+        if let Some(known) = self.images.iter().position(|other| Arc::ptr_eq(other, image)) {
+            return Some(known as u32);
+        }
+        let layer = self.images.len() as u32;
+        if layer >= TEXTURE_LAYERS {
+            bevy::log::warn!("a scene can have {TEXTURE_LAYERS} different images; one more is left out");
+            return None;
+        }
+        self.images.push(image.clone());
+        let mut level = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone())?;
+        for mip in 0..=TEXTURE_SIZE.ilog2() {
+            let size = TEXTURE_SIZE >> mip;
+            if level.width() != size || level.height() != size {
+                level = image::imageops::resize(&level, size, size, image::imageops::FilterType::Triangle);
+            }
+            gpu.queue.write_texture(
+                wgpu::TexelCopyTextureInfo {
+                    texture: &self.texture,
+                    mip_level: mip,
+                    origin: wgpu::Origin3d { x: 0, y: 0, z: layer },
+                    aspect: wgpu::TextureAspect::All,
+                },
+                &level,
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * size), rows_per_image: None },
+                wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+            );
+        }
+        Some(layer)
+    }
+}
