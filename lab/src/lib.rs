@@ -17,5 +17,6 @@ pub mod flip;
 pub mod plot;
 pub mod projection;
 pub mod race;
+mod say;
 pub mod straight;
 pub mod thin_disk;

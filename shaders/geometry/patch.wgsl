@@ -123,18 +123,14 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return max(d.x, max(d.y, d.z));
 }
 
-/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that
-/// sag and growth together stay under a pixel.
-const THIN_STRICTNESS: f32 = 4.0;
-
-/// How much closer all chords of an image are held than the budget says.
+/// How much closer all chords of an image are held than the budget says, told by how wide it is and how fine its model.
 fn strictness(placement: Placement) -> f32 {
-    return select(slimness(placement), THIN_STRICTNESS, is_thin(placement));
+    return placement.axis.w;
 }
 
-/// The same for images that are a few pixels wide, told by how wide they are: there every edge is near an outline and would bulge over it.
+/// The same for images that are a few pixels wide and not thin: there every edge is near an outline and would bulge over it.
 fn slimness(placement: Placement) -> f32 {
-    return placement.axis.w;
+    return select(placement.axis.w, 1.0, is_thin(placement));
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.

@@ -214,6 +214,9 @@ fn point_of_side(side: u32, t: f32) -> Between {
     return Between(start, end, 4.0 * t - f32(quarter));
 }
 
+/// From this depth on a piece may be one of the slivers that splitting only makes thinner.
+const SLIVER_DEPTH: u32 = 16u;
+
 /// Where a side turns farther than this about the axis no triangle is halved on all sides, radians.
 const SLICED: f32 = 0.1;
 
@@ -264,8 +267,14 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     }
     let levels = vec3<u32>(sides[0].level, sides[1].level, sides[2].level);
     let most = max(levels.x, max(levels.y, levels.z));
-    if most <= BLOCK || depth >= DEEPEST {
-        if most > BLOCK {
+    // A sliver along a side that is fine as it is would be split for its other two sides for ever: they come ever nearer to that one, and no shorter.
+    let lengths = vec3<f32>(angle_between(points[1], points[2]), angle_between(points[2], points[0]), angle_between(points[0], points[1]));
+    let longest = max(lengths.x, max(lengths.y, lengths.z));
+    let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
+    let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
+    let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(placement);
+    if most <= BLOCK || depth >= DEEPEST || sliver {
+        if most > BLOCK && !sliver {
             atomicAdd(&counters.coarse, 1u);
         }
         emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), placement);

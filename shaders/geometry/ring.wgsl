@@ -28,3 +28,6 @@ fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool
     let at = abs(radii.xyxy - placement.spin.xxyy) < vec4<f32>(1e-3 * radii.x);
     return alone && ((at.x && at.y) || (at.z && at.w));
 }
+
+/// Whether slivers are left as they are from some depth on. Seen from beside their plane turning rings are slivers all over, and would take all the room.
+const KEEPS_SLIVERS: bool = true;

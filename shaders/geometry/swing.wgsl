@@ -43,3 +43,6 @@ const MAY_FOLD: bool = true;
 fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     return alone;
 }
+
+/// Whether slivers are left as they are from some depth on: pixels would be missed beside them, where a neighbour has more segments.
+const KEEPS_SLIVERS: bool = false;

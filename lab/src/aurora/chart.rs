@@ -1,5 +1,6 @@
 //! The chart `aurora`: time against the number of electrons (the paper's figure 5), and error against time, for each view.
 
+use crate::say::say;
 use std::path::PathBuf;
 
 use super::experiment::{self, Request, Row, Runner, View};
@@ -49,7 +50,7 @@ pub fn run(output: &Output, request: &Request, adapter: &str, runners: &mut [Box
         bar.finish_and_clear();
         Ok(to_sheet(&rows, adapter))
     })?;
-    println!("{}", ratios(&sheet));
+    say(ratios(&sheet));
     let figure = draw(&sheet);
     Ok(figure.save(&output.folder, "aurora")?.into_iter().chain([output.csv("aurora")]).collect())
 }

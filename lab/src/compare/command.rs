@@ -1,5 +1,6 @@
 //! `lensrunner-lab compare`: a renderer's picture of a scene, handed in from above, against the judge's.
 
+use crate::say::say;
 use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -63,7 +64,7 @@ pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contesta
     let mut faults = Vec::new();
     for (scene, at) in moments() {
         let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
-        println!("{scene}, T = {at}:");
+        say(format_args!("{scene}, T = {at}:"));
         let solid = scene::load(&scene).map_or(true, |scene| !(scene.ships.is_empty() && scene.props.is_empty() && scene.planet.is_none()));
         let samples = if solid { request.samples } else { request.samples.max(COLOUR_SAMPLES) };
         let request = Request { scene, at, samples, ..request.clone() };
@@ -72,7 +73,7 @@ pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contesta
             // What the asker did wrong is wrong everywhere; the other scenes can be judged without this one.
             Err(error) if error.is_input() => return Err(error),
             Err(error) => {
-                println!("no verdict: {error}");
+                say(format_args!("no verdict: {error}"));
                 faults.push(format!("{}, T = {at}: no verdict: {error}", request.scene));
             }
         }
@@ -129,7 +130,7 @@ pub fn run(
     let nothing_solid = !verdict.is_judged(&limits);
     let limits = Limits { flip: (request.samples >= COLOUR_SAMPLES && nothing_solid).then(|| colour_limit(&judge)), ..limits };
     let faults = verdict.faults(&limits);
-    print!("{}", table(&verdict, &limits, &faults));
+    say(table(&verdict, &limits, &faults).trim_end());
     let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
     write_png(output, &bytes, size)?;
     if let Some(csv) = collected {

@@ -130,7 +130,8 @@ impl PolygonPass {
                     shape: unit,
                     spin: [inner, outer, rate as f32, azimuth as f32],
                     turn: unit,
-                    ids: [order, 1, 0, 0],
+                    // Light may cross a ring in several orders, so each order covers what is behind by itself (`coverage_sign`).
+                    ids: [order, order, 0, 0],
                     triangles: [0, 0, 0, HELD_TWO_SIDED],
                     ..Placement::default()
                 };

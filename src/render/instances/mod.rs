@@ -113,6 +113,7 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         let model = stands_in.map_or(object.model, |(_, model)| model);
         if width < settings.thin_below && settings.min_width > 0.0 {
             placement.triangles[3] |= THIN;
+            placement.axis[3] = if model.triangles[1] < FINE_MODEL { THIN_STRICTNESS } else { 1.0 };
         } else {
             placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
             let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
@@ -145,6 +146,9 @@ const NARROW_BELOW: f64 = 10.0;
 /// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is
 /// that where it is the most; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
+/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that sag and growth together stay
+/// under a pixel. Not those of models with short edges, which sag less: ships behind the hole filled the buffers.
+const THIN_STRICTNESS: f32 = 4.0;
 /// But no closer than by this factor.
 const MOST_SLIM: f64 = 4.0;
 /// Models of so many triangles have short edges, which sag less; held as close, ships behind the hole filled the buffers.

@@ -1,5 +1,6 @@
 //! `lensrunner-lab compare --flight`: seeded chases flown by the autopilot, judged at many moments.
 
+use crate::say::say;
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -93,7 +94,7 @@ pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Resul
         flight.judge(seed, &chosen, &mut |row| tell(&bar, row))?;
     }
     bar.finish_and_clear();
-    print!("{}", summary(&flight.rows));
+    say(summary(&flight.rows).trim_end());
     if let Some(csv) = &request.collected {
         let seeds = format!("{} to {}", request.first, request.first + (request.seeds - 1));
         collect::add(csv, &scene.name, &seeds, &request.terms, &flight.rows)?;

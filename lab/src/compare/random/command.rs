@@ -1,5 +1,6 @@
 //! `lensrunner-lab compare --random` and `--case`: many cases judged one after the other.
 
+use crate::say::say;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -99,7 +100,7 @@ pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, Compa
         rows.push(row);
     }
     bar.finish_and_clear();
-    print!("{}", summary(&rows));
+    say(summary(&rows).trim_end());
     if let Some(csv) = &request.collected {
         let seed = if request.first == 0 { request.seed.to_string() } else { format!("{} from {}", request.seed, request.first) };
         collect::add(csv, "random", &seed, &request.terms, &rows)?;
@@ -132,7 +133,7 @@ pub fn run_files(
         rows.push(row);
     }
     bar.finish_and_clear();
-    print!("{}", summary(&rows));
+    say(summary(&rows).trim_end());
     Ok(rows)
 }
 
@@ -242,6 +243,6 @@ pub fn tell(bar: &ProgressBar, row: &Row) {
     bar.inc(1);
     if let Some(line) = row.remark() {
         // Also where there is no terminal for the bar.
-        bar.suspend(|| println!("{line}"));
+        bar.suspend(|| say(line));
     }
 }
