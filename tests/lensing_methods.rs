@@ -86,7 +86,7 @@ fn single_precision_follows_double_without_a_table() {
     assert!(lost <= 9, "the closed form in f32 is off at {lost} of 9000");
 }
 
-/// The relations of `measure::methods` and those of the shader are the same: twice written, once in each precision.
+/// The relations of `lensing::methods` and those of the shader are the same: twice written, once in each precision.
 #[test]
 fn the_approximations_are_the_same_in_both_precisions() {
     for (r, phi, camera) in

@@ -5,7 +5,7 @@ fn apparent(point: vec3<f32>) -> vec3<f32> {
     let offset = frame.origin.xyz + frame.place[0].xyz * point.x + frame.place[1].xyz * point.y + frame.place[2].xyz * point.z;
     let across = length(offset.xy);
     let order = u32(frame.origin.w);
-    // As src/measure/aurora/eye.rs does: the height above the hole's plane has no part in it.
+    // As lab/src/aurora/eye.rs does: the height above the hole's plane has no part in it.
     let ray = lens_lookup(offset.z, across, order);
     let side = select(vec2<f32>(1.0, 0.0), offset.xy / max(across, 1e-30), across > 0.0) * select(1.0, -1.0, order == 2u);
     let seen = vec3<f32>(side * ray.sin_psi, ray.cos_psi) * ray.delay;

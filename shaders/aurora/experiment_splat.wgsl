@@ -5,7 +5,7 @@
 /// Photons per collision by line at each level.
 @group(0) @binding(2) var<uniform> light: array<vec4<f32>, LEVELS>;
 
-/// As in src/measure/aurora/splat.rs: standard deviations in pixels, and how many of them a splat reaches to each side.
+/// As in lab/src/aurora/splat.rs: standard deviations in pixels, and how many of them a splat reaches to each side.
 const LEAST_SIGMA: f32 = 0.5;
 const MOST_SIGMA: f32 = 40.0;
 const REACH: f32 = 3.0;

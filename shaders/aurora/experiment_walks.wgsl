@@ -1,5 +1,5 @@
 // The walks of the aurora's experiment, one thread per electron: the particle method in space, and the exact walk on the screen. What is dealt out and drawn at
-// random is that of src/measure/aurora/walk.rs.
+// random is that of lab/src/aurora/walk.rs.
 
 @group(0) @binding(0) var<uniform> frame: Experiment;
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;

@@ -1,7 +1,7 @@
 //! Playing: screens, input, camera, HUD, dev overlay, and the demonstration flight without a display.
 //!
 //! [`game`] is screens, keys and time, [`window`] adds window and picture; [`demonstration`] flies it to files. Between them they share [`session`] (what is played), [`camera`]
-//! and [`seen`] (where the image of a ship appears).
+//! and [`camera::seen`] (where the image of a ship appears).
 
 pub mod camera;
 pub mod demonstration;

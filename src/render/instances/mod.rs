@@ -113,11 +113,14 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         let model = stands_in.map_or(object.model, |(_, model)| model);
         if width < settings.thin_below && settings.min_width > 0.0 {
             placement.triangles[3] |= THIN;
-            placement.axis[3] = if model.triangles[1] < FINE_MODEL { THIN_STRICTNESS } else { 1.0 };
+            placement.axis[3] = THIN_STRICTNESS;
         } else {
             placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
             let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
             placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
+        }
+        if NEAR_PHOTON_SPHERE.contains(&camera.radius()) {
+            placement.axis[3] *= PHOTON_SPHERE_STRICTNESS;
         }
         let longer = drawn_out(camera, &placement, position, order, age);
         placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
@@ -143,14 +146,19 @@ pub fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
 
 /// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
 const NARROW_BELOW: f64 = 10.0;
+/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that sag and growth together stay
+/// under a pixel.
+const THIN_STRICTNESS: f32 = 4.0;
 /// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is
 /// that where it is the most; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
-/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that sag and growth together stay
-/// under a pixel. Not those of models with short edges, which sag less: ships behind the hole filled the buffers.
-const THIN_STRICTNESS: f32 = 4.0;
 /// But no closer than by this factor.
 const MOST_SLIM: f64 = 4.0;
+/// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it: images there are sheared, and their points are off by more than the
+/// chords of the edges around them.
+const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
+/// By how much closer chords are held there. With a budget of 0.3 pixels for 0.5 points of balls behind the hole were within half a pixel, at 0.5 by up to 0.59.
+const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
 /// Models of so many triangles have short edges, which sag less; held as close, ships behind the hole filled the buffers.
 const FINE_MODEL: u32 = 2000;
 /// What such models are held closer by.
