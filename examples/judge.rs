@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use lensrunner::judge::case::{DEFAULT_TOLERANCE, Request, TraceError, trace_to_file};
+use lensrunner::judge::case::{DEFAULT_TOLERANCE, TraceError, TraceRequest, trace_to_file};
 use lensrunner::judge::picture::DEFAULT_PACKET;
 
 fn main() -> Result<(), TraceError> {
-    let request = Request {
+    let request = TraceRequest {
         scene: "ring".into(),
         size: [160, 90],
         at: 0.0,

@@ -47,7 +47,7 @@ const FLAG_INSIDE: u32 = 16u;
 const FLAG_HOLD_EXPOSURE: u32 = 32u;
 
 /// One object seen in one image order.
-struct Placement {
+struct Instance {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
     /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the digits that it takes.
@@ -90,30 +90,30 @@ struct Placement {
     ids: vec4<u32>,
     /// x: first model vertex, y: vertex count, z: first model edge, w: edge count.
     vertices: vec4<u32>,
-    /// x: first model triangle, y: triangle count, z: first material, w: PLACEMENT_*.
+    /// x: first model triangle, y: triangle count, z: first material, w: INSTANCE_*.
     triangles: vec4<u32>,
 }
 
 /// Both sides of every triangle are drawn.
-const PLACEMENT_TWO_SIDED: u32 = 1u;
+const INSTANCE_TWO_SIDED: u32 = 1u;
 /// The object does not move; each of its points emits as a static observer there.
-const PLACEMENT_HELD: u32 = 2u;
+const INSTANCE_HELD: u32 = 2u;
 
 /// Its whole image of this order is narrow (`render.thin_below`).
-const PLACEMENT_THIN: u32 = 4u;
+const INSTANCE_THIN: u32 = 4u;
 /// The image of something held inside the horizon by light of E < 0.
-const PLACEMENT_MINUS: u32 = 8u;
+const INSTANCE_MINUS: u32 = 8u;
 /// The player's own ship, lit for the picture (`render.fill_least`).
-const PLACEMENT_OWN: u32 = 32u;
+const INSTANCE_OWN: u32 = 32u;
 /// Its image, of a higher order, is a few pixels wide and drawn out along the ring: much of it is outline.
-const PLACEMENT_NARROW: u32 = 16u;
+const INSTANCE_NARROW: u32 = 16u;
 
-fn is_thin(placement: Placement) -> bool {
-    return (placement.triangles.w & PLACEMENT_THIN) != 0u;
+fn is_thin(instance: Instance) -> bool {
+    return (instance.triangles.w & INSTANCE_THIN) != 0u;
 }
 
-fn two_sided(placement: Placement) -> bool {
-    return (placement.triangles.w & PLACEMENT_TWO_SIDED) != 0u;
+fn two_sided(instance: Instance) -> bool {
+    return (instance.triangles.w & INSTANCE_TWO_SIDED) != 0u;
 }
 
 struct ModelVertex {
@@ -140,7 +140,7 @@ const SIDE_AGAINST: u32 = 2u;
 const SIDE_LONE: u32 = 4u;
 
 struct Chunk {
-    placement: u32,
+    instance: u32,
     first: u32,
 }
 
@@ -152,7 +152,7 @@ struct SeenVertex {
     normal: vec4<f32>,
     /// Unit direction in which the light left, rest frame of the object, rain axes; w: radius at emission.
     leaving: vec4<f32>,
-    /// x, y: texture coordinates; z: placement, w: material (bits).
+    /// x, y: texture coordinates; z: instance, w: material (bits).
     surface: vec4<f32>,
     /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer edge
     /// that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
@@ -168,7 +168,7 @@ fn texture_point(vertex: SeenVertex) -> vec2<f32> {
 /// A part of a triangle on its way from the object stage to the mesh stage. Corners are barycentric coordinates in the model triangle,
 /// whose vertices are sorted by index: that makes every point of an edge the same bits from both its sides.
 struct Piece {
-    /// x: placement, y: model triangle, z: kind (PIECE_*), w: depth of splitting.
+    /// x: instance, y: model triangle, z: kind (PIECE_*), w: depth of splitting.
     what: vec4<u32>,
     corner_0: vec4<f32>,
     corner_1: vec4<f32>,

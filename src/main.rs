@@ -39,7 +39,7 @@ enum Command {
 
 /// Draws one picture of a scene, without a window.
 ///
-/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
+/// A .png holds the finished picture; an .exr linear light (R, G, B) and with --layers object.id, image.order, travel.time (r_s/c) and
 /// frequency.ratio (g = ν_observed/ν_emitted) of the nearest surface.
 #[cfg(feature = "game")]
 #[derive(Args)]
@@ -67,7 +67,7 @@ struct ShotArgs {
 
 /// Traces one picture of a scene, each pixel by a light ray of its own: the exact picture that the game's is judged by.
 ///
-/// A .png holds the developed picture; an .exr linear light (R, G, B) and with --layers what the centre of each pixel shows: object.id,
+/// A .png holds the finished picture; an .exr linear light (R, G, B) and with --layers what the centre of each pixel shows: object.id,
 /// triangle.id, barycentric.a to c, texture.u and v, image.order, swept.angle (radians), travel.time (r_s/c) and frequency.ratio
 /// (g = ν_observed/ν_emitted).
 #[derive(Args)]
@@ -224,9 +224,9 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
     if args.layers && args.output.extension().is_some_and(|extension| extension != "exr") {
         return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
     }
-    use lensrunner::render::shot::{Request, shot_to_file};
+    use lensrunner::render::shot::{ShotRequest, shot_to_file};
     let is_light = args.output.extension().is_some_and(|extension| extension == "exr");
-    let request = Request { scene: &args.scene, size: args.size, at: args.at, layers: args.layers, fill: !is_light };
+    let request = ShotRequest { scene: &args.scene, size: args.size, at: args.at, layers: args.layers, fill: !is_light };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
@@ -239,7 +239,7 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
 }
 
 fn run_trace(args: &TraceArgs) -> ExitCode {
-    let request = case::Request {
+    let request = case::TraceRequest {
         scene: args.scene.clone(),
         size: args.size,
         at: args.at,
@@ -270,7 +270,7 @@ fn run_simulate(args: &SimulateArgs) -> ExitCode {
 fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     let config = scene::config::find(args.config.as_deref())?;
     let scene = scene::load(&args.scene)?;
-    let request = simulate::Request { until: args.until, every: args.every, seed: args.seed };
+    let request = simulate::SimulateRequest { until: args.until, every: args.every, seed: args.seed };
     request.check(&scene, &config)?;
     let mut out = output(args.output.as_ref())?;
     simulate::simulate(&scene, &config, &request, &mut out, &mut io::stderr())?;
@@ -279,7 +279,7 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
 
 fn run_project(args: &ProjectArgs) -> ExitCode {
     let order = Order::new(args.order).expect("clap has checked the range");
-    let request = project::Request {
+    let request = project::ProjectRequest {
         order,
         frame: match args.frame {
             FrameArg::Static => project::Frame::Static,
@@ -306,7 +306,7 @@ fn run_bake(args: BakeArgs) -> ExitCode {
         SchemeArg::Paper => Scheme::Paper,
         SchemeArg::PaperUniform => Scheme::PaperUniform,
     };
-    let request = lensing::command::Request { nodes: usize::from(args.nodes), scheme, output: args.output, points: args.points };
+    let request = lensing::command::BakeRequest { nodes: usize::from(args.nodes), scheme, output: args.output, points: args.points };
     match lensing::command::run(&request) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail(&error, 1),

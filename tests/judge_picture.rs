@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
 use lensrunner::judge::trace;
-use lensrunner::judge::trace::{Camera, Mesh};
+use lensrunner::judge::trace::{Mesh, PixelCamera};
 use lensrunner::scene::lighting::Surroundings;
 use lensrunner::scene::{Material, Model, Vertex};
 use lensrunner::spacetime::Observer;
@@ -260,7 +260,7 @@ fn halving_the_tolerance_moves_no_hit() {
 fn a_camera_sees_where_it_looks() {
     let mut rng = StdRng::seed_from_u64(16);
     for _ in 0..200 {
-        let camera = Camera {
+        let camera = PixelCamera {
             observer: Observer {
                 position: DVec3::new(9.0, 0.0, 0.0),
                 momentum: any_direction(&mut rng) * rng.random_range(0.0..3.0),
@@ -287,7 +287,7 @@ fn stars_are_seen_where_shooting_sees_them() {
     let mut rng = StdRng::seed_from_u64(17);
     let mut seen = [0; 3];
     for radius in [0.6, 1.2, 8.0] {
-        let camera = Camera {
+        let camera = PixelCamera {
             observer: Observer { position: DVec3::Z * radius, momentum: DVec3::ZERO, attitude: DQuat::IDENTITY, field_of_view: 2.4 },
             size: [1000, 1000],
         };

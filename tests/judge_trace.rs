@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::trace::{Camera, Mesh, Seen, trace};
+use lensrunner::judge::trace::{Mesh, PixelCamera, Seen, trace};
 use lensrunner::judge::{Branch, shoot};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -92,7 +92,7 @@ fn a_ship_camera_aberrates() {
     // Moving along its look at speed v through the rain: cos θ' = (cos θ + v)/(1 + v cos θ) turned round, ν/ν_rain = γ(1 + v cos θ_rain).
     let speed = 0.6f64;
     let gamma = 1.25;
-    let camera = Camera {
+    let camera = PixelCamera {
         observer: Observer {
             position: DVec3::new(9.0, 0.0, 0.0),
             momentum: DVec3::new(0.0, 0.0, -gamma * speed),
@@ -112,7 +112,7 @@ fn a_ship_camera_aberrates() {
     let (up, _) = camera.look(100.0, 0.0);
     assert!(up.y > 0.0 && up.x.abs() < 1e-15);
     // At rest in the rain nothing is turned.
-    let still = Camera { observer: Observer { momentum: DVec3::ZERO, ..camera.observer }, ..camera };
+    let still = PixelCamera { observer: Observer { momentum: DVec3::ZERO, ..camera.observer }, ..camera };
     let (corner, same) = still.look(200.0, 0.0);
     assert!(corner.distance(DVec3::new(1.0, 0.5, -1.0).normalize()) < 1e-15 && (same - 1.0).abs() < 1e-15);
 }

@@ -1,14 +1,14 @@
 //! The `project` table: its numbers, its form, and what it says about wrong input.
 
-use lensrunner::lensing::project::{Frame, Request, method, project, significant};
+use lensrunner::lensing::project::{Frame, ProjectRequest, method, project, significant};
 use lensrunner::spacetime::light::{Branch, Order};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-const PRIMARY: Request = Request { order: Order::ALL[0], frame: Frame::Static, branch: Branch::Plus };
+const PRIMARY: ProjectRequest = ProjectRequest { order: Order::ALL[0], frame: Frame::Static, branch: Branch::Plus };
 
 /// The answer's rows, split into fields.
-fn rows(input: &str, request: Request) -> Vec<Vec<String>> {
+fn rows(input: &str, request: ProjectRequest) -> Vec<Vec<String>> {
     let exact = method("exact").expect("it exists");
     let output = project(input, exact.as_ref(), request).expect("good input");
     let mut lines = output.lines();
@@ -52,7 +52,7 @@ fn the_batch_answers_for_both_signs_of_energy() {
     let [one, eight] = ["table", "table-batch"].map(|name| method(name).expect("it exists"));
     let input = "r,phi,L\n0.8,0.2,0.5\n0.9,0.3,0.2\n5,1,0.5\n5,1,3\n";
     let [plus, minus] = [Branch::Plus, Branch::Minus].map(|branch| {
-        let request = Request { frame: Frame::Rain, branch, ..PRIMARY };
+        let request = ProjectRequest { frame: Frame::Rain, branch, ..PRIMARY };
         let [one, eight] = [&one, &eight].map(|method| project(input, method.as_ref(), request).expect("good input"));
         let fields = |text: &str| -> Vec<Vec<f64>> {
             text.lines().skip(1).map(|line| line.split(',').filter_map(|field| field.parse().ok()).collect()).collect()
@@ -71,7 +71,7 @@ fn the_batch_answers_for_both_signs_of_energy() {
 #[test]
 fn fields_that_do_not_exist_are_empty() {
     let at = |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();
-    let rain = Request { frame: Frame::Rain, ..PRIMARY };
+    let rain = ProjectRequest { frame: Frame::Rain, ..PRIMARY };
     let filled = |fields: &[String]| fields.iter().map(|field| !field.is_empty()).collect::<Vec<_>>();
     assert_eq!(filled(&at("0.5,1,5", PRIMARY)), [false, false, false], "inside from outside");
     assert_eq!(filled(&at("0.3,1,0.5", rain)), [false, false, false], "deeper than the camera");
@@ -80,10 +80,10 @@ fn fields_that_do_not_exist_are_empty() {
     assert_eq!(filled(&at("5,1,1", PRIMARY)), [false, true, false], "on the horizon");
     assert_eq!(filled(&at("5,1,2", rain)), [true, true, true]);
     // Inside, only the first order; the branch matters only with both ends inside.
-    let minus = Request { branch: Branch::Minus, ..rain };
+    let minus = ProjectRequest { branch: Branch::Minus, ..rain };
     assert_eq!(at("5,1,0.5", minus), at("5,1,0.5", rain));
     assert_ne!(at("0.8,0.2,0.5", minus), at("0.8,0.2,0.5", rain));
-    let second = Request { order: Order::ALL[1], ..rain };
+    let second = ProjectRequest { order: Order::ALL[1], ..rain };
     assert_eq!(filled(&at("0.8,0.2,0.5", second)), [false, false, false]);
 }
 

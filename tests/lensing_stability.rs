@@ -202,12 +202,12 @@ fn single_precision_follows_double() {
                     let off = (scale.atan2(-w) - scale.atan2(-f64::from(v))).abs();
                     assert!(off < 2e-5, "L {l} c {c} Φ {sweep}: {w} and {v}, {off} rad");
                 }
-                let room = 1.0 - c;
+                let lapse2 = 1.0 - c;
                 let want = grid::coordinates(&wide, c, sweep);
                 let (d, p) = (c as f32, sweep as f32);
                 let [_, h, _] = single::lens_equation(&narrow, d, bent as f32, elementary::single::stumpff((0.25 * bent * bent) as f32));
                 let logs = [d + narrow.soft, single::near_axis(p), 0.5 * h].map(elementary::single::ln);
-                let got = single::axes(&narrow, (room as f32).sqrt(), p, logs);
+                let got = single::axes(&narrow, (lapse2 as f32).sqrt(), p, logs);
                 for (got, want) in [(got.0, want.0), (got.1, want.1)] {
                     assert!((f64::from(got) - want).abs() < 2e-6, "L {l} c {c} Φ {sweep}");
                 }

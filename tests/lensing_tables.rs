@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
 use lensrunner::lensing::lookup::{YOUNG, lookup};
-use lensrunner::lensing::place::Place;
+use lensrunner::lensing::source_point::SourcePoint;
 use lensrunner::lensing::{Scheme, Slice, Table, TableError, double, grid, lens_lookup, lens_lookup_at, load_or_bake, paper, score};
 use lensrunner::spacetime::light::Order;
 use proptest::prelude::*;
@@ -47,9 +47,9 @@ fn every_mapping_comes_back() {
             let camera = paper::camera_mesh(scheme, inside);
             for i in 0..=20 {
                 let z = i as f64 / 20.0;
-                assert!((camera.coordinate(camera.place(z)) - z).abs() < 1e-6);
+                assert!((camera.coordinate(camera.source_point(z)) - z).abs() < 1e-6);
                 for mesh in paper::slice_meshes(scheme, inside, 30.0) {
-                    assert!((mesh.coordinate(mesh.place(z)) - z).abs() < 1e-6);
+                    assert!((mesh.coordinate(mesh.source_point(z)) - z).abs() < 1e-6);
                 }
             }
         }
@@ -416,7 +416,7 @@ fn the_cameras_own_radius_is_no_hole() {
     for l in [1.2, 40.0] {
         let slice = Slice::new(table(), l);
         let seen = |dr: f32| {
-            let place = Place { r: l as f32 + dr, room: 1.0 - 1.0 / (l as f32 + dr), dr, phi: 0.5 };
+            let place = SourcePoint { r: l as f32 + dr, lapse2: 1.0 - 1.0 / (l as f32 + dr), dr, phi: 0.5 };
             lookup(&slice, place, 0.5, YOUNG)
         };
         let (at, beside) = (seen(0.0), seen(l as f32 * 1e-5));

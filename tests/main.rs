@@ -32,8 +32,6 @@ mod render_branches;
 #[cfg(feature = "game")]
 mod render_chords;
 #[cfg(feature = "game")]
-mod render_develop;
-#[cfg(feature = "game")]
 mod render_disk;
 #[cfg(feature = "game")]
 mod render_disk_rings;
@@ -49,6 +47,8 @@ mod render_lookup;
 mod render_outside;
 #[cfg(feature = "game")]
 mod render_pictures;
+#[cfg(feature = "game")]
+mod render_post_process;
 #[cfg(feature = "game")]
 mod render_ration;
 #[cfg(feature = "game")]

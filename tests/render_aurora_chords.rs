@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 use lensrunner::lensing::{self, Slice};
 use lensrunner::render::Renderer;
-use lensrunner::render::aurora::{AuroraFrame, BOTH_POLES, Show, planet_history};
+use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::instances::{View, light_path};
@@ -45,7 +45,7 @@ fn ends_of(renderer: &mut Renderer, camera: Observer, frame: &AuroraFrame, setti
     let rows: Vec<[[f32; 4]; 4]> = bytemuck::pod_collect_to_vec(&bytes);
     let chords = frame.settings.counts[1] as usize;
     let poles = if frame.settings.history[3] & BOTH_POLES != 0 { 2 } else { 1 };
-    let count = frame.placements.len() * frame.segments.len() * poles;
+    let count = frame.instances.len() * frame.segments.len() * poles;
     let end = |[apparent, east, north, up]: &[[f32; 4]; 4]| {
         let vector = |row: &[f32; 4]| DVec3::new(f64::from(row[0]), f64::from(row[1]), f64::from(row[2]));
         let body = DVec3::new(f64::from(east[3]), f64::from(north[3]), f64::from(up[3]));
@@ -95,7 +95,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(SIZE[0]);
     let view = View { camera: &camera, slice: &slice, pixel, aspect: Some(f64::from(SIZE[1]) / f64::from(SIZE[0])), settings: &settings };
     let back = 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
-    let mut show = Show::new(planet, None, &config.aurora).unwrap();
+    let mut show = AuroraAnimation::new(planet, None, &config.aurora).unwrap();
     let mut frame = show.frame(&view, 0.0, back, 3).expect("the aurora is in sight");
     // No strokes: only where the chords are is asked for.
     (frame.settings.counts[2], frame.settings.history[2]) = (1, 8);
@@ -105,10 +105,10 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
     let fine = ends_of(renderer, camera, &fine_frame, &settings);
     let history = planet_history(planet, 0.0, back, planet.dipole()).unwrap();
     let falls = Quantiles::new(&Spectrum { accelerated: config.aurora.energy, thermal: config.aurora.thermal });
-    let per_image = own.len() / frame.placements.len();
+    let per_image = own.len() / frame.instances.len();
     let (mut off, mut by_chords) = (Vec::new(), Vec::new());
     for (number, (own, fine)) in own.iter().zip(&fine).enumerate() {
-        let (kind, image) = (number % 2, frame.placements[number / per_image].ids[0]);
+        let (kind, image) = (number % 2, frame.instances[number / per_image].ids[0]);
         if order.is_some_and(|order| order != image) {
             continue;
         }

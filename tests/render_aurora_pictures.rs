@@ -226,7 +226,7 @@ fn nothing_is_left_of_an_earlier_frame() {
             let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
             let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
             let aurora = frame.aurora.as_mut().unwrap();
-            assert!(*name == "aurora-below" || aurora.placements.len() == images, "{name}: {} images", aurora.placements.len());
+            assert!(*name == "aurora-below" || aurora.instances.len() == images, "{name}: {} images", aurora.instances.len());
             aurora.settings.strokes[1] = 1.0;
             renderer.picture(&frame, false).unwrap().linear
         });
@@ -248,11 +248,11 @@ fn nothing_is_left_of_an_earlier_image() {
     let stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
     let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), LENSED_SIZE, 0.0, &config);
     let whole = frame.aurora.take().unwrap();
-    assert_eq!(whole.placements.len(), 2);
+    assert_eq!(whole.instances.len(), 2);
     let mut drawn = |images: &[usize]| {
         let mut aurora = whole.clone();
         aurora.settings.strokes[1] = 1.0;
-        aurora.placements = images.iter().map(|&k| whole.placements[k]).collect();
+        aurora.instances = images.iter().map(|&k| whole.instances[k]).collect();
         aurora.parts = images.iter().map(|&k| whole.parts[k]).collect();
         aurora.behind = images.iter().map(|&k| whole.behind[k]).collect();
         aurora.colours = images.iter().map(|&k| whole.colours[k]).collect();

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
-use lensrunner::render::aurora::{AuroraFrame, Show};
+use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::instances::View;
 use lensrunner::render::stage::{Stage, settings, static_camera};
@@ -83,7 +83,7 @@ impl Draws {
 /// Its image of a number alone.
 fn only(frame: &AuroraFrame, image: usize) -> AuroraFrame {
     AuroraFrame {
-        placements: vec![frame.placements[image]],
+        instances: vec![frame.instances[image]],
         parts: vec![frame.parts[image]],
         behind: vec![frame.behind[image]],
         colours: vec![frame.colours[image]],
@@ -104,7 +104,7 @@ fn what_leaves_strokes_is_never_left_out() {
         let scene = scene::load(name).unwrap();
         let planet = scene.planet.unwrap();
         let reach = 1.08 * planet.radius;
-        let mut show = Show::new(&planet, None, &config.aurora).unwrap();
+        let mut show = AuroraAnimation::new(&planet, None, &config.aurora).unwrap();
         let all_settings = settings(&config);
         for number in 0..60 {
             let middle = planet.state(0.0).unwrap().position;
@@ -143,12 +143,12 @@ fn what_leaves_strokes_is_never_left_out() {
             // Without a screen nothing is left out.
             let (all, kept) = (frame(None), frame(Some(f64::from(SIZE[1]) / f64::from(SIZE[0]))));
             let Some(all) = all else { continue };
-            for (image, placement) in all.placements.iter().enumerate() {
+            for (image, instance) in all.instances.iter().enumerate() {
                 let alone = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: Some(only(&all, image)), settings: all_settings };
                 renderer.picture(&alone, false).unwrap();
                 let strokes: u32 = renderer.aurora_strokes().unwrap().unwrap().iter().sum();
-                let is_kept = kept.as_ref().is_some_and(|kept| kept.placements.iter().any(|other| other.ids[0] == placement.ids[0]));
-                let order = placement.ids[0];
+                let is_kept = kept.as_ref().is_some_and(|kept| kept.instances.iter().any(|other| other.ids[0] == instance.ids[0]));
+                let order = instance.ids[0];
                 assert!(is_kept || strokes == 0, "{name} {number}: order {order} left out, of {strokes} strokes; {eye}, {look}, {fov}");
                 *if !is_kept {
                     &mut left_out

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
-use lensrunner::render::instances::{Motion, Placed, View, place};
+use lensrunner::render::instances::{Motion, Placed, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::spacetime::Observer;
@@ -38,9 +38,9 @@ fn what_is_out_of_bounds_is_left_out_and_counted() {
     let places = [[0.0, 0.0, -9.0], [0.3, 0.2, -9.0], [4.0, 0.0, -9.0], [-5.0, 0.0, 0.0], [2.0, -1.0, 6.0]].map(DVec3::from_array);
     for here in places {
         let placed = ball(&bench, here, &settings);
-        assert!(placed.iter().all(|placed| placed.placement.bounds.iter().any(|cap| cap[3] != 0.0)));
+        assert!(placed.iter().all(|placed| placed.instance.bounds.iter().any(|cap| cap[3] != 0.0)));
         let mut free = placed.clone();
-        free.iter_mut().for_each(|placed| placed.placement.bounds = Default::default());
+        free.iter_mut().for_each(|placed| placed.instance.bounds = Default::default());
         let (shown, outside, picture) = drawn(&mut bench, placed, settings);
         assert_eq!(outside, 0, "{here}");
         assert!(shown > 0, "{here}: {shown}");
@@ -49,18 +49,18 @@ fn what_is_out_of_bounds_is_left_out_and_counted() {
     }
     // With the bounds of a place whose first image is elsewhere nothing is left of the first.
     for (here, there) in [(2, 3), (3, 2), (4, 3), (3, 4)] {
-        let bounds = ball(&bench, places[there], &settings)[0].placement.bounds;
+        let bounds = ball(&bench, places[there], &settings)[0].instance.bounds;
         let mut placed = ball(&bench, places[here], &settings);
         placed.truncate(1);
-        placed[0].placement.bounds = bounds;
+        placed[0].instance.bounds = bounds;
         let (shown, outside, _) = drawn(&mut bench, placed, settings);
         assert!(shown == 0 && outside > 0, "{}: {shown} {outside}", places[here]);
     }
     // On the axis with the bounds of a smaller ring: what reaches across the shadow, or out of the ring, is left out.
     let mut placed = ball(&bench, places[0], &settings);
     for placed in &mut placed {
-        let [high, low, _] = placed.placement.bounds;
-        placed.placement.bounds = [[high[0], high[1], high[2], high[3] * 1.5], low, [0.0; 4]];
+        let [high, low, _] = placed.instance.bounds;
+        placed.instance.bounds = [[high[0], high[1], high[2], high[3] * 1.5], low, [0.0; 4]];
     }
     assert!(drawn(&mut bench, placed, settings).1 > 0);
 }

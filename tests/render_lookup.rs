@@ -10,7 +10,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Motion, Object, Placed, Surroundings as Light, View, place};
+use lensrunner::render::instances::{Motion, Object, Placed, Surroundings as Light, View, instances_of};
 use lensrunner::render::method::Method;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
@@ -63,7 +63,7 @@ impl Bench {
         place(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
     }
 
-    /// The model's vertices as the GPU sees them, placement by placement.
+    /// The model's vertices as the GPU sees them, instance by instance.
     pub fn seen(&mut self, camera: Observer, time: f64, placed: Vec<Placed>, settings: Settings) -> Vec<SeenVertex> {
         let frame = FrameInput { camera, time, placed, aurora: None, settings };
         self.renderer.picture(&frame, false).unwrap();

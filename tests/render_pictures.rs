@@ -5,7 +5,7 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::{self, Picture};
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Motion, Object, Surroundings as Light, View, place};
+use lensrunner::render::instances::{Motion, Object, Surroundings as Light, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::{self, Body, GameConfig};
@@ -161,7 +161,7 @@ fn a_galaxy_on_the_axis_is_a_closed_annulus_and_the_shadow_is_dark() {
 /// The sphere exactly behind the hole: every pixel away from an edge shows the sphere or not as the judge says, who integrates each ray.
 #[test]
 fn the_ring_is_where_the_judge_sees_it() {
-    use lensrunner::judge::trace::{Camera as JudgeCamera, Mesh, Seen, trace};
+    use lensrunner::judge::trace::{Mesh, PixelCamera, Seen, trace};
     let size = [320, 180];
     let (picture, camera) = picture("ring", size);
     let scene = scene::load("ring").unwrap();
@@ -176,7 +176,7 @@ fn the_ring_is_where_the_judge_sees_it() {
             .collect(),
         triangles: model.triangles.clone(),
     };
-    let judge = JudgeCamera {
+    let judge = PixelCamera {
         observer: Observer {
             position: camera.position,
             momentum: camera.momentum,
@@ -208,15 +208,15 @@ fn the_ring_is_where_the_judge_sees_it() {
 /// The sky's stars and the disk are exposed alike, however fine the picture: a star's spot is brighter and smaller in a finer one.
 #[test]
 fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
-    use lensrunner::render::shot::{Request, shot};
+    use lensrunner::render::shot::{ShotRequest, shot};
     let mean = |size: [u32; 2]| {
-        let request = Request { scene: "disk", size, at: 0.0, layers: false, fill: false };
+        let request = ShotRequest { scene: "disk", size, at: 0.0, layers: false, fill: false };
         let mut config = GameConfig::default();
         // The limits of the exposure are not to hide it.
         (config.render.exposure_min, config.render.exposure_max) = (-30.0, 30.0);
         let picture = shot(&request, &config).unwrap();
         // Squares stand for light well enough to compare two pictures of the same.
-        picture.developed.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>() / picture.developed.len() as f64
+        picture.display.iter().map(|&value| f64::from(value).powi(2)).sum::<f64>() / picture.display.len() as f64
     };
     let [coarse, fine] = [mean([320, 180]), mean([1280, 720])];
     assert!((fine / coarse - 1.0).abs() < 0.1, "mean squares {coarse:.1} and {fine:.1}");
@@ -233,7 +233,7 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
         renderer.set_disk(with.then(disk));
         let camera = static_camera(DVec3::new(0.0, -16.0, 1.0), ahead, DVec3::Z, 1.0);
         let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings: Settings::default() };
-        renderer.picture(&frame, false).unwrap().developed.iter().map(|&byte| f64::from(byte)).sum::<f64>()
+        renderer.picture(&frame, false).unwrap().display.iter().map(|&byte| f64::from(byte)).sum::<f64>()
     };
     let [away, alone] = [true, false].map(|with| light(DVec3::NEG_Y, with));
     println!("{away} with the back to a disk, {alone} without one");

@@ -145,7 +145,7 @@ fn the_panorama_is_the_same_in_both_languages() {
 
 #[test]
 fn coverage_is_the_same_in_both_languages_and_right_on_average() {
-    use lensrunner::render::develop::coverage::{before_later, covered};
+    use lensrunner::render::post_process::coverage::{before_later, covered};
     let body = "
     twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(id.x), before_later(row.x / 3.0, row.y), 0.0);";
     let mut random = StdRng::seed_from_u64(9);

@@ -35,7 +35,7 @@ fn far_camera(momentum: DVec3) -> Observer {
     Observer { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
 }
 
-/// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is developed alike. In cells of a
+/// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is finished alike. In cells of a
 /// part of the picture's width stars weigh as they are, but for what each halving spreads them; pixel by pixel, their spots would be brighter in a finer
 /// picture, and the haze darker by a factor of 3.5.
 #[test]
@@ -51,11 +51,11 @@ fn stars_are_metered_alike_in_pictures_of_any_size() {
     let settings = Settings { bloom: 0.0, exposure_range: [1e-9, 1e9], sky_brightness: 1.0, star_brightness: 1.0, ..Settings::default() };
     let haze = |size: [u32; 2]| -> f64 {
         let picture = picture(&stars, 0.05, far_camera(DVec3::ZERO), size, settings);
-        let mut green: Vec<u8> = picture.developed.chunks_exact(4).map(|pixel| pixel[1]).collect();
+        let mut green: Vec<u8> = picture.display.chunks_exact(4).map(|pixel| pixel[1]).collect();
         green.sort_unstable();
         let value = f64::from(green[green.len() / 2]) / 255.0;
         println!("{size:?}: haze at {value}");
-        assert!((0.1..0.9).contains(&value), "the haze is developed to {value}, which tells nothing of the exposure");
+        assert!((0.1..0.9).contains(&value), "the haze is finished to {value}, which tells nothing of the exposure");
         value
     };
     let [coarse, fine] = [haze([320, 180]), haze([1280, 720])];

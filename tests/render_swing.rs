@@ -2,9 +2,9 @@
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
 use lensrunner::render::gpu::shaders::Pass;
-use lensrunner::render::gpu::types::Placement;
+use lensrunner::render::gpu::types::Instance;
 use lensrunner::render::instances::swing::swing_at;
-use lensrunner::render::instances::{Motion, place};
+use lensrunner::render::instances::{Motion, instances_of};
 use lensrunner::render::stage::static_camera;
 use lensrunner::sim::History;
 use lensrunner::sim::flight::Command;
@@ -43,8 +43,8 @@ fn exact(history: &History, time: f64, body: DVec3) -> DVec3 {
     now.position + y - p * (p.dot(y) / (g * (1.0 + g)))
 }
 
-/// The placements of such a ship in a camera's view, and the emission times that they are about.
-fn placed(jolt: f64, now: f64) -> (History, Placement, f64) {
+/// The instances of such a ship in a camera's view, and the emission times that they are about.
+fn placed(jolt: f64, now: f64) -> (History, Instance, f64) {
     let history = history(jolt);
     let bench = bench();
     let camera = static_camera(DVec3::new(6.8, 1.2, 0.5), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
@@ -52,8 +52,8 @@ fn placed(jolt: f64, now: f64) -> (History, Placement, f64) {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let placement = place(&view, now, &object, 1)[0].placement;
-    (history.clone(), placement, now - f64::from(placement.offset[3]))
+    let instance = place(&view, now, &object, 1)[0].instance;
+    (history.clone(), instance, now - f64::from(instance.offset[3]))
 }
 
 #[test]
@@ -61,13 +61,13 @@ fn a_ship_that_begins_to_turn_is_right_all_over() {
     // A pixel of a picture 1,280 wide is 9e-4 at this distance; the wing of a ship of a hundred pixels may be off by a twentieth of it.
     const ALLOWED: f64 = 4.5e-5;
     for jolt in [0.0, 0.53125, 0.59375, 0.625, 0.65625, 0.71875, 2.0] {
-        let (history, placement, emission) = placed(jolt, 2.64);
+        let (history, instance, emission) = placed(jolt, 2.64);
         assert!((0.6..0.67).contains(&emission), "{emission}");
         let centre = history.at(emission).position;
         for body in [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].map(|axis| axis * 0.5) {
             for k in -10..=10 {
                 let s = 1.2 * REACH * f64::from(k) / 10.0;
-                let got = swing_at(&placement, body.as_vec3(), s as f32).as_dvec3();
+                let got = swing_at(&instance, body.as_vec3(), s as f32).as_dvec3();
                 let want = exact(&history, emission + s, body * 2.0 * REACH) - centre;
                 assert!(got.distance(want) < ALLOWED, "jolt at {jolt}, {body}, s = {s}: off by {:.1e}", got.distance(want));
             }
@@ -89,8 +89,8 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let placement = place(&view, 0.0, &object, 1)[0].placement;
-    let emission = -f64::from(placement.offset[3]);
+    let instance = place(&view, 0.0, &object, 1)[0].instance;
+    let emission = -f64::from(instance.offset[3]);
     let at = |t: f64| {
         let state = planet.state(t).unwrap();
         (state.position, DMat3::from_quat(state.attitude), state.momentum)
@@ -102,7 +102,7 @@ fn a_planet_turns_under_a_camera_close_to_it() {
             let y = turn * body * 1.6;
             let g = gamma(p);
             let want = position + y - p * (p.dot(y) / (g * (1.0 + g))) - start;
-            let got = swing_at(&placement, body.as_vec3(), s as f32).as_dvec3();
+            let got = swing_at(&instance, body.as_vec3(), s as f32).as_dvec3();
             // The nearest ground is a hundredth of r_s away, where a pixel is 9e-6.
             assert!(got.distance(want) < 2e-6, "{body} {s}: off by {:.1e}", got.distance(want));
         }
@@ -129,13 +129,13 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
-    let placement = place(&view, 1.5, &object, 1)[0].placement;
-    let emission = 1.5 - f64::from(placement.offset[3]);
+    let instance = place(&view, 1.5, &object, 1)[0].instance;
+    let emission = 1.5 - f64::from(instance.offset[3]);
     assert!((1.3..1.35).contains(&emission), "{emission}");
     let fallen = |t: f64| start.normalize() * (start.length().powf(1.5) - 1.5 * t).powf(2.0 / 3.0);
     for k in -8..=8 {
         let s = reach * f64::from(k) / 10.0;
-        let got = swing_at(&placement, Vec3::ZERO, s as f32).as_dvec3();
+        let got = swing_at(&instance, Vec3::ZERO, s as f32).as_dvec3();
         let want = fallen(emission + s) - fallen(emission);
         // A quarter of a pixel of a picture 1,280 wide, three hundredths of r_s away.
         assert!(got.distance(want) < 1.6e-5, "s = {s}: off by {:.1e}", got.distance(want));
@@ -146,7 +146,7 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
 fn the_swing_is_the_same_in_both_languages() {
     let body = "
     if id.x % 26u != 0u { return; }
-    let p = Placement(twin_rows[id.x], twin_rows[id.x + 1u], twin_rows[id.x + 2u], twin_rows[id.x + 3u], twin_rows[id.x + 4u],
+    let p = Instance(twin_rows[id.x], twin_rows[id.x + 1u], twin_rows[id.x + 2u], twin_rows[id.x + 3u], twin_rows[id.x + 4u],
         twin_rows[id.x + 5u], twin_rows[id.x + 6u], twin_rows[id.x + 7u], twin_rows[id.x + 8u], twin_rows[id.x + 9u], twin_rows[id.x + 10u],
         twin_rows[id.x + 11u], twin_rows[id.x + 12u], twin_rows[id.x + 13u], twin_rows[id.x + 14u], twin_rows[id.x + 15u],
         twin_rows[id.x + 16u], twin_rows[id.x + 17u], twin_rows[id.x + 18u],
@@ -157,26 +157,26 @@ fn the_swing_is_the_same_in_both_languages() {
     let mut cases = Vec::new();
     let (_, ship, _) = placed(0.625, 2.64);
     for k in 0..200 {
-        let mut placement = ship;
-        placement.jolt[3] = random.random_range(-0.2..0.2);
+        let mut instance = ship;
+        instance.jolt[3] = random.random_range(-0.2..0.2);
         // Of what does not move, or by no light's delay, nothing but the shape counts. Farther than is believed nothing turns.
-        placement.velocity[3] *= f32::from(k % 5 > 0);
-        placement.snap = std::array::from_fn(|_| random.random_range(-2.0..2.0));
-        placement.spin[0] *= if k % 7 == 0 { 100.0 } else { 1.0 };
+        instance.velocity[3] *= f32::from(k % 5 > 0);
+        instance.snap = std::array::from_fn(|_| random.random_range(-2.0..2.0));
+        instance.spin[0] *= if k % 7 == 0 { 100.0 } else { 1.0 };
         let body = Vec3::from_array(std::array::from_fn(|_| random.random_range(-1.0..1.0f32)));
-        cases.push((placement, body, random.random_range(-0.5..0.5f32)));
+        cases.push((instance, body, random.random_range(-0.5..0.5f32)));
     }
     let rows: Vec<[f32; 4]> = cases
         .iter()
-        .flat_map(|(placement, body, s)| {
-            let words: &[[f32; 4]] = bytemuck::cast_slice(bytemuck::bytes_of(placement));
+        .flat_map(|(instance, body, s)| {
+            let words: &[[f32; 4]] = bytemuck::cast_slice(bytemuck::bytes_of(instance));
             assert_eq!(words.len(), 25);
             words.iter().copied().chain([[body.x, body.y, body.z, *s]]).collect::<Vec<_>>()
         })
         .collect();
     let out = run(Pass::Vertices, body, [&[], &[]], &rows, 1);
-    for ((placement, body, s), got) in cases.iter().zip(out.chunks_exact(26)) {
-        let want = swing_at(placement, *body, *s);
+    for ((instance, body, s), got) in cases.iter().zip(out.chunks_exact(26)) {
+        let want = swing_at(instance, *body, *s);
         let got = Vec3::from_slice(&got[0][..3]);
         assert!(got.distance(want) < 1e-6 * (1.0 + want.length()), "{body} {s}: {got} on the GPU, {want} in Rust");
     }

@@ -73,8 +73,8 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     assert_eq!(bench.renderer.counters().unwrap().caught, 0);
     for wrong in [f32::NAN, f32::INFINITY] {
         let mut bad = good.clone();
-        bad[0].placement.ids[1] = 2;
-        bad[0].placement.shape[1][2] = wrong;
+        bad[0].instance.ids[1] = 2;
+        bad[0].instance.shape[1][2] = wrong;
         let both = bad.iter().chain(&good).copied().collect();
         let picture = bench.renderer.picture(&frame(both, settings), true).unwrap();
         assert!(picture.layers.iter().all(|texel| texel[0] != 2.0), "it was drawn");
@@ -86,7 +86,7 @@ fn what_is_not_finite_is_counted_and_not_drawn() {
     }
     // Finite, but past what f32 can square: caught where it arises.
     let mut huge = good.clone();
-    huge[0].placement.shape[0][0] = 3e38;
+    huge[0].instance.shape[0][0] = 3e38;
     let picture = bench.renderer.picture(&frame(huge, settings), true).unwrap();
     assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
     assert!(bench.renderer.counters().unwrap().caught > 0);
@@ -135,7 +135,7 @@ fn the_settings_of_geometry_do_what_they_say() {
         let mut placed = ball(bench, far, size, &settings);
         if pixel {
             // The bench places by tiny pixels; here the image is thin.
-            placed.iter_mut().for_each(|one| one.placement.triangles[3] |= lensrunner::render::gpu::types::placed::THIN);
+            placed.iter_mut().for_each(|one| one.instance.triangles[3] |= lensrunner::render::gpu::types::placed::THIN);
         }
         bench.renderer.picture(&frame(placed, settings), false).unwrap();
         bench.renderer.counters().unwrap()
@@ -149,10 +149,10 @@ fn the_settings_of_geometry_do_what_they_say() {
     let none = counters(&mut bench, Settings { min_width: 0.0, ..quiet() }, 0.02, true);
     assert_eq!(none.thin, 0);
 
-    // Thresholds of the placements, by a pixel of 0.01 rad.
+    // Thresholds of the instances, by a pixel of 0.01 rad.
     use lensrunner::lensing::Slice;
     use lensrunner::render::gpu::types::placed::THIN;
-    use lensrunner::render::instances::{View, place};
+    use lensrunner::render::instances::{View, instances_of};
     let eye = camera();
     let slice = Slice::new(bench.renderer.table(), 15.0);
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
@@ -167,8 +167,8 @@ fn the_settings_of_geometry_do_what_they_say() {
     assert_eq!(count(Settings { least_width: 10.0, ..quiet() }), 1);
     assert_eq!(first(Settings { coarse_below: 6.0, ..quiet() }).model.triangles, stand_in.triangles);
     assert_ne!(first(Settings { coarse_below: 1.0, ..quiet() }).model.triangles, stand_in.triangles);
-    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).placement.triangles[3] & THIN, THIN);
-    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).placement.triangles[3] & THIN, 0);
+    assert_eq!(first(Settings { thin_below: 3.0, ..quiet() }).instance.triangles[3] & THIN, THIN);
+    assert_eq!(first(Settings { thin_below: 0.5, ..quiet() }).instance.triangles[3] & THIN, 0);
 }
 
 /// The rings of orders 2 and 3 of a ball, a twentieth of a pixel wide: the second is an unbroken line, the third nearly.
@@ -184,7 +184,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
         let object = bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, radius, 1);
         let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
         let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
-        use lensrunner::render::instances::{View, place};
+        use lensrunner::render::instances::{View, instances_of};
         let placed = place(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
         assert_eq!(placed.len(), 3);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();

@@ -13,7 +13,7 @@ use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
 use lensrunner::render::gpu::shaders::{self, Pass};
 use lensrunner::render::gpu::types::{
-    self, CellDraws, Chunk, Counters, Frame, Material, ModelTriangle, ModelVertex, Placement, SeenVertex, Star,
+    self, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::models::ALONE;
@@ -121,14 +121,14 @@ fn structs_have_one_layout_in_both_languages() {
         ),
         (
             &mesh,
-            "Placement",
-            fields!(Placement: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, spin_rate,
+            "Instance",
+            fields!(Instance: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, spin_rate,
             jolt, force, turn ["turn_x", "turn_y", "turn_z"], snap, light ["light_red", "light_green", "light_blue"],
             bounds ["bound_high", "bound_low", "bound_look"], ids, vertices, triangles),
         ),
         (&mesh, "ModelVertex", fields!(ModelVertex: position, normal, info)),
         (&mesh, "ModelTriangle", fields!(ModelTriangle: vertices, edges)),
-        (&mesh, "Chunk", fields!(Chunk: placement, first)),
+        (&mesh, "Chunk", fields!(Chunk: instance, first)),
         (&mesh, "SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
         (
             &triangles,
@@ -198,13 +198,13 @@ fn constants_have_one_value_in_both_languages() {
         (&draw, "FLAG_BEAMING", whole(flags::BEAMING)),
         (&draw, "FLAG_INSIDE", whole(flags::INSIDE)),
         (&draw, "FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
-        (&triangles, "PLACEMENT_TWO_SIDED", whole(placed::TWO_SIDED)),
-        (&triangles, "PLACEMENT_HELD", whole(placed::HELD)),
-        (&triangles, "PLACEMENT_THIN", whole(placed::THIN)),
-        (&triangles, "PLACEMENT_MINUS", whole(placed::MINUS)),
-        (&triangles, "PLACEMENT_NARROW", whole(placed::NARROW)),
-        (&triangles, "PLACEMENT_OWN", whole(placed::OWN)),
-        (&triangles, "PLACEMENT_TEXELS", size_of::<Placement>() as f64 / 16.0),
+        (&triangles, "INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
+        (&triangles, "INSTANCE_HELD", whole(placed::HELD)),
+        (&triangles, "INSTANCE_THIN", whole(placed::THIN)),
+        (&triangles, "INSTANCE_MINUS", whole(placed::MINUS)),
+        (&triangles, "INSTANCE_NARROW", whole(placed::NARROW)),
+        (&triangles, "INSTANCE_OWN", whole(placed::OWN)),
+        (&triangles, "INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
         (&triangles, "TABLE_ROW", TABLE_ROW as f64),
         (&triangles, "SIDE_OPEN", whole(outside::OPEN)),
         (&triangles, "SIDE_ALONG", whole(outside::ALONG)),

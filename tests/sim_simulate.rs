@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lensrunner::scene::{GameConfig, Scene};
-use lensrunner::sim::simulate::{COLUMNS, Request, Summary, simulate};
+use lensrunner::sim::simulate::{COLUMNS, SimulateRequest, Summary, simulate};
 
 /// One row.
 pub struct Row {
@@ -27,7 +27,7 @@ impl Row {
 pub fn run(text: &str, until: f64, every: f64, seed: u64) -> (Vec<Row>, String, Summary) {
     let scene = Scene::from_toml(Path::new("test.toml"), text).expect("a scene");
     let (mut out, mut log) = (Vec::new(), Vec::new());
-    let request = Request { until: Some(until), every, seed };
+    let request = SimulateRequest { until: Some(until), every, seed };
     let summary = simulate(&scene, &GameConfig::default(), &request, &mut out, &mut log).expect("a run");
     let csv = String::from_utf8(out).expect("text");
     let mut lines = csv.lines();
@@ -159,14 +159,15 @@ fn an_empty_tank_coasts() {
 #[test]
 fn what_cannot_be_run_is_refused_with_the_range() {
     let scene = Scene::from_toml(Path::new("test.toml"), CIRCLE).expect("a scene");
-    let refuse = |request: Request| {
+    let refuse = |request: SimulateRequest| {
         let result = simulate(&scene, &GameConfig::default(), &request, &mut Vec::new(), &mut Vec::new());
         result.expect_err("refused").to_string()
     };
-    assert!(refuse(Request { until: Some(-1.0), ..Request::default() }).contains("--until -1 must be from 0"));
-    assert!(refuse(Request { until: Some(f64::NAN), ..Request::default() }).contains("--until NaN must be from 0"));
-    assert!(refuse(Request { every: 0.0, ..Request::default() }).contains("--every 0 must be above 0"));
+    assert!(refuse(SimulateRequest { until: Some(-1.0), ..SimulateRequest::default() }).contains("--until -1 must be from 0"));
+    assert!(refuse(SimulateRequest { until: Some(f64::NAN), ..SimulateRequest::default() }).contains("--until NaN must be from 0"));
+    assert!(refuse(SimulateRequest { every: 0.0, ..SimulateRequest::default() }).contains("--every 0 must be above 0"));
     let empty = Scene::from_toml(Path::new("empty.toml"), "").expect("a scene");
-    let error = simulate(&empty, &GameConfig::default(), &Request::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");
+    let error =
+        simulate(&empty, &GameConfig::default(), &SimulateRequest::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");
     assert!(error.to_string().contains("at least one [[ship]]"));
 }

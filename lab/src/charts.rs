@@ -160,7 +160,7 @@ pub fn run(chart: ChartCommand) -> ExitCode {
     match chart {
         ChartCommand::Projection(args) => run_chart_projection(args),
         ChartCommand::Trace(args) => {
-            finish_chart(thin_disk::run(&thin_disk::Request { output: args.chart.into(), pixels: args.pixels as usize }))
+            finish_chart(thin_disk::run(&thin_disk::ThinDiskRequest { output: args.chart.into(), pixels: args.pixels as usize }))
         }
         ChartCommand::Aurora(args) => run_chart_aurora(args),
         ChartCommand::Bvh(args) => run_chart_bvh(args),
@@ -174,13 +174,13 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::{Gpu, shot};
     use lensrunner_lab::disk::{
         chart::run,
-        request::{Request, Shown, contestants},
+        request::{DiskRequest, Shown, contestants},
     };
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    let request = Request {
+    let request = DiskRequest {
         output: args.chart.into(),
         size: args.size,
         error_size: args.error_size,
@@ -216,7 +216,8 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    let request = bench::Request { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
+    let request =
+        bench::FrameTimesRequest { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
     match bench::run(&request, &config, &mut io::stdout().lock()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
@@ -224,7 +225,7 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 }
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
-    let request = projection::Request { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
+    let request = projection::ProjectionRequest { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
     let mut race = if request.output.redraw { None } else { race::race() };
     let adapter = race.as_mut().map(|race| race as &mut dyn projection::Adapter);
     match projection::run(&request, adapter) {
@@ -234,7 +235,7 @@ fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
 }
 
 fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
-    let experiment = aurora::experiment::Request {
+    let experiment = aurora::experiment::ExperimentRequest {
         auroras: usize::from(args.auroras),
         counts: args.electrons,
         radii: args.radii,
@@ -247,7 +248,7 @@ fn run_chart_aurora(args: ChartAuroraArgs) -> ExitCode {
 }
 
 fn run_chart_bvh(args: ChartBvhArgs) -> ExitCode {
-    let request = bvh::Request {
+    let request = bvh::BvhRequest {
         output: args.chart.into(),
         scenes: args.scenes,
         size: [1024, 768],

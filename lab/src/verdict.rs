@@ -95,7 +95,7 @@ pub fn run(args: &CompareArgs) -> ExitCode {
     let judged = if let Some(count) = args.random {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/random"));
         let collected = args.collect.clone();
-        let request = random::command::Request {
+        let request = random::command::RandomRequest {
             count,
             seed: args.seed,
             first: args.first,
@@ -113,11 +113,11 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out/flight"));
         let (size, config, collected) = (args.size.unwrap_or(random::case_file::SIZE), args.config.clone(), args.collect.clone());
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
-        let request = flight::command::Request { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
+        let request = flight::command::FlightRequest { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
     } else {
         let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());
-        let request = case::Request {
+        let request = case::TraceRequest {
             scene,
             size: args.size.unwrap_or([1280, 720]),
             at: args.at.unwrap_or(0.0),

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use lensrunner::lensing;
 use lensrunner::spacetime::light::{Branch, Order, connect, rain_angle};
-use lensrunner_lab::aurora::experiment::{Job, Request, Runner, Tables, Timed, VARIANTS, View, draw, run};
+use lensrunner_lab::aurora::experiment::{ExperimentRequest, Job, Runner, Tables, Timed, VARIANTS, View, draw, run};
 use lensrunner_lab::aurora::eye::Eye;
 use lensrunner_lab::aurora::lattice::Lattice;
 use lensrunner_lab::aurora::points::{Point, Points};
@@ -223,7 +223,7 @@ fn pictures_agree_with_the_line_integral() {
 
 #[test]
 fn the_experiment_makes_its_table() {
-    let request = Request { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
+    let request = ExperimentRequest { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
     let rows = run(&request, &TABLE, &mut [], |_| ());
     assert_eq!(rows.len(), View::ALL.len() * VARIANTS.len());
     assert!(rows.iter().all(|row| row.error.is_finite() && row.total > 0.0));
@@ -242,7 +242,7 @@ fn the_experiment_makes_its_table() {
 
 #[test]
 fn one_odd_time_is_not_the_median() {
-    let request = Request { auroras: 1, counts: vec![10], radii: vec![3.0], size: [16, 9], repeats: 1 };
+    let request = ExperimentRequest { auroras: 1, counts: vec![10], radii: vec![3.0], size: [16, 9], repeats: 1 };
     let rows = run(&request, &TABLE, &mut [Box::new(OddClock(0))], |_| ());
     let walks: Vec<f64> = rows.iter().filter(|row| row.method == "odd clock").map(|row| row.walk).collect();
     assert_eq!(walks, [5.0; View::ALL.len()]);

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear};
-use lensrunner::lensing::place::place;
+use lensrunner::lensing::source_point::place;
 use lensrunner::lensing::{LensRay, SMALL_NODES, Scheme, Slice, Table, bake, closed, shooting};
 use lensrunner::render::method::Method;
 use lensrunner::render::method::race::Race;
@@ -19,7 +19,7 @@ fn twin(method: Method, slice: &Slice, texels: &[[f32; 4]], row: [f32; 4]) -> Op
     let [along, across, height, code] = row;
     let (order, elapsed) = (code as u32 % 4, if code >= 4.0 { OLD } else { YOUNG });
     let cam = &slice.camera;
-    let at = place(cam, along, across, height);
+    let at = source_point(cam, along, across, height);
     let sweep = match order {
         2 => 2.0 * std::f32::consts::PI - at.phi,
         3 => 2.0 * std::f32::consts::PI + at.phi,
@@ -27,7 +27,7 @@ fn twin(method: Method, slice: &Slice, texels: &[[f32; 4]], row: [f32; 4]) -> Op
     };
     let table = || lens_lookup_aged(slice, along, across, height, order, elapsed);
     let linear = || lookup_with(cam, at, sweep, elapsed, |x, y| residuals_linear(|i| texels[i], slice.size, x, y));
-    let outside = at.room > 0.0;
+    let outside = at.lapse2 > 0.0;
     let nothing = LensRay { valid: false, ..table() };
     Some(match method {
         Method::Table | Method::TableFull | Method::ResidualCubic { .. } => table(),
@@ -208,7 +208,7 @@ fn the_adapter_takes_part_in_the_chart() {
     let folder = crate::support::Folder::new();
     let output = Output { folder: folder.path().to_owned(), redraw: false };
     let methods = vec!["table".to_owned(), "flat".to_owned()];
-    let request = projection::Request { output, points: 4096, seed: 1, methods };
+    let request = projection::ProjectionRequest { output, points: 4096, seed: 1, methods };
     let mut race = Race::new(&GPU, TABLE.clone());
     projection::run(&request, Some(&mut race)).unwrap();
     let sheet = Sheet::load(&folder.path().join("projection-gpu.csv")).unwrap();

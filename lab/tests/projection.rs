@@ -5,7 +5,7 @@ use std::process::Command;
 use lensrunner::lensing::methods::{Exact, Frame, Projector, Query, Sight, Vertex};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::chart::{Output, Sheet};
-use lensrunner_lab::projection::{self, ChartError, Request, rows, score, truth};
+use lensrunner_lab::projection::{self, ChartError, ProjectionRequest, rows, score, truth};
 
 #[test]
 fn the_points_are_adversarial() {
@@ -75,7 +75,7 @@ fn a_score_finds_what_was_spoiled() {
 fn the_chart_is_written_and_redrawn() {
     let folder = crate::support::Folder::new();
     let output = Output { folder: folder.path().to_path_buf(), redraw: false };
-    let request = Request { output, points: 300, seed: 3, methods: ["exact", "table", "flat"].map(str::to_owned).to_vec() };
+    let request = ProjectionRequest { output, points: 300, seed: 3, methods: ["exact", "table", "flat"].map(str::to_owned).to_vec() };
     let written = projection::run(&request, None).unwrap();
     assert!(written.iter().all(|path| path.is_file()) && written.len() >= 8, "{written:?}");
     let sheet = Sheet::load(&folder.path().join("projection.csv")).unwrap();
@@ -85,10 +85,10 @@ fn the_chart_is_written_and_redrawn() {
         assert!(sheet.text(row, "method") != "table" || sheet.number(row, "max_degrees") < 0.004, "{row:?}");
     }
     let picture = std::fs::read(folder.path().join("projection.svg")).unwrap();
-    let again = Request { output: Output { redraw: true, ..request.output.clone() }, ..request.clone() };
+    let again = ProjectionRequest { output: Output { redraw: true, ..request.output.clone() }, ..request.clone() };
     projection::run(&again, None).unwrap();
     assert_eq!(std::fs::read(folder.path().join("projection.svg")).unwrap(), picture, "the same CSV, the same picture");
-    let wrong = Request { methods: vec!["exakt".into()], ..request };
+    let wrong = ProjectionRequest { methods: vec!["exakt".into()], ..request };
     let Err(error @ ChartError::Method { .. }) = projection::run(&wrong, None) else { panic!("no such method") };
     assert!(error.to_string().contains("exakt") && error.to_string().contains("table"));
 }

@@ -25,13 +25,13 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let body = at_height(middle, height, south);
     let axes = across_field(body);
 
-    let placement = aurora_placements[id.y];
-    let order = placement.ids.x;
+    let instance = aurora_instances[id.y];
+    let order = instance.ids.x;
     var seen: array<vec3<f32>, 4>;
     var valid = true;
     for (var k = 0u; k < 4u; k++) {
         let aside = select(select(select(vec3<f32>(0.0), axes[0], k == 1u), axes[1], k == 2u), axes[2], k == 3u) * ASIDE;
-        let found = answer(placement, query_body(body + aside), order);
+        let found = answer(instance, query_body(body + aside), order);
         seen[k] = found.ray.apparent;
         valid = valid && found.ray.valid && finite_vector(found.ray.apparent);
     }

@@ -2,19 +2,19 @@
 // of coarser pairs are half as large each. Twin of `Rooms` in src/render/aurora/rooms.rs.
 
 /// There may be light in a box of pixels (left, top, right, bottom) of a screen of a size: from the finest level, or from a coarser one.
-fn light_up(placement: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
+fn light_up(instance: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
     let tiles = vec2<f32>(f32(LIT_TILE_COLUMNS), f32(LIT_TILE_ROWS));
     let box = vec4<u32>(clamp(pixels / ceil(size / tiles).xyxy, vec4<f32>(0.0), (tiles - 1.0).xyxy));
     let columns = (0xffffffffu >> (31u - (box.z - box.x))) << box.x;
     for (var row = box.y; row <= box.w; row++) {
-        atomicOr(&stroke_draws[lit_tiles_of(placement, finest) + row], columns);
+        atomicOr(&stroke_draws[lit_tiles_of(instance, finest) + row], columns);
     }
 }
 
 /// Room for a stroke in a level, as the place of its first vertex; the finest takes over from a coarse one that is full. 0xffffffff: there is none.
 /// `level` is where it went.
-fn room_of(placement: u32, level: ptr<function, u32>) -> u32 {
-    let draws = numbers_of(placement);
+fn room_of(instance: u32, level: ptr<function, u32>) -> u32 {
+    let draws = numbers_of(instance);
     for (var attempt = 0u; attempt < 2u; attempt++) {
         let pair = *level / 2u;
         let counter = draws + 4u * PYRAMID + pair;

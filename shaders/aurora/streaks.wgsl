@@ -4,7 +4,7 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: which row of the history is the newest, y: segments, z: room for strokes of one placement in the two finest levels (see room_of), w: AURORA_*.
+    /// x: which row of the history is the newest, y: segments, z: room for strokes of one instance in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
     /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
@@ -48,7 +48,7 @@ struct ChordEnd {
 }
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
-@group(1) @binding(1) var<storage, read> aurora_placements: array<Placement>;
+@group(1) @binding(1) var<storage, read> aurora_instances: array<Instance>;
 /// A ring of HISTORY_ROWS rows of nodes, each older than the one before it, but for the newest: x, y: place in the plane across the field in km, z: energy flux over its mean,
 /// w: place along the curtain at rest in km. Each curve has a node more at either end (between_nodes).
 @group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
@@ -57,7 +57,7 @@ struct ChordEnd {
 @group(1) @binding(4) var<storage, read> falls: array<f32>;
 @group(1) @binding(5) var<storage, read_write> chords: array<ChordEnd>;
 @group(1) @binding(6) var<storage, read_write> strokes: array<Stroke>;
-/// Of each placement, four numbers a level: vertices, instances, first vertex, first instance. Then strokes in each pair of levels,
+/// Of each instance, four numbers a level: vertices, instances, first vertex, first instance. Then strokes in each pair of levels,
 /// and a bit for each tile of the screen that may be lit (lit_tiles.wgsl).
 @group(1) @binding(7) var<storage, read_write> stroke_draws: array<atomic<u32>>;
 @group(1) @binding(8) var<storage, read_write> references: array<Reference>;
@@ -115,10 +115,10 @@ fn reference_room() -> u32 {
     return 3u * aurora.counts.y + 2u;
 }
 
-/// The first of them for a part, in the north or in the south, in one placement.
-fn first_reference(segment: u32, south: bool, placement: u32) -> u32 {
+/// The first of them for a part, in the north or in the south, in one instance.
+fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
     let poles = select(1u, 2u, (aurora.history.w & AURORA_BOTH_POLES) != 0u);
-    return ((placement * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
+    return ((instance * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
 }
 
 struct Streak {

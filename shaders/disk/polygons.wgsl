@@ -1,7 +1,7 @@
 // The disk of polygons, drawn: triangles that the stages of geometry have tessellated, opaque, nearest first by depth.
 
 @group(1) @binding(0) var<storage, read> seen: array<SeenVertex>;
-/// Of each placement: turns by r_s/c, and the azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
+/// Of each instance: turns by r_s/c, and the azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
 @group(1) @binding(2) var<storage, read> turning: array<vec2<f32>>;
 
 @vertex

@@ -4,10 +4,10 @@
 //   fn tilt(u: f32, y: f32) -> f32, X
 
 /// b² of the ray at 1/u that sweeps `chi` more.
-fn impact(u: f32, room: f32, chi: f32) -> f32 {
+fn impact(u: f32, lapse2: f32, chi: f32) -> f32 {
     let half = sin(0.5 * chi);
     let x = tilt(u, 2.0 * half * half);
-    return x * (2.0 - x) / (u * u * room);
+    return x * (2.0 - x) / (u * u * lapse2);
 }
 
 /// α.
@@ -28,16 +28,16 @@ fn lag(u: f32, chi: f32) -> f32 {
 const CLOSED_STEPS: u32 = 40u;
 
 /// Order 1, both ends outside.
-fn closed_ray(cam: LensCamera, at: Place, order: u32) -> LensRay {
-    if !(order == 1u && at.room > 0.0 && cam.room > 0.0 && finite(at.r)) {
+fn closed_ray(cam: LensCamera, at: SourcePoint, order: u32) -> LensRay {
+    if !(order == 1u && at.lapse2 > 0.0 && cam.lapse2 > 0.0 && finite(at.r)) {
         return no_ray();
     }
     let c = 1.0 / at.r;
     let camera_beyond = at.dr <= 0.0;
     let outer = select(c, cam.a, camera_beyond);
     let inner = select(cam.a, c, camera_beyond);
-    let outer_room = select(at.room, cam.room, camera_beyond);
-    let inner_room = select(cam.room, at.room, camera_beyond);
+    let outer_room = select(at.lapse2, cam.lapse2, camera_beyond);
+    let inner_room = select(cam.lapse2, at.lapse2, camera_beyond);
     // Illinois: b falls short at the outer end while χ is small, and overshoots where the ray goes on inward.
     var low = 1e-6;
     var high = HALF_TURN - 0.5 * at.phi;
@@ -72,6 +72,6 @@ fn closed_ray(cam: LensCamera, at: Place, order: u32) -> LensRay {
     let l = sqrt(cam.l);
     let r = sqrt(at.r);
     let ends = (1.0 + r) / (1.0 + l);
-    let rain = 2.0 * at.dr / (l + r) - log(cam.l * cam.room / (at.r * at.room) * ends * ends);
+    let rain = 2.0 * at.dr / (l + r) - log(cam.l * cam.lapse2 / (at.r * at.lapse2) * ends * ends);
     return static_ray(cam, at, order, psi, time - rain);
 }

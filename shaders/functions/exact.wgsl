@@ -8,8 +8,8 @@ fn fire(cam: LensCamera, x: f32, phi: f32) -> Fired {
 }
 
 /// e − w without cancellation, e > 0.
-fn ahead(e: f32, w: f32, u: f32, room: f32) -> f32 {
-    return select(e - w, u * u * room / (e + w), w > 0.0);
+fn ahead(e: f32, w: f32, u: f32, lapse2: f32) -> f32 {
+    return select(e - w, u * u * lapse2 / (e + w), w > 0.0);
 }
 
 /// T − t̂: Painlevé–Gullstrand time less that which is regular on the horizon.
@@ -20,25 +20,25 @@ fn to_rain_time(u: f32) -> f32 {
 
 /// The travel time of light along the ray (w, e, w_e) from u = `c` to the camera over `phi`: by parts in closed form, the rest by Gauss's rule
 /// of twelve on panels of up to two radians, each half of the way reached from its own end.
-fn exact_delay(cam: LensCamera, c: f32, room: f32, phi: f32, ray: Joined) -> f32 {
+fn exact_delay(cam: LensCamera, c: f32, lapse2: f32, phi: f32, ray: Joined) -> f32 {
     let a = cam.a;
     let e = ray.energy;
     let w = ray.slope;
     let w_e = ray.emission_slope;
-    let d = select(critical_excess(a, w), (e * e - CRITICAL_SQUARE) / 16.0, cam.room < 0.0);
+    let d = select(critical_excess(a, w), (e * e - CRITICAL_SQUARE) / 16.0, cam.lapse2 < 0.0);
     let scattered = d < 0.0 && a <= PHOTON_SPHERE;
     let near = (d < 0.0 && !scattered) || (phi < 0.5 && c < 2.0 * a && a < 2.0 * c);
     let outgoing = w > 0.0;
     var closed = 0.0;
     if near {
-        closed = 2.0 * log(c * ahead(e, w, a, cam.room) / (a * ahead(e, w_e, c, room)));
+        closed = 2.0 * log(c * ahead(e, w, a, cam.lapse2) / (a * ahead(e, w_e, c, lapse2)));
     } else if scattered {
-        closed = log(ahead(e, w_e, c, room) * a / (c * ahead(e, w, a, cam.room))) + (w / a - w_e / c) / e;
+        closed = log(ahead(e, w_e, c, lapse2) * a / (c * ahead(e, w, a, cam.lapse2))) + (w / a - w_e / c) / e;
     } else {
         let rest = log((e + abs(w_e)) * a / (c * (e + abs(w))));
         closed = select(rest, -rest, outgoing) + (w / a - w_e / c) / e;
         if outgoing {
-            closed -= 2.0 * log(room / cam.room);
+            closed -= 2.0 * log(lapse2 / cam.lapse2);
         }
     }
     let panels = max(ceil(0.5 * phi), 1.0);
@@ -67,16 +67,16 @@ fn exact_delay(cam: LensCamera, c: f32, room: f32, phi: f32, ray: Joined) -> f32
 }
 
 /// The ray of a point outside.
-fn exact_ray(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+fn exact_ray(cam: LensCamera, at: SourcePoint, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.lapse2 > 0.0) {
         return no_ray();
     }
     let phi = max(sweep, SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let room = max(at.room, 1e-4);
+    let lapse2 = max(at.lapse2, 1e-4);
     let ray = shot_ray(cam, c, -at.dr * c * cam.a, phi);
     if !ray.found {
         return no_ray();
     }
-    return ray_of(cam, c, room, ray.slope, ray.energy, ray.emission_slope, exact_delay(cam, c, room, phi, ray));
+    return ray_of(cam, c, lapse2, ray.slope, ray.energy, ray.emission_slope, exact_delay(cam, c, lapse2, phi, ray));
 }

@@ -49,8 +49,8 @@ fn fire(cam: LensCamera, x: f32, phi: f32) -> Fired {
 }
 
 /// The ray of a point outside.
-fn integrated_ray(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+fn integrated_ray(cam: LensCamera, at: SourcePoint, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.lapse2 > 0.0) {
         return no_ray();
     }
     let c = 1.0 / at.r;
@@ -58,5 +58,5 @@ fn integrated_ray(cam: LensCamera, at: Place, sweep: f32) -> LensRay {
     if !ray.found {
         return no_ray();
     }
-    return ray_of(cam, c, max(at.room, 1e-4), ray.slope, ray.energy, ray.emission_slope, ray.time);
+    return ray_of(cam, c, max(at.lapse2, 1e-4), ray.slope, ray.energy, ray.emission_slope, ray.time);
 }

@@ -1,7 +1,7 @@
 // The lookup: from a point's place to the direction in which it is seen and the time its light takes.
 //
 // Glossary (r_s = c = 1, radians; DESIGN section 2)
-//   a = 1/L, c = 1/r       inverse radii of camera and point         room     1 − 1/r (or 1 − 1/L), free of cancellation
+//   a = 1/L, c = 1/r       inverse radii of camera and point         lapse2     1 − 1/r (or 1 − 1/L), free of cancellation
 //   sweep, Φ               the angle the ray sweeps: φ, 2π − φ, 2π + φ
 //   w, w_e                 du/dΦ at the camera and at the point      e        1/b: e² = w² + a² − a³ = w_e² + c² − c³
 //   ψ                      the look direction in the rain frame from the outward radial
@@ -19,7 +19,7 @@
 const BEND_START: f32 = 3.4;
 const BEND_RANGE: f32 = 1.4;
 /// The least 1 − 1/r that the logarithm of the horizon is taken of.
-const LEAST_ROOM: f32 = 1e-7;
+const LEAST_LAPSE2: f32 = 1e-7;
 const SMALLEST_SWEEP: f32 = 1e-9;
 const HALF_TURN: f32 = 3.14159265358979;
 const LARGEST_SWEEP: f32 = 9.42477796076938;
@@ -29,13 +29,13 @@ const HEADER: u32 = 4u;
 
 struct LensCamera {
     l: f32,      // L
-    room: f32,   // 1 − 1/L
+    lapse2: f32,   // 1 − 1/L
     a: f32,      // 1/L
     beta: f32,   // √a
     fade: f32,   // share of the weak-field terms
     bend: f32,   // n of K″ = 1 + nK
     rate: f32,   // √|n|
-    even: f32,   // how much the room at the camera counts beside that at the point
+    even: f32,   // how much the lapse squared at the camera counts beside that at the point
     soft: f32,   // softening, start and 1/length of the axis of points
     start: f32,
     scale: f32,
@@ -46,9 +46,9 @@ struct LensCamera {
     lift: f32,   // a⁴/(1 + a⁴), at least 1e-4
 }
 
-struct Place {
+struct SourcePoint {
     r: f32,
-    room: f32,
+    lapse2: f32,
     dr: f32,
     phi: f32,
 }
@@ -185,16 +185,16 @@ fn slopes(cam: LensCamera, rise: f32, sk: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w));
 }
 
-fn energy(w: f32, u: f32, room: f32) -> f32 {
-    return sqrt(max(w * w + u * u * room, 0.0));
+fn energy(w: f32, u: f32, lapse2: f32) -> f32 {
+    return sqrt(max(w * w + u * u * lapse2, 0.0));
 }
 
 /// Frequency plus outward momentum at the camera and at the point, then frequency less it.
-fn light_cones(w: vec2<f32>, e: f32, u: vec2<f32>, beta: vec2<f32>, room: vec2<f32>) -> vec4<f32> {
+fn light_cones(w: vec2<f32>, e: f32, u: vec2<f32>, beta: vec2<f32>, lapse2: vec2<f32>) -> vec4<f32> {
     let rising = max(w, vec2<f32>(-e)) > vec2<f32>(0.0);
     let square = u * u;
     let over = select(square, e + w, rising) * (beta + 1.0);
-    let under = select(e - w, room, rising);
+    let under = select(e - w, lapse2, rising);
     return vec4<f32>(over, square * under) / vec4<f32>(under, over);
 }
 
@@ -212,9 +212,9 @@ fn emission_scale(cam: LensCamera, c: f32) -> f32 {
 }
 
 /// The part of the delay that is regular across the Einstein ring. `logs` are ln(r/L) and ln(h/2).
-fn delay_across(cam: LensCamera, r: f32, c: f32, room: f32, dr: f32, lens: vec3<f32>, logs: vec2<f32>) -> f32 {
+fn delay_across(cam: LensCamera, r: f32, c: f32, lapse2: f32, dr: f32, lens: vec3<f32>, logs: vec2<f32>) -> f32 {
     let mean = 1.0 + 3.0 * select(cam.a, logs.x / dr, abs(dr) > 1e-6 * cam.l);
-    let both = room + cam.even * (cam.room - room) + lens.x * c * c * (cam.share - 1.5 * cam.share * cam.even);
+    let both = lapse2 + cam.even * (cam.lapse2 - lapse2) + lens.x * c * c * (cam.share - 1.5 * cam.share * cam.even);
     let across = (1.0 + 1.5 * (cam.a + c)) * both * r * cam.l * lens.z;
     return sqrt(mean * (mean * dr * dr + across)) - 2.0 * logs.y;
 }
@@ -238,7 +238,7 @@ fn angle(across: f32, height: f32, r: f32) -> f32 {
     return select(select(0.0, HALF_TURN, behind), 0.5 * HALF_TURN, steep) + select(-2.0, 2.0, steep == behind) * x;
 }
 
-fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
+fn source_point(cam: LensCamera, along: f32, across: f32, height: f32) -> SourcePoint {
     let square = along * along + across * across;
     let r = sqrt(height * height + across * across);
     let inverse = 1.0 / r;
@@ -246,8 +246,8 @@ fn place(cam: LensCamera, along: f32, across: f32, height: f32) -> Place {
     let near = square < 0.25 * cam.l * cam.l;
     let offset = (2.0 * cam.l * along + square) / (r + cam.l);
     // r − 1 and r − L: near the camera from the offset, elsewhere from the place.
-    let above = select(r - 1.0, cam.room * cam.l + offset, near);
-    return Place(r, above * inverse, select(r - cam.l, offset, near), phi);
+    let above = select(r - 1.0, cam.lapse2 * cam.l + offset, near);
+    return SourcePoint(r, above * inverse, select(r - cam.l, offset, near), phi);
 }
 
 const SIXTH: f32 = 0.166666666666667;
@@ -271,10 +271,10 @@ fn lens_camera() -> LensCamera {
     return LensCamera(t0.x, t0.y, t0.z, t0.w, t1.x, t1.y, t1.z, t1.w, t2.x, t2.y, t2.z, u32(t3.x), u32(t3.y), t2.w, t3.z, t3.w);
 }
 
-fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, room: f32) -> vec3<f32> {
-    let here = cam.a * cam.a * cam.room;
-    let there = c * c * room;
-    if cam.room <= 0.0 {
+fn joined(w: f32, w_e: f32, cam: LensCamera, c: f32, lapse2: f32) -> vec3<f32> {
+    let here = cam.a * cam.a * cam.lapse2;
+    let there = c * c * lapse2;
+    if cam.lapse2 <= 0.0 {
         // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
         let square = max(w_e * w_e + there, 0.0);
         return vec3<f32>(-sqrt(square - here), sqrt(square), w_e);
@@ -338,12 +338,12 @@ fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32, nodes: u32) ->
 }
 
 /// (w, e, w_e, delay) of the ray between two places inside; delay is 0 where there is none.
-fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
+fn inside(cam: LensCamera, at: SourcePoint, sweep: f32, elapsed: f32) -> vec4<f32> {
     let l = cam.l;
     let r = at.r;
     let dr = at.dr;
-    let zl = -cam.room * l;
-    let zr = -at.room * r;
+    let zl = -cam.lapse2 * l;
+    let zr = -at.lapse2 * r;
     if !(dr > 0.0 && zr > 0.0) {
         return vec4<f32>(0.0);
     }
@@ -356,8 +356,8 @@ fn inside(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> vec4<f32> {
     let m = 0.5 * (tl + tr);
     var q = max((4.0 * dt * dt / (sweep * sweep) - (1.0 - m * m)) / (m * m * m * m * m * m), 0.0);
     var path = Path(0.0, 0.0, 0.0);
-    let steps = select(0u, INSIDE_STEPS, cam.room < 0.0);
-    let nodes = select(0u, 12u, cam.room < 0.0);
+    let steps = select(0u, INSIDE_STEPS, cam.lapse2 < 0.0);
+    let nodes = select(0u, 12u, cam.lapse2 < 0.0);
     for (var i = 0u; i <= steps; i++) {
         path = inside_path(q, l, r, zl, zr, dr, nodes);
         let turn = path.sweep / sweep;
@@ -391,8 +391,8 @@ fn no_ray() -> LensRay {
     return LensRay(1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, false);
 }
 
-fn ray_of(cam: LensCamera, c: f32, room: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
-    let cones = light_cones(vec2<f32>(w, w_e), e, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
+fn ray_of(cam: LensCamera, c: f32, lapse2: f32, w: f32, e: f32, w_e: f32, delay: f32) -> LensRay {
+    let cones = light_cones(vec2<f32>(w, w_e), e, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.lapse2, lapse2));
     return ray_with(cam, c, vec4<f32>(w, e, w_e, delay), cones);
 }
 
@@ -407,41 +407,41 @@ fn ray_with(cam: LensCamera, c: f32, ray: vec4<f32>, cones: vec4<f32>) -> LensRa
         ray.x, ray.z, ray.y, true);
 }
 
-fn lookup(cam: LensCamera, at: Place, sweep: f32, elapsed: f32) -> LensRay {
+fn lookup(cam: LensCamera, at: SourcePoint, sweep: f32, elapsed: f32) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return no_ray();
     }
     let swept = max(sweep, SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    var room = at.room;
-    if room > 0.0 {
-        room = max(room, LEAST_ROOM);
+    var lapse2 = at.lapse2;
+    if lapse2 > 0.0 {
+        lapse2 = max(lapse2, LEAST_LAPSE2);
         let bent = bent_sweep(swept);
         let square = half_angle(cam, bent);
         let halves = stumpffs(vec2<f32>(0.25 * bent * bent, square));
         let guesses = slopes(cam, -at.dr * c * cam.a, basis(cam, bent, square, halves.zw));
         let lens = lens_equation(cam, c, bent, halves.xy);
         let logs = log(vec3<f32>(c + cam.soft, near_axis(swept), 0.5 * lens.y));
-        let xy = axes(cam, sqrt(room), swept, logs);
-        let across = delay_across(cam, at.r, c, room, at.dr, lens, vec2<f32>(log1p(at.dr * cam.a), logs.z));
+        let xy = axes(cam, sqrt(lapse2), swept, logs);
+        let across = delay_across(cam, at.r, c, lapse2, at.dr, lens, vec2<f32>(log1p(at.dr * cam.a), logs.z));
         let table = residuals(cam, xy.x, xy.y);
         let w = turned_slopes(guesses, vec2<f32>(cam.a, emission_scale(cam, c)), table.xz);
-        let joint = joined(w.x, w.y, cam, c, room);
-        let cones = light_cones(joint.xz, joint.y, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.room, room));
+        let joint = joined(w.x, w.y, cam, c, lapse2);
+        let cones = light_cones(joint.xz, joint.y, vec2<f32>(cam.a, c), vec2<f32>(cam.beta, sqrt(c)), vec2<f32>(cam.lapse2, lapse2));
         let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens.x, joint.y) * (across + table.y);
         return ray_with(cam, c, vec4<f32>(joint, delay), cones);
     }
-    if SEES_INSIDE && cam.room < 0.0 {
+    if SEES_INSIDE && cam.lapse2 < 0.0 {
         let ray = inside(cam, at, swept, elapsed);
         if ray.w > 0.0 {
-            return ray_of(cam, c, room, ray.x, ray.y, ray.z, ray.w);
+            return ray_of(cam, c, lapse2, ray.x, ray.y, ray.z, ray.w);
         }
     }
     return no_ray();
 }
 
 /// Φ of `order` for the point at `at`.
-fn swept(at: Place, order: u32) -> f32 {
+fn swept(at: SourcePoint, order: u32) -> f32 {
     // No branch: where the order is the same for a whole pass a driver would compile it anew for each.
     return select(at.phi, select(2.0 * HALF_TURN - at.phi, 2.0 * HALF_TURN + at.phi, order == 3u), order != 1u);
 }
@@ -454,7 +454,7 @@ fn lens_lookup_aged(along: f32, across: f32, height: f32, order: u32, elapsed: f
         return no_ray();
     }
     let cam = lens_camera();
-    let at = place(cam, along, across, height);
+    let at = source_point(cam, along, across, height);
     return lookup(cam, at, swept(at, order), elapsed);
 }
 

@@ -26,22 +26,22 @@ const BEYOND: f32 = 3e38;
 
 /// Rays of a camera are numbered by x, which grows with the slope: w outside; inside w + s ≤ 0, from which e has its digits.
 fn fan_shift(cam: LensCamera) -> f32 {
-    return select(0.0, cam.a * sqrt(max(-cam.room, 0.0)), cam.room < 0.0);
+    return select(0.0, cam.a * sqrt(max(-cam.lapse2, 0.0)), cam.lapse2 < 0.0);
 }
 
 /// w, d and ∂d/∂x of the ray x.
 fn fan_start(cam: LensCamera, x: f32) -> vec3<f32> {
     let s = fan_shift(cam);
     let w = x - s;
-    let d = select(critical_excess(cam.a, w), (x * (x - 2.0 * s) - CRITICAL_SQUARE) / 16.0, cam.room < 0.0);
+    let d = select(critical_excess(cam.a, w), (x * (x - 2.0 * s) - CRITICAL_SQUARE) / 16.0, cam.lapse2 < 0.0);
     return vec3<f32>(w, d, 0.125 * w);
 }
 
 fn fan_energy(cam: LensCamera, x: f32) -> f32 {
-    if cam.room < 0.0 {
+    if cam.lapse2 < 0.0 {
         return sqrt(max(x * (x - 2.0 * fan_shift(cam)), 0.0));
     }
-    return energy(x, cam.a, cam.room);
+    return energy(x, cam.a, cam.lapse2);
 }
 
 /// The step in x that should undo `miss` in u, on (u + 1)^{-1/2}: u has a double pole where the ray falls in, and is straight in x far out.
@@ -63,7 +63,7 @@ fn middle_ray(a: f32, low: f32, high: f32) -> f32 {
 fn shot_ray(cam: LensCamera, c: f32, rise: f32, phi: f32) -> Joined {
     var x = slope_guess(cam, rise, bent_sweep(phi)).x + fan_shift(cam);
     var low = -BEYOND;
-    var high = select(BEYOND, 0.0, cam.room < 0.0);
+    var high = select(BEYOND, 0.0, cam.lapse2 < 0.0);
     var last = BEYOND;
     var result = Joined(0.0, 0.0, 0.0, 0.0, false);
     for (var i = 0u; i < MOST_SHOTS; i++) {

@@ -1,12 +1,12 @@
 // From what a static camera sees to the ray, for methods that only tell that: the twin of src/lensing/closed.rs.
 
-fn static_ray(cam: LensCamera, at: Place, order: u32, psi: f32, delay: f32) -> LensRay {
+fn static_ray(cam: LensCamera, at: SourcePoint, order: u32, psi: f32, delay: f32) -> LensRay {
     // From the static angle the rest follows; on which side of a turning point the light left, as straight light would.
     let c = 1.0 / at.r;
-    let room = max(at.room, 1e-4);
-    let w = -cam.a * sqrt(cam.room) * cos(psi) / max(sin(psi), 1e-7);
-    let e = energy(w, cam.a, cam.room);
-    let w_e = sqrt(max(e * e - c * c * room, 0.0));
+    let lapse2 = max(at.lapse2, 1e-4);
+    let w = -cam.a * sqrt(cam.lapse2) * cos(psi) / max(sin(psi), 1e-7);
+    let e = energy(w, cam.a, cam.lapse2);
+    let w_e = sqrt(max(e * e - c * c * lapse2, 0.0));
     let leaves_inward = c * cos(at.phi) > cam.a && order == 1u;
-    return ray_of(cam, c, room, w, e, select(-w_e, w_e, leaves_inward), delay);
+    return ray_of(cam, c, lapse2, w, e, select(-w_e, w_e, leaves_inward), delay);
 }

@@ -19,13 +19,13 @@ struct GroundLight {
 
 /// Where on the map the ground is whose normal is n (rain axes); z: greater than nothing on a side that has an aurora, less for all but the planet. Around the pole
 /// opposite to the map's middle places lie in all directions, and what is between three of them may be anywhere: there z is less than nothing.
-fn ground_place(placement: Placement, n: vec3<f32>) -> vec3<f32> {
-    let body = vec3<f32>(dot(placement.turn_x.xyz, n), dot(placement.turn_y.xyz, n), dot(placement.turn_z.xyz, n));
+fn ground_place(instance: Instance, n: vec3<f32>) -> vec3<f32> {
+    let body = vec3<f32>(dot(instance.turn_x.xyz, n), dot(instance.turn_y.xyz, n), dot(instance.turn_z.xyz, n));
     let from_dipole = ground.dipole_x.xyz * body.x + ground.dipole_y.xyz * body.y + ground.dipole_z.xyz * body.z;
     let up = select(from_dipole.z, abs(from_dipole.z), ground.planet.y != 0u);
     let out = length(from_dipole.xy);
     let place = ground.map.xy + from_dipole.xy * (atan2(out, up) / max(out, 1e-6) * ground.map.z);
-    return select(vec3<f32>(-1.0), vec3<f32>(place, up), placement.ids.y == ground.planet.x);
+    return select(vec3<f32>(-1.0), vec3<f32>(place, up), instance.ids.y == ground.planet.x);
 }
 
 /// The light of the aurora on the ground at a place of the map, as `irradiance` has it.

@@ -1,12 +1,12 @@
 // Group 1: what the stages of geometry hand to each other. The order is that of the frame.
 
-/// Placements, as geometry/placement.wgsl reads them.
-@group(1) @binding(0) var placements: texture_2d<u32>;
+/// Instances, as geometry/instance.wgsl reads them.
+@group(1) @binding(0) var instances: texture_2d<u32>;
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
 /// Two vertices, and those opposite to the edge in its two triangles, or `ALONE`.
 @group(1) @binding(2) var<storage, read> model_edges: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
-/// Chunks of 64 threads of one placement, filled up to the size of the dispatch with NO_PLACEMENT.
+/// Chunks of 64 threads of one instance, filled up to the size of the dispatch with NO_INSTANCE.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
 /// Place at emission of each model vertex by the axis, as `Answer.by_axis`; w: VERTEX_*.
@@ -49,7 +49,7 @@ struct Counters {
     outside: atomic<u32>,
 }
 
-const NO_PLACEMENT: u32 = 0xffffffffu;
+const NO_INSTANCE: u32 = 0xffffffffu;
 
 const VERTEX_PLAIN: f32 = 0.0;
 const VERTEX_ON_AXIS: f32 = 1.0;

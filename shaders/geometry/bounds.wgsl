@@ -1,14 +1,14 @@
 // The guard: no triangle of an object is drawn outside of where the image of its ball can be, whatever went wrong before.
 
-/// Whether three seen vertices are outside one of the placement's caps, or reach across one that they must keep out of. Then the triangle is counted.
-fn leaves_bounds(placement: Placement, i0: u32, i1: u32, i2: u32) -> bool {
-    if placement.bound_high.w == 0.0 && placement.bound_low.w == 0.0 && placement.bound_look.w == 0.0 {
+/// Whether three seen vertices are outside one of the instance's caps, or reach across one that they must keep out of. Then the triangle is counted.
+fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
+    if instance.bound_high.w == 0.0 && instance.bound_low.w == 0.0 && instance.bound_look.w == 0.0 {
         return false;
     }
     let a = normalize(seen[i0].apparent.xyz);
     let b = normalize(seen[i1].apparent.xyz);
     let c = normalize(seen[i2].apparent.xyz);
-    let leaves = leaves_cap(placement.bound_high, a, b, c) || leaves_cap(placement.bound_low, a, b, c) || leaves_cap(placement.bound_look, a, b, c);
+    let leaves = leaves_cap(instance.bound_high, a, b, c) || leaves_cap(instance.bound_low, a, b, c) || leaves_cap(instance.bound_look, a, b, c);
     if leaves {
         atomicAdd(&counters.outside, 1u);
     }

@@ -4,19 +4,19 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
     let chunk = chunks[index];
-    if chunk.placement == NO_PLACEMENT {
+    if chunk.instance == NO_INSTANCE {
         return;
     }
-    let placement = placement_at(chunk.placement);
+    let instance = instance_at(chunk.instance);
     let local = chunk.first + lane;
-    if local >= placement.vertices.w {
+    if local >= instance.vertices.w {
         return;
     }
-    let edge = model_edges[placement.vertices.z + local];
-    let order = placement.ids.x;
-    let a = emitted[placement.ids.z + edge.x];
-    let b = emitted[placement.ids.z + edge.y];
-    let slot = placement.ids.w + local;
+    let edge = model_edges[instance.vertices.z + local];
+    let order = instance.ids.x;
+    let a = emitted[instance.ids.z + edge.x];
+    let b = emitted[instance.ids.z + edge.y];
+    let slot = instance.ids.w + local;
     if a.w == VERTEX_UNSEEN || b.w == VERTEX_UNSEEN {
         edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_UNSEEN), 0.0, 0.0);
         return;
@@ -28,20 +28,20 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         let d = b.xy - a.xy;
         let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
         let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
-        if length(foot.xy) < axis_core(placement, seen[placement.ids.z + edge.x].apparent.xyz) && axis_matters(foot.z, order) {
+        if length(foot.xy) < axis_core(instance, seen[instance.ids.z + edge.x].apparent.xyz) && axis_matters(foot.z, order) {
             edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), t, 0.0);
             return;
         }
     }
 
-    let from_apparent = seen[placement.ids.z + edge.x].apparent.xyz;
-    let to_apparent = seen[placement.ids.z + edge.y].apparent.xyz;
-    let leaving_a = seen[placement.ids.z + edge.x].leaving.xyz;
-    let leaving_b = seen[placement.ids.z + edge.y].leaving.xyz;
-    let p = model_vertices[placement.vertices.x + edge.x].position.xyz;
-    let q = model_vertices[placement.vertices.x + edge.y].position.xyz;
+    let from_apparent = seen[instance.ids.z + edge.x].apparent.xyz;
+    let to_apparent = seen[instance.ids.z + edge.y].apparent.xyz;
+    let leaving_a = seen[instance.ids.z + edge.x].leaving.xyz;
+    let leaving_b = seen[instance.ids.z + edge.y].leaving.xyz;
+    let p = model_vertices[instance.vertices.x + edge.x].position.xyz;
+    let q = model_vertices[instance.vertices.x + edge.y].position.xyz;
     let alone = edge.z == ALONE;
-    let limb = is_rim(placement, alone, p, q) || (!alone && MAY_FOLD && on_limb(placement, edge, leaving_a, leaving_b, offset_of(a.xyz)));
+    let limb = is_rim(instance, alone, p, q) || (!alone && MAY_FOLD && on_limb(instance, edge, leaving_a, leaving_b, offset_of(a.xyz)));
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
     var whole = true;
@@ -54,12 +54,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let nearest = min(length(a.xy), length(b.xy));
     let fineness = pixel_fineness(from_apparent, to_apparent);
     let pixel = frame.size.z / fineness;
-    let closer = fineness * max(select(1.0, limb_strictness(placement), limb), ring_strictness(nearest, pixel * length(from_apparent), a.z, order));
-    let least_radius = min(frame.radial.w, seen[placement.ids.z + edge.x].leaving.w);
+    let closer = fineness * max(select(1.0, limb_strictness(instance), limb), ring_strictness(nearest, pixel * length(from_apparent), a.z, order));
+    let least_radius = min(frame.radial.w, seen[instance.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.size.w / (closer * slimness(placement));
-    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(a.z, order) && !is_thin(placement));
-    let small = (!limb && seen_under < 8.0 * pixel * inverseSqrt(slimness(placement))) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    let quarter = 0.25 * frame.size.w / (closer * slimness(instance));
+    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(a.z, order) && !is_thin(instance));
+    let small = (!limb && seen_under < 8.0 * pixel * inverseSqrt(slimness(instance))) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     let short = seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
     if radial || !short {
         // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
@@ -72,16 +72,16 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             if radial {
                 query = query_fan(apex, outer, t);
             }
-            let found = answer(placement, query, order).ray;
+            let found = answer(instance, query, order).ray;
             points[k] = found.apparent;
             whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
         }
         // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
-    var level = level_for(error * strictness(placement) * closer, 1.0);
-    level = min(level, most_segments(placement, a.xyz, b.xyz, pixel * length(from_apparent)));
-    if plain && turn_about_axis(a.xyz, b.xyz, order) > most_turn(placement) {
+    var level = level_for(error * strictness(instance) * closer, 1.0);
+    level = min(level, most_segments(instance, a.xyz, b.xyz, pixel * length(from_apparent)));
+    if plain && turn_about_axis(a.xyz, b.xyz, order) > most_turn(instance) {
         error = MUST_SPLIT;
         level = max(level, BLOCK + 1u);
     }

@@ -35,10 +35,10 @@ fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f3
 
 /// The part of a triangle whose light crosses the disk's plane as often on its way as the order says; that of the rest crosses it once less. `plane_crossings` of Rust,
 /// told here where parts of the image differ, from the heights of its corners over the plane.
-fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
-    let order = placement.ids.x;
-    if placement.snap.w >= 0.0 {
-        return select(0.0, 1.0, placement.snap.w == f32(order));
+fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
+    let order = instance.ids.x;
+    if instance.snap.w >= 0.0 {
+        return select(0.0, 1.0, instance.snap.w == f32(order));
     }
     // First the corner that is alone on its side, if one is: the plane cuts off so much of the area there.
     let below = heights < vec3<f32>(0.0);
@@ -57,8 +57,8 @@ fn share_across(placement: Placement, heights: vec3<f32>) -> f32 {
 ///
 /// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
 /// with the sense in which the corners run, and over all triangles what was covered twice cancels.
-fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, seen_from: u32) -> bool {
-    if !is_thin(placement) {
+fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) -> bool {
+    if !is_thin(instance) {
         return false;
     }
     let c0 = clip_position(seen[i0].apparent.xyz);
@@ -98,7 +98,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, se
     let sense = select(1.0, sign(turned) * facing.turn * towards_eye, facing.turn != 0.0);
     let stretch = stretched(along, height);
     // What it truly covers of what is drawn; and of one layer, as far as no other part of the model stands before it.
-    let part = seen_part(seen_from, in_body_axes(placement, facing.normal * towards_eye), in_body_axes(placement, leaving / max(length(leaving), 1e-20)));
+    let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye), in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
     let coverage = sense * part / (stretch.x * stretch.y);
     if coverage == 0.0 {
         return true;
@@ -109,8 +109,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, se
         return false;
     }
     let centre = (p0 + p1 + p2) / 3.0;
-    let order = f32(placement.ids.x);
-    let share = share_across(placement, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
+    let order = f32(instance.ids.x);
+    let share = share_across(instance, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
     let scale = 2.0 / frame.size.xy;
     thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, order, share));
     thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, order, share));
@@ -119,8 +119,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, se
 }
 
 /// Draws three seen vertices as they are.
-fn emit_triangle(i0: u32, i1: u32, i2: u32, placement: Placement, facing: Facing, seen_from: u32) {
-    if leaves_bounds(placement, i0, i1, i2) || emit_thin(i0, i1, i2, placement, facing, seen_from) {
+fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) {
+    if leaves_bounds(instance, i0, i1, i2) || emit_thin(i0, i1, i2, instance, facing, seen_from) {
         return;
     }
     let slot = atomicAdd(&counters.indices, 3u);
@@ -206,8 +206,8 @@ fn hand(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, kind: u32) {
 }
 
 /// For the queue that the next pass of splitting reads.
-fn emit_piece(placement: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
-    let piece = Piece(vec4<u32>(placement, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
+fn emit_piece(instance: u32, triangle: u32, kind: u32, depth: u32, c0: vec3<f32>, c1: vec3<f32>, c2: vec3<f32>) {
+    let piece = Piece(vec4<u32>(instance, triangle, kind, depth), vec4<f32>(c0, 0.0), vec4<f32>(c1, 0.0), vec4<f32>(c2, 0.0));
     hand(piece, vec4<u32>(1u), 1u, 1u, HANDED_PIECE);
 }
 
@@ -217,9 +217,9 @@ fn emit_work(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32) {
 }
 
 /// The triangle of the model as it is.
-fn emit_whole(placement: u32, triangle: u32) {
+fn emit_whole(instance: u32, triangle: u32) {
     let none = vec4<f32>(0.0);
-    hand(Piece(vec4<u32>(placement, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
+    hand(Piece(vec4<u32>(instance, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
 }
 
 /// Hands over what was collected; pieces go to `queue`. Where the buffers are full, but for the fifth that is kept back, a piece is drawn
@@ -258,10 +258,10 @@ fn hand_over(queue: u32) {
             done = emit_blocks(piece, select(item.levels, vec4<u32>(1u), coarse), size.x, size.y, room);
         }
         if !done {
-            let placement = placement_at(piece.what.x);
+            let instance = instance_at(piece.what.x);
             let triangle = model_triangles[piece.what.y];
-            let corners = triangle.vertices.xyz + vec3<u32>(placement.ids.z);
-            emit_triangle(corners.x, corners.y, corners.z, placement, facing_of(placement, triangle, placement.offset.xyz), triangle.edges.w);
+            let corners = triangle.vertices.xyz + vec3<u32>(instance.ids.z);
+            emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset.xyz), triangle.edges.w);
         }
     }
 }

@@ -27,10 +27,10 @@ fn axis_is_outside(height: f32, order: u32) -> bool {
 /// points: between two chords of one circle a pixel could be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more
 /// than they sag. Near the ring an image moves by half of what its source does, the third order's by a twentieth. Thin images are sums of areas: they would
 /// be too bright by that. `apparent` is where the fan's outer point is seen: arcs are cut by the budget of that place on the screen.
-fn past_axis(placement: Placement, query: Query, apparent: vec3<f32>) -> f32 {
+fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
     let budget = frame.size.w / pixel_fineness(apparent, apparent);
-    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, placement.ids.x == 3u);
-    return select(0.0, past, axis_is_outside(query.height, placement.ids.x) && !is_thin(placement));
+    let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, instance.ids.x == 3u);
+    return select(0.0, past, axis_is_outside(query.height, instance.ids.x) && !is_thin(instance));
 }
 
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
@@ -43,7 +43,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     }
     // Left there by the stage that made the item.
     let item = work[bitcast<u32>(seen[index].surface.x)];
-    let placement = placement_at(item.piece.what.x);
+    let instance = instance_at(item.piece.what.x);
     let triangle = model_triangles[item.piece.what.y];
     let k = index - item.place.x;
     var corner: vec3<f32>;
@@ -60,9 +60,9 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
         corner = triangle_point(item, k);
     }
     fan_place = s;
-    var vertex = vertex_at(item, placement, triangle, corner, s);
+    var vertex = vertex_at(item, instance, triangle, corner, s);
     if item.piece.what.z == PIECE_FAN {
-        vertex.fan = vec4<f32>(texture_coordinates(placement, triangle, item.piece.corner_0.xyz), fan_place, vertex.fan.w);
+        vertex.fan = vec4<f32>(texture_coordinates(instance, triangle, item.piece.corner_0.xyz), fan_place, vertex.fan.w);
     }
     seen[index] = vertex;
 }
@@ -77,8 +77,8 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let place = work[index].place;
     let what = work[index].piece.what;
     let grid = work[index].grid;
-    let placement = placement_at(what.x);
-    let facing = facing_of(placement, model_triangles[what.y], placement.offset.xyz);
+    let instance = instance_at(what.x);
+    let facing = facing_of(instance, model_triangles[what.y], instance.offset.xyz);
     let seen_from = model_triangles[what.y].edges.w;
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
@@ -109,7 +109,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
         }
         let slot = place.y + 3u * k;
         // A place in the index buffer is held for every triangle: one that is thin, unseen or out of bounds leaves a point there.
-        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(placement, a, b, c) || emit_thin(a, b, c, placement, facing, seen_from) {
+        if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(instance, a, b, c) || emit_thin(a, b, c, instance, facing, seen_from) {
             b = a;
             c = a;
         }
@@ -201,8 +201,8 @@ fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
 }
 
 /// Texture coordinates of barycentric coordinates in a model triangle.
-fn texture_coordinates(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
-    let first = placement.vertices.x;
+fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
+    let first = instance.vertices.x;
     let v0 = model_vertices[first + triangle.vertices.x];
     let v1 = model_vertices[first + triangle.vertices.y];
     let v2 = model_vertices[first + triangle.vertices.z];
@@ -212,14 +212,14 @@ fn texture_coordinates(placement: Placement, triangle: ModelTriangle, corner: ve
 
 /// The seen vertex of a point of a model triangle (s = 1), or of one between a fan's axis and that point (s < 1). A corner of the model
 /// itself is taken from the first stage, to the last bit.
-fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
+fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
     if s == 1.0 && (point.x == 1.0 || point.y == 1.0 || point.z == 1.0) {
         let which = select(select(triangle.vertices.z, triangle.vertices.y, point.y == 1.0), triangle.vertices.x, point.x == 1.0);
-        return seen[placement.ids.z + which];
+        return seen[instance.ids.z + which];
     }
     // Inside a fan: the axis point and the outer point at their emission times, then the place between them. Elsewhere the point alone, and again if it
     // is put past the axis.
-    let body = body_point(placement, triangle, point);
+    let body = body_point(instance, triangle, point);
     var apex = 0.0;
     var apex_height = 0.0;
     var found: Answer;
@@ -227,17 +227,17 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
     for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
         var query = query_body(body);
         if k == 0u {
-            query = query_body(body_point(placement, triangle, item.piece.corner_0.xyz));
+            query = query_body(body_point(instance, triangle, item.piece.corner_0.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
-            let past = past_axis(placement, query, found.ray.apparent);
+            let past = past_axis(instance, query, found.ray.apparent);
             if query.across < past {
                 fan_place = select(s, -min(past / max(length(found.by_axis.xy), 1e-9), 0.5), s == 0.0);
                 query.across = -past;
             }
         }
-        let next = answer(placement, query, placement.ids.x);
+        let next = answer(instance, query, instance.ids.x);
         if k == 0u {
             apex = next.by_axis.z;
             apex_height = dot(next.position, frame.radial.xyz);
@@ -247,17 +247,17 @@ fn vertex_at(item: WorkItem, placement: Placement, triangle: ModelTriangle, poin
         if k == 1u && s == 1.0 {
             let height = dot(found.position, frame.radial.xyz);
             let here = Query(body, true, found.by_axis.z, length(found.by_axis.xy), height, vec3<f32>(0.0));
-            count = select(2u, 3u, found.ray.valid && here.across < past_axis(placement, here, found.ray.apparent));
+            count = select(2u, 3u, found.ray.valid && here.across < past_axis(instance, here, found.ray.apparent));
         }
     }
     let corner = mix(item.piece.corner_0.xyz, point, vec3<f32>(s));
-    let first = placement.vertices.x;
+    let first = instance.vertices.x;
     let v0 = model_vertices[first + triangle.vertices.x];
     let v1 = model_vertices[first + triangle.vertices.y];
     let v2 = model_vertices[first + triangle.vertices.z];
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
-    var vertex = seen_vertex(placement, item.piece.what.x, found, normal_of(placement, normal.xyz),
-        texture_coordinates(placement, triangle, point), v0.info.x + placement.triangles.z);
+    var vertex = seen_vertex(instance, item.piece.what.x, found, normal_of(instance, normal.xyz),
+        texture_coordinates(instance, triangle, point), v0.info.x + instance.triangles.z);
     if !found.ray.valid || !finite_vector(found.ray.apparent) {
         atomicAdd(&counters.caught, 1u);
         vertex.apparent = vec4<f32>(0.0, 0.0, 0.0, 0.0);

@@ -6,18 +6,18 @@ const DEEPEST: u32 = 24u;
 const BLOCK: u32 = 8u;
 
 /// The emitter's momentum and γ: the object's own, or for one that is held in place everywhere, that of what is held there.
-fn momentum_at(placement: Placement, position: vec3<f32>) -> vec4<f32> {
-    if (placement.triangles.w & PLACEMENT_HELD) == 0u {
-        return placement.momentum;
+fn momentum_at(instance: Instance, position: vec3<f32>) -> vec4<f32> {
+    if (instance.triangles.w & INSTANCE_HELD) == 0u {
+        return instance.momentum;
     }
     return held_momentum(position);
 }
 
-fn seen_vertex(placement: Placement, index: u32, found: Answer, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
+fn seen_vertex(instance: Instance, index: u32, found: Answer, normal: vec3<f32>, uv: vec2<f32>, material: u32) -> SeenVertex {
     let ray = found.ray;
     var vertex: SeenVertex;
     vertex.apparent = vec4<f32>(ray.apparent, ray.delay);
-    let momentum = momentum_at(placement, found.position);
+    let momentum = momentum_at(instance, found.position);
     vertex.normal = vec4<f32>(normal, frequency_ratio(ray.arriving, ray.leaving, momentum));
     vertex.leaving = vec4<f32>(leaving_direction(ray.leaving, momentum), length(found.position));
     vertex.surface = vec4<f32>(uv, bitcast<f32>(index), bitcast<f32>(material));
@@ -61,8 +61,8 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
 /// The most that an edge may turn about the axis, radians: one that turns farther is split, whatever its error. Of a triangle whose sides turn by less than a
 /// third of a circle the inside cannot reach across the ring; and where they turn much less, equal parts of them turn about equally. In thin and narrow images,
 /// most of which lies near the ring, they must do so the better.
-fn most_turn(placement: Placement) -> f32 {
-    return select(0.5, 0.25, (placement.triangles.w & (PLACEMENT_THIN | PLACEMENT_NARROW)) != 0u);
+fn most_turn(instance: Instance) -> f32 {
+    return select(0.5, 0.25, (instance.triangles.w & (INSTANCE_THIN | INSTANCE_NARROW)) != 0u);
 }
 
 /// By how much an edge between two places that are given by the axis turns about it, radians; 0 where the axis is a place as any other.
@@ -72,24 +72,24 @@ fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
 }
 
 /// Whether three places that are given by the axis are so near to it that f32 tells nothing of their azimuths. Between them there is nothing to see.
-fn is_lost(placement: Placement, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
-    return farthest < 8.0 * placement.axis.z && axis_matters(a.z, placement.ids.x);
+    return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
 }
 
 /// How far from the axis a vertex or an edge of a model counts as on it, in r_s: as far as rounding may have moved it, and so far that nobody sees the
 /// difference. It is the same for all triangles of the vertex or the edge, so what is drawn stays closed. A point beside the axis, moved so far, is turned about it
 /// and seen elsewhere on the ring: at a tenth of a pixel from the axis half a pixel at most, on a ring as wide as the screen. In a thin image areas count, and of
 /// its pixels the object may be a small part: there it is rounding alone.
-fn axis_core(placement: Placement, apparent: vec3<f32>) -> f32 {
+fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
     let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
-    return max(placement.axis.z, select(0.1 * pixel / frame.size.x, 0.0, is_thin(placement)));
+    return max(instance.axis.z, select(0.1 * pixel / frame.size.x, 0.0, is_thin(instance)));
 }
 
 /// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`: within a fiftieth of a pixel of the
 /// axis, where azimuths are lost in the rounding of f32, there is no more to see than that the ring is whole.
-fn most_segments(placement: Placement, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
-    let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, placement.ids.x);
+fn most_segments(instance: Instance, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
+    let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, instance.ids.x);
     return select(0xffffu, BLOCK, core);
 }
 
@@ -124,13 +124,13 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
 }
 
 /// How much closer all chords of an image are held than the budget says, told by how wide it is and how fine its model.
-fn strictness(placement: Placement) -> f32 {
-    return placement.axis.w;
+fn strictness(instance: Instance) -> f32 {
+    return instance.axis.w;
 }
 
 /// The same for images that are a few pixels wide and not thin: there every edge is near an outline and would bulge over it.
-fn slimness(placement: Placement) -> f32 {
-    return select(placement.axis.w, 1.0, is_thin(placement));
+fn slimness(instance: Instance) -> f32 {
+    return select(instance.axis.w, 1.0, is_thin(instance));
 }
 
 /// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
@@ -142,12 +142,12 @@ const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 const THIN_LIMB_STRICTNESS: f32 = 3.0;
 
 /// By how much closer outlines are held than other edges of the same image.
-fn limb_strictness(placement: Placement) -> f32 {
-    if is_thin(placement) {
+fn limb_strictness(instance: Instance) -> f32 {
+    if is_thin(instance) {
         return THIN_LIMB_STRICTNESS;
     }
-    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (placement.triangles.w & PLACEMENT_NARROW) != 0u);
-    return max(outline / slimness(placement), 1.0);
+    let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (instance.triangles.w & INSTANCE_NARROW) != 0u);
+    return max(outline / slimness(instance), 1.0);
 }
 
 /// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows
@@ -163,15 +163,15 @@ const LIMB_SINE: f32 = 0.15;
 /// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or so differently
 /// at its two ends. Normals of vertices, which are there for the light, do not tell that of a body with corners; nor do places on the screen, where
 /// an edge drawn out along the ring bends by more than its triangles are wide. `edge` has the two vertices and those opposite to it.
-fn on_limb(placement: Placement, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
-    let first = placement.vertices.x;
+fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
+    let first = instance.vertices.x;
     let corner = model_vertices[first + edge.x].position.xyz;
-    let along = shaped(placement, model_vertices[first + edge.y].position.xyz - corner);
-    let c = shaped(placement, model_vertices[first + edge.z].position.xyz - corner);
-    let d = shaped(placement, model_vertices[first + edge.w].position.xyz - corner);
+    let along = shaped(instance, model_vertices[first + edge.y].position.xyz - corner);
+    let c = shaped(instance, model_vertices[first + edge.z].position.xyz - corner);
+    let d = shaped(instance, model_vertices[first + edge.w].position.xyz - corner);
     // Of both triangles the normal on the same side of the surface.
-    let n = at_rest(placement, cross(along, c), offset);
-    let m = at_rest(placement, cross(d, along), offset);
+    let n = at_rest(instance, cross(along, c), offset);
+    let m = at_rest(instance, cross(d, along), offset);
     let sines = vec4<f32>(dot(n, leaving_a), dot(n, leaving_b), dot(m, leaving_a), dot(m, leaving_b));
     return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
 }
@@ -194,8 +194,8 @@ fn slant(a: vec3<f32>, b: vec3<f32>) -> f32 {
 
 /// The body point of barycentric coordinates in a model triangle. Products are fused with sums, said so and in this order: a driver that fuses as it
 /// likes makes other bits of an edge's point in one of its triangles than in the other.
-fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
-    let first = placement.vertices.x;
+fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
+    let first = instance.vertices.x;
     let a = model_vertices[first + triangle.vertices.x].position.xyz * corner.x;
     let b = fma(model_vertices[first + triangle.vertices.y].position.xyz, vec3<f32>(corner.y), a);
     return fma(model_vertices[first + triangle.vertices.z].position.xyz, vec3<f32>(corner.z), b);
@@ -203,18 +203,18 @@ fn body_point(placement: Placement, triangle: ModelTriangle, corner: vec3<f32>) 
 
 /// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
 /// zero where no side is outside, or both are drawn.
-fn outward_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
+fn outward_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    return plane_normal(placement, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(placement));
+    return plane_normal(instance, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(instance));
 }
 
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.
-fn plane_normal(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
-    let first = placement.vertices.x;
+fn plane_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
+    let first = instance.vertices.x;
     let corner = model_vertices[first + triangle.vertices.x].position.xyz;
-    let a = shaped(placement, model_vertices[first + triangle.vertices.y].position.xyz - corner);
-    let b = shaped(placement, model_vertices[first + triangle.vertices.z].position.xyz - corner);
-    return at_rest(placement, cross(a, b), offset);
+    let a = shaped(instance, model_vertices[first + triangle.vertices.y].position.xyz - corner);
+    let b = shaped(instance, model_vertices[first + triangle.vertices.z].position.xyz - corner);
+    return at_rest(instance, cross(a, b), offset);
 }
 
 /// The side of a model triangle by which it is told whether its image is turned over.
@@ -228,17 +228,17 @@ struct Facing {
 }
 
 /// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once shows what it left mirrored: even orders.
-fn facing_of(placement: Placement, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
+fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
-    let mirrored = select(1.0, -1.0, placement.ids.x == 2u);
-    let both = two_sided(placement);
-    return Facing(plane_normal(placement, triangle, offset) * sign, select(sign * mirrored, 0.0, both), triangle.vertices.w != SIDE_OPEN && !both);
+    let mirrored = select(1.0, -1.0, instance.ids.x == 2u);
+    let both = two_sided(instance);
+    return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both), triangle.vertices.w != SIDE_OPEN && !both);
 }
 
 /// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times
 /// longer there.
-fn at_rest(placement: Placement, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
-    let momentum = momentum_at(placement, frame.radial.xyz * frame.radial.w + offset);
+fn at_rest(instance: Instance, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
+    let momentum = momentum_at(instance, frame.radial.xyz * frame.radial.w + offset);
     let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
     return n / max(length(n), 1e-30);
 }

@@ -63,18 +63,18 @@ fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
 }
 
 /// A direction in body axes, in rain axes at T₀.
-fn normal_of(placement: Placement, normal: vec3<f32>) -> vec3<f32> {
-    return placement.turn_x.xyz * normal.x + placement.turn_y.xyz * normal.y + placement.turn_z.xyz * normal.z;
+fn normal_of(instance: Instance, normal: vec3<f32>) -> vec3<f32> {
+    return instance.turn_x.xyz * normal.x + instance.turn_y.xyz * normal.y + instance.turn_z.xyz * normal.z;
 }
 
 /// The inverse of `normal_of`.
-fn in_body_axes(placement: Placement, v: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(dot(placement.turn_x.xyz, v), dot(placement.turn_y.xyz, v), dot(placement.turn_z.xyz, v));
+fn in_body_axes(instance: Instance, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(instance.turn_x.xyz, v), dot(instance.turn_y.xyz, v), dot(instance.turn_z.xyz, v));
 }
 
 /// A body offset on the slice at T₀.
-fn shaped(placement: Placement, body: vec3<f32>) -> vec3<f32> {
-    return placement.shape_x.xyz * body.x + placement.shape_y.xyz * body.y + placement.shape_z.xyz * body.z;
+fn shaped(instance: Instance, body: vec3<f32>) -> vec3<f32> {
+    return instance.shape_x.xyz * body.x + instance.shape_y.xyz * body.y + instance.shape_z.xyz * body.z;
 }
 
 /// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
@@ -113,14 +113,14 @@ const NEVER: f32 = 3e38;
 /// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s for light of E > 0
 /// and decreases for E < 0, since no emitter outruns light, so there is one solution between what is too early and what is too late; Newton's steps
 /// are held in between. There is one call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
-fn answer(placement: Placement, query: Query, order: u32) -> Answer {
+fn answer(instance: Instance, query: Query, order: u32) -> Answer {
     var result: Answer;
-    var s = first_guess(placement, query.body);
+    var s = first_guess(instance, query.body);
     // Known to be too early, and too late.
     var early = -NEVER;
     var late = NEVER;
     var back = 0.0;
-    let moves = placement.velocity.w != 0.0;
+    let moves = instance.velocity.w != 0.0;
     let finest = least_pixel();
     let steps = select(0u, EMISSION_STEPS, moves);
     for (var i = 0u; i <= steps; i++) {
@@ -132,17 +132,17 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
             result.by_axis = vec3<f32>(dot(side, frame.side_a.xyz) * across, dot(side, frame.side_b.xyz) * across, along);
             result.position = frame.radial.xyz * height + side * across;
         } else {
-            let swing = swing_at(placement, query.body, s);
-            result.position = placement.position.xyz + swing;
-            let beside = placement.axis.xy + vec2<f32>(dot(swing, frame.side_a.xyz), dot(swing, frame.side_b.xyz));
-            along = dot(placement.offset.xyz + swing, frame.radial.xyz);
+            let swing = swing_at(instance, query.body, s);
+            result.position = instance.position.xyz + swing;
+            let beside = instance.axis.xy + vec2<f32>(dot(swing, frame.side_a.xyz), dot(swing, frame.side_b.xyz));
+            along = dot(instance.offset.xyz + swing, frame.radial.xyz);
             across = length(beside);
             height = dot(result.position, frame.radial.xyz);
             side = side_towards(beside);
             result.by_axis = vec3<f32>(beside, along);
         }
-        // What moves is seen by light of one age; what is held, by light of any: its placement says which is meant.
-        let elapsed = select(select(YOUNG, OLD, (placement.triangles.w & PLACEMENT_MINUS) != 0u), placement.offset.w - s, moves);
+        // What moves is seen by light of one age; what is held, by light of any: its instance says which is meant.
+        let elapsed = select(select(YOUNG, OLD, (instance.triangles.w & INSTANCE_MINUS) != 0u), instance.offset.w - s, moves);
         result.ray = sight(along, across, height, side, order, elapsed);
         if query.fixed || !moves {
             break;
@@ -150,18 +150,18 @@ fn answer(placement: Placement, query: Query, order: u32) -> Answer {
         if !result.ray.valid && i < steps {
             // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
             late = s;
-            back = min(select(2.0 * back, 2.0 * distance(result.position, placement.position.xyz), back == 0.0), FARTHEST_BACK);
+            back = min(select(2.0 * back, 2.0 * distance(result.position, instance.position.xyz), back == 0.0), FARTHEST_BACK);
             s = select(s - back, 0.5 * (early + s), early > -NEVER);
             // The last look is at a time that has a ray.
             s = select(s, early, i + 1u == steps && early > -NEVER);
             continue;
         }
         let missing = elapsed - result.ray.delay;
-        let velocity = velocity_at(placement, result.position);
+        let velocity = velocity_at(instance, result.position);
         let speed = length(velocity);
         // A time in which the image moves less than a fiftieth of a pixel need not be found. Round the axis it moves as the azimuth turns.
         let seen_from = min(result.ray.delay, across);
-        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, placement.axis.z) {
+        if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, instance.axis.z) {
             break;
         }
         // dΔ/dT along the worldline: the gradient of the light path at the point is minus the photon's momentum over its energy.

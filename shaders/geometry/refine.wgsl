@@ -9,13 +9,13 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         return;
     }
     let piece = pieces[queue * frame.capacity.z + index];
-    let placement = placement_at(piece.what.x);
+    let instance = instance_at(piece.what.x);
     let triangle = model_triangles[piece.what.y];
-    strict = strictness(placement);
-    limb_strict = limb_strictness(placement);
-    measure(piece, placement, triangle);
+    strict = strictness(instance);
+    limb_strict = limb_strictness(instance);
+    measure(piece, instance, triangle);
     for (var k = 0u; k < 3u; k++) {
-        let state = edge_states[placement.ids.w + triangle.edges[k]];
+        let state = edge_states[instance.ids.w + triangle.edges[k]];
         model_levels[k] = bitcast<u32>(state.x);
         limb[k] = (bitcast<u32>(state.y) & EDGE_LIMB) != 0u;
     }
@@ -23,9 +23,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         // The image ends somewhere in this piece: what is seen of its corners is drawn as it is.
         emit_work(piece, vec4<u32>(1u), 1u, 1u);
     } else if piece.what.z == PIECE_FAN {
-        refine_fan(piece, placement);
+        refine_fan(piece, instance);
     } else {
-        refine_triangle(piece, placement);
+        refine_triangle(piece, instance);
     }
     hand_over(1u - queue);
 }
@@ -38,7 +38,7 @@ var<private> rising: vec3<f32>;
 /// Whether one of them is not seen.
 var<private> unseen: bool;
 
-/// `strictness` of the placement, and that of its outlines.
+/// `strictness` of the instance, and that of its outlines.
 var<private> strict: f32;
 var<private> limb_strict: f32;
 /// Levels of the model triangle's edges, and whether they may be outlines, from the stage of edges.
@@ -55,7 +55,7 @@ struct Side {
     middle: vec3<f32>,
 }
 
-fn side_of(piece: Piece, side: u32, placement: Placement) -> Side {
+fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
     var i = (side + 1u) % 3u;
     var j = (side + 2u) % 3u;
@@ -73,13 +73,13 @@ fn side_of(piece: Piece, side: u32, placement: Placement) -> Side {
     let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
     let fineness = pixel_fineness(points[i], points[j]);
     let pixel = frame.size.z / fineness * length(points[i]);
-    let closer = ring_strictness(nearest, pixel, by_axis[i].z, placement.ids.x);
+    let closer = ring_strictness(nearest, pixel, by_axis[i].z, instance.ids.x);
     // Where light grazes a triangle its image folds inside it.
     let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
-    result.level = min(result.level, most_segments(placement, by_axis[i], by_axis[j], pixel));
-    result.turn = turn_about_axis(by_axis[i], by_axis[j], placement.ids.x);
-    if result.turn > most_turn(placement) {
+    result.level = min(result.level, most_segments(instance, by_axis[i], by_axis[j], pixel));
+    result.turn = turn_about_axis(by_axis[i], by_axis[j], instance.ids.x);
+    if result.turn > most_turn(instance) {
         result.error = MUST_SPLIT;
         result.level = max(result.level, BLOCK + 1u);
     }
@@ -102,18 +102,18 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: boo
 
 /// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
 /// at ¼, ½, ¾; then from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾, from 10 that at corner 2, from 14 the arc at ¼, ½, ¾.
-fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
+fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
     let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
     let fan = piece.what.z == PIECE_FAN;
     let count = select(12u, 17u, fan);
-    let normal = plane_normal(placement, triangle, placement.offset.xyz);
+    let normal = plane_normal(instance, triangle, instance.offset.xyz);
     for (var k = 0u; k < count; k++) {
         var corner = corners[min(k, 2u)];
         if k >= 3u && k < 12u {
             let side = select((k - 3u) / 3u, 0u, fan);
             corner = quarter_point(corners[(side + 1u) % 3u], corners[(side + 2u) % 3u], (k - 3u) % 3u + 1u);
         }
-        var query = query_body(body_point(placement, triangle, corner));
+        var query = query_body(body_point(instance, triangle, corner));
         if fan && k >= 6u {
             let apex = by_axis[0].z;
             if k < 10u {
@@ -124,11 +124,11 @@ fn measure(piece: Piece, placement: Placement, triangle: ModelTriangle) {
                 query = query_fan(apex, by_axis[3u + k - 14u], 0.0);
             }
         }
-        let found = answer(placement, query, placement.ids.x);
+        let found = answer(instance, query, instance.ids.x);
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
         if k < 3u {
-            rising[k] = dot(normal, leaving_direction(found.ray.leaving, momentum_at(placement, found.position)));
+            rising[k] = dot(normal, leaving_direction(found.ray.leaving, momentum_at(instance, found.position)));
         }
         if k < 12u {
             by_axis[k] = found.by_axis;
@@ -149,13 +149,13 @@ fn side_error(side: u32) -> f32 {
 
 /// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices. Not
 /// in thin images: a ring of theirs is broken where triangles are too narrow to be drawn.
-fn emit_leaf(piece: Piece, levels: vec3<u32>, placement: Placement) {
+fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
     let most = max(levels.x, max(levels.y, levels.z));
     // Turned so that the side with most segments is opposite the first corner.
     let turn = select(select(2u, 1u, levels.y == most), 0u, levels.x == most);
     let turned = vec3<u32>(levels[turn], levels[(turn + 1u) % 3u], levels[(turn + 2u) % 3u]);
     let columns = max(turned.x, turned.y + turned.z);
-    if most < 4u || columns > most + 2u || is_thin(placement) || !is_narrow(turn, turned, placement.ids.x) {
+    if most < 4u || columns > most + 2u || is_thin(instance) || !is_narrow(turn, turned, instance.ids.x) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
@@ -236,16 +236,16 @@ fn met(piece: Piece, order: u32) -> vec3<f32> {
     return result;
 }
 
-fn refine_triangle(piece: Piece, placement: Placement) {
+fn refine_triangle(piece: Piece, instance: Instance) {
     let c0 = piece.corner_0.xyz;
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
     let depth = piece.what.w;
-    if is_lost(placement, by_axis[0], by_axis[1], by_axis[2]) {
+    if is_lost(instance, by_axis[0], by_axis[1], by_axis[2]) {
         return;
     }
     // What moves is not flat when it is seen: the axis may meet a part of a triangle whose corners it passes by.
-    let at = met(piece, placement.ids.x);
+    let at = met(piece, instance.ids.x);
     if at.x >= 0.0 {
         if depth >= DEEPEST {
             atomicAdd(&counters.coarse, 1u);
@@ -260,7 +260,7 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     }
     var sides: array<Side, 3>;
     for (var k = 0u; k < 3u; k++) {
-        sides[k] = side_of(piece, k, placement);
+        sides[k] = side_of(piece, k, instance);
     }
     if off_screen(points[0], points[1], points[2], max(sides[0].error, max(sides[1].error, sides[2].error))) {
         return;
@@ -272,12 +272,12 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     let longest = max(lengths.x, max(lengths.y, lengths.z));
     let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
     let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
-    let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(placement);
+    let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(instance);
     if most <= BLOCK || depth >= DEEPEST || sliver {
         if most > BLOCK && !sliver {
             atomicAdd(&counters.coarse, 1u);
         }
-        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), placement);
+        emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), instance);
         return;
     }
     var split_0 = levels.x > BLOCK;
@@ -314,10 +314,10 @@ fn refine_triangle(piece: Piece, placement: Placement) {
     }
 }
 
-fn refine_fan(piece: Piece, placement: Placement) {
+fn refine_fan(piece: Piece, instance: Instance) {
     let c1 = piece.corner_1.xyz;
     let c2 = piece.corner_2.xyz;
-    let side = side_of(piece, 0u, placement);
+    let side = side_of(piece, 0u, instance);
     let outer = side.level;
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {

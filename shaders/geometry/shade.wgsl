@@ -1,7 +1,7 @@
 // What a surface sends to the camera.
 
-/// Placements, as geometry/placement.wgsl reads them.
-@group(2) @binding(0) var placements: texture_2d<u32>;
+/// Instances, as geometry/instance.wgsl reads them.
+@group(2) @binding(0) var instances: texture_2d<u32>;
 @group(2) @binding(1) var<storage, read> seen: array<SeenVertex>;
 @group(2) @binding(2) var<storage, read> materials: array<Material>;
 @group(2) @binding(3) var surface_textures: texture_2d_array<f32>;
@@ -24,7 +24,7 @@ struct Surface {
     @location(4) fan: vec3<f32>,
     /// Object id and image order; z: texture layer + 1.
     @location(5) @interpolate(flat) which: vec3<u32>,
-    // What the placement and the material say, read once a vertex: software drivers pay for each word that each pixel reads from a buffer.
+    // What the instance and the material say, read once a vertex: software drivers pay for each word that each pixel reads from a buffer.
     @location(6) @interpolate(flat) light_red: vec4<f32>,
     @location(7) @interpolate(flat) light_green: vec4<f32>,
     @location(8) @interpolate(flat) light_blue: vec4<f32>,
@@ -37,26 +37,26 @@ struct Surface {
 }
 
 fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> Surface {
-    let placement = placement_at(bitcast<u32>(vertex.surface.z));
+    let instance = instance_at(bitcast<u32>(vertex.surface.z));
     let material = bitcast<u32>(vertex.surface.w);
-    let ids = placement.ids;
+    let ids = instance.ids;
     let kind = materials[material].surface;
-    let filled = fill(placement);
+    let filled = fill(instance);
     // Only nozzles (w of `kind`) burn with the engines.
-    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * placement.position.w), 1.0);
+    let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.position.w), 1.0);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
-        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), placement.light_red * filled, placement.light_green * filled,
-        placement.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
-        ground_place(placement, vertex.normal.xyz));
+        vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
+        instance.light_blue * filled, vec4<f32>(materials[material].base.rgb, kind.x), materials[material].emissive * glow,
+        ground_place(instance, vertex.normal.xyz));
 }
 
 /// By how much the light on the player's own ship is more or less than what falls on it: so that middle grey, as it was exposed in the frame before, is neither
 /// too dark nor too light. Elsewhere 1. The exposure moves smoothly, and so does this.
-fn fill(placement: Placement) -> f32 {
-    if (placement.triangles.w & PLACEMENT_OWN) == 0u || frame.fill.w == 0.0 {
+fn fill(instance: Instance) -> f32 {
+    if (instance.triangles.w & INSTANCE_OWN) == 0u || frame.fill.w == 0.0 {
         return 1.0;
     }
-    let light = luminance(vec3<f32>(placement.light_red.w, placement.light_green.w, placement.light_blue.w));
+    let light = luminance(vec3<f32>(instance.light_red.w, instance.light_green.w, instance.light_blue.w));
     let grey = max(MIDDLE_GREY * light * frame.fill.z * frame.light.x, 1e-9);
     return clamp(grey, frame.fill.x, frame.fill.y) / grey;
 }

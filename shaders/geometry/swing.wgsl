@@ -5,42 +5,42 @@ const FARTHEST_TURN: f32 = 2.0;
 
 /// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
 /// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/instances/swing.rs.
-fn swing_at(placement: Placement, body: vec3<f32>, s: f32) -> vec3<f32> {
-    let scale = placement.velocity.w;
+fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> vec3<f32> {
+    let scale = instance.velocity.w;
     if scale == 0.0 {
-        return shaped(placement, body);
+        return shaped(instance, body);
     }
-    let jolted = max(s - placement.jolt.w, 0.0) - max(-placement.jolt.w, 0.0);
-    let turn = (placement.spin.xyz + placement.spin_rate.xyz * (0.5 * s)) * s + placement.jolt.xyz * jolted;
+    let jolted = max(s - instance.jolt.w, 0.0) - max(-instance.jolt.w, 0.0);
+    let turn = (instance.spin.xyz + instance.spin_rate.xyz * (0.5 * s)) * s + instance.jolt.xyz * jolted;
     let turned = turn * (FARTHEST_TURN / max(length(turn), FARTHEST_TURN));
     let q = dot(turned, turned);
-    let straight = normal_of(placement, body) * scale;
+    let straight = normal_of(instance, body) * scale;
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = cross(turned, straight);
     let rest = straight + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + cross(turned, once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = vec3<f32>(placement.spin.w, placement.spin_rate.w, placement.force.w) + placement.force.xyz * s;
+    let p = vec3<f32>(instance.spin.w, instance.spin_rate.w, instance.force.w) + instance.force.xyz * s;
     let gamma = sqrt(1.0 + dot(p, p));
     let contracted = rest - p * (dot(p, rest) / (gamma * (1.0 + gamma)));
-    let acceleration = vec3<f32>(placement.shape_x.w, placement.shape_y.w, placement.shape_z.w);
-    let jerk = vec3<f32>(placement.turn_x.w, placement.turn_y.w, placement.turn_z.w);
-    return contracted + (placement.velocity.xyz + (acceleration + (jerk + placement.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
+    let acceleration = vec3<f32>(instance.shape_x.w, instance.shape_y.w, instance.shape_z.w);
+    let jerk = vec3<f32>(instance.turn_x.w, instance.turn_y.w, instance.turn_z.w);
+    return contracted + (instance.velocity.xyz + (acceleration + (jerk + instance.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
 }
 
 /// Where the search for the emission time of a point begins, after T₀: it is hardly any other than the centre's.
-fn first_guess(placement: Placement, body: vec3<f32>) -> f32 {
+fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
     return 0.0;
 }
 
 /// dx/dT of what is at `position`: the centre's, for a body turns slowly.
-fn velocity_at(placement: Placement, position: vec3<f32>) -> vec3<f32> {
-    return placement.velocity.xyz;
+fn velocity_at(instance: Instance, position: vec3<f32>) -> vec3<f32> {
+    return instance.velocity.xyz;
 }
 
 /// Whether an edge inside the surface may be an outline of its image.
 const MAY_FOLD: bool = true;
 
 /// Whether the surface ends at an edge of the model, which is `alone` and runs from `a` to `b`.
-fn is_rim(placement: Placement, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
+fn is_rim(instance: Instance, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     return alone;
 }
 

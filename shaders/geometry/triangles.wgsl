@@ -5,38 +5,38 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
     let chunk = chunks[index];
-    if chunk.placement == NO_PLACEMENT {
+    if chunk.instance == NO_INSTANCE {
         return;
     }
-    if chunk.first + lane < placement_at(chunk.placement).triangles.y {
+    if chunk.first + lane < instance_at(chunk.instance).triangles.y {
         decide(chunk, lane);
         hand_over(0u);
     }
 }
 
 fn decide(chunk: Chunk, lane: u32) {
-    let placement = placement_at(chunk.placement);
-    let number = placement.triangles.x + chunk.first + lane;
+    let instance = instance_at(chunk.instance);
+    let number = instance.triangles.x + chunk.first + lane;
     let triangle = model_triangles[number];
-    let order = placement.ids.x;
-    let base = placement.ids.z;
+    let order = instance.ids.x;
+    let base = instance.ids.z;
     let slots = vec3<u32>(base) + triangle.vertices.xyz;
     let o0 = emitted[slots.x];
     let o1 = emitted[slots.y];
     let o2 = emitted[slots.z];
-    let e0 = edge_states[placement.ids.w + triangle.edges.x];
-    let e1 = edge_states[placement.ids.w + triangle.edges.y];
-    let e2 = edge_states[placement.ids.w + triangle.edges.z];
+    let e0 = edge_states[instance.ids.w + triangle.edges.x];
+    let e1 = edge_states[instance.ids.w + triangle.edges.y];
+    let e2 = edge_states[instance.ids.w + triangle.edges.z];
     if o0.w == VERTEX_UNSEEN || o1.w == VERTEX_UNSEEN || o2.w == VERTEX_UNSEEN {
         return;
     }
     if METHOD_FILTERS {
         if area_ratio(slots, offset_of(o0.xyz), offset_of(o1.xyz), offset_of(o2.xyz)) <= LARGEST_AREA_RATIO {
-            emit_whole(chunk.placement, number);
+            emit_whole(chunk.instance, number);
         }
         return;
     }
-    if turned_away(placement, triangle, slots, offset_of(o0.xyz)) {
+    if turned_away(instance, triangle, slots, offset_of(o0.xyz)) {
         return;
     }
     let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
@@ -62,7 +62,7 @@ fn decide(chunk: Chunk, lane: u32) {
         apex = select(apex, vec3<f32>(0.0, 1.0 - e0.z, e0.z), cuts.x);
         fans = !cuts;
     } else {
-        if is_lost(placement, o0.xyz, o1.xyz, o2.xyz) {
+        if is_lost(instance, o0.xyz, o1.xyz, o2.xyz) {
             return;
         }
         let at = meets_axis(o0.xyz, o1.xyz, o2.xyz, order);
@@ -73,9 +73,9 @@ fn decide(chunk: Chunk, lane: u32) {
     }
     if any(fans) {
         atomicAdd(&counters.cut, 1u);
-        if fans.x { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_1, corner_2); }
-        if fans.y { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_2, corner_0); }
-        if fans.z { emit_piece(chunk.placement, number, PIECE_FAN, 0u, apex, corner_0, corner_1); }
+        if fans.x { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_1, corner_2); }
+        if fans.y { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_2, corner_0); }
+        if fans.z { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_0, corner_1); }
         return;
     }
 
@@ -88,15 +88,15 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     if most <= 1u {
-        emit_whole(chunk.placement, number);
+        emit_whole(chunk.instance, number);
         return;
     }
     if most <= BLOCK {
-        let piece = Piece(vec4<u32>(chunk.placement, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
+        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
-    emit_piece(chunk.placement, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+    emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
 }
 
 /// How far behind its plane, as a sine, light must leave a triangle to be held back by the body. Between the corners light leaves within about the
@@ -106,11 +106,11 @@ const TURNED_AWAY: f32 = 0.05;
 const LEAST_RADIUS_TURNED: f32 = 1.05;
 
 /// Whether all light that a triangle of a lone closed body sends to the camera leaves on its inner side, so that the body itself hides it.
-fn turned_away(placement: Placement, triangle: ModelTriangle, slots: vec3<u32>, offset: vec3<f32>) -> bool {
+fn turned_away(instance: Instance, triangle: ModelTriangle, slots: vec3<u32>, offset: vec3<f32>) -> bool {
     let l0 = seen[slots.x].leaving;
     let l1 = seen[slots.y].leaving;
     let l2 = seen[slots.z].leaving;
-    let n = outward_normal(placement, triangle, offset);
+    let n = outward_normal(instance, triangle, offset);
     let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
     let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
     return (triangle.vertices.w & SIDE_LONE) != 0u && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED

@@ -4,25 +4,25 @@
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
     let chunk = chunks[index];
-    if chunk.placement == NO_PLACEMENT {
+    if chunk.instance == NO_INSTANCE {
         return;
     }
-    let placement = placement_at(chunk.placement);
+    let instance = instance_at(chunk.instance);
     let local = chunk.first + lane;
-    if local >= placement.vertices.y {
+    if local >= instance.vertices.y {
         return;
     }
-    let vertex = model_vertices[placement.vertices.x + local];
-    let order = placement.ids.x;
-    let slot = placement.ids.z + local;
-    let found = answer(placement, query_body(vertex.position.xyz), order);
-    let on_axis = length(found.by_axis.xy) < axis_core(placement, found.ray.apparent) && axis_matters(found.by_axis.z, order);
+    let vertex = model_vertices[instance.vertices.x + local];
+    let order = instance.ids.x;
+    let slot = instance.ids.z + local;
+    let found = answer(instance, query_body(vertex.position.xyz), order);
+    let on_axis = length(found.by_axis.xy) < axis_core(instance, found.ray.apparent) && axis_matters(found.by_axis.z, order);
     let ray = found.ray;
     let ok = ray.valid && finite_vector(ray.apparent);
     if !finite_vector(found.by_axis) || (ray.valid && !ok) {
         atomicAdd(&counters.caught, 1u);
     }
-    seen[slot] = seen_vertex(placement, chunk.placement, found, normal_of(placement, vertex.normal.xyz),
-        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + placement.triangles.z);
+    seen[slot] = seen_vertex(instance, chunk.instance, found, normal_of(instance, vertex.normal.xyz),
+        vec2<f32>(vertex.position.w, vertex.normal.w), vertex.info.x + instance.triangles.z);
     emitted[slot] = vec4<f32>(found.by_axis, select(VERTEX_UNSEEN, select(VERTEX_PLAIN, VERTEX_ON_AXIS, on_axis), ok));
 }

@@ -9,6 +9,6 @@ fn tilt(u: f32, y: f32) -> f32 {
 
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
-    let at = place(cam, along, across, height);
+    let at = source_point(cam, along, across, height);
     return closed_ray(cam, at, order);
 }

@@ -5,8 +5,8 @@ const METHOD_FILTERS: bool = false;
 
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
-    let at = place(cam, along, across, height);
-    if SEES_INSIDE && at.room <= 0.0 {
+    let at = source_point(cam, along, across, height);
+    if SEES_INSIDE && at.lapse2 <= 0.0 {
         return lookup(cam, at, swept(at, order), elapsed);
     }
     return exact_ray(cam, at, swept(at, order));

@@ -19,8 +19,8 @@ fn paper_cell(mesh: vec4<f32>, x: f32, n: f32) -> vec2<f32> {
 
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
-    let at = place(cam, along, across, height);
-    if !(finite(at.r) && finite(at.dr) && at.room > 0.0 && cam.room > 0.0 && order <= 2u) {
+    let at = source_point(cam, along, across, height);
+    if !(finite(at.r) && finite(at.dr) && at.lapse2 > 0.0 && cam.lapse2 > 0.0 && order <= 2u) {
         return no_ray();
     }
     let inner = at.dr <= 0.0;

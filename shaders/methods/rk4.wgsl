@@ -5,6 +5,6 @@ const METHOD_FILTERS: bool = false;
 
 fn method_ray(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     let cam = lens_camera();
-    let at = place(cam, along, across, height);
+    let at = source_point(cam, along, across, height);
     return integrated_ray(cam, at, swept(at, order));
 }

@@ -7,11 +7,11 @@ use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::probe::{Point, Probe};
-use crate::judge::picture::develop::{Development, develop};
+use crate::judge::picture::post_process::{PostProcess, post_process};
 use crate::judge::picture::shade::Shift;
 use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Sway, Thing, World, Worldline, picture};
-use crate::judge::trace::Camera;
+use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::scene::disk::Gas;
 use crate::scene::planet::{AuroraShape, Planet};
@@ -26,7 +26,7 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-12;
 
 /// What to trace.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct TraceRequest {
     /// A scene's name or file.
     pub scene: String,
     /// Width and height in pixels.
@@ -71,7 +71,7 @@ pub enum TraceError {
     Input(String),
     /// The camera sees nothing then: exit code 2.
     #[error(transparent)]
-    Camera(#[from] CameraEnded),
+    PixelCamera(#[from] CameraEnded),
     /// The picture takes longer than it may: exit code 1.
     #[error(transparent)]
     OverTime(#[from] OverTime),
@@ -96,13 +96,13 @@ impl TraceError {
             TraceError::Scene(_)
                 | TraceError::Config(_)
                 | TraceError::Input(_)
-                | TraceError::Camera(_)
+                | TraceError::PixelCamera(_)
                 | TraceError::File(PictureFileError::Format(_))
         )
     }
 }
 
-impl Request {
+impl TraceRequest {
     /// Checks the numbers; gives the samples along each side of a pixel.
     pub fn check(&self) -> Result<u32, TraceError> {
         let input = |text: String| Err(TraceError::Input(text));
@@ -182,7 +182,7 @@ pub struct Case {
     /// The ships' worldlines, in scene order.
     pub histories: Vec<History>,
     /// The camera.
-    pub camera: Camera,
+    pub camera: PixelCamera,
     ended: Result<(), CameraEnded>,
 }
 
@@ -198,7 +198,7 @@ impl Case {
         let time = moment.time();
         let view = scene.camera.viewpoint(time, &moment.ships());
         let ended = scene.camera.check(time, &moment.ships());
-        let camera = Camera { observer: view, size };
+        let camera = PixelCamera { observer: view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
         for history in &mut histories {
             // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest light
@@ -341,10 +341,10 @@ impl Case {
         Asked { case: self, world: self.world(&ships), gas, tolerance }
     }
 
-    /// How the game develops its pictures.
-    pub fn development(&self) -> Development {
+    /// How the game makes a picture of light.
+    pub fn post_process(&self) -> PostProcess {
         let render = &self.config.render;
-        Development {
+        PostProcess {
             bloom: render.bloom as f32,
             key: self.scene.disk(&self.config).map_or(render.exposure_key, |disk| disk.exposure_key) as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
@@ -395,7 +395,7 @@ impl Probe for Asked<'_> {
 }
 
 /// Traces the picture into a file, with a progress bar; gives the rays per second and thread.
-pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, layers: bool) -> Result<f64, TraceError> {
+pub fn trace_to_file(request: &TraceRequest, config: Option<&Path>, output: &Path, layers: bool) -> Result<f64, TraceError> {
     let side = request.check()?;
     let ending = output.extension().and_then(|extension| extension.to_str());
     // A wrong name is said before the work.
@@ -403,7 +403,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
         return Err(PictureFileError::Format(output.to_path_buf()).into());
     }
     if layers && ending == Some("png") {
-        return Err(TraceError::Input("--layers needs an .exr: a PNG holds the developed picture alone".into()));
+        return Err(TraceError::Input("--layers needs an .exr: a PNG holds the finished picture alone".into()));
     }
     let config = scene::config::find(config)?;
     let scene = scene::load(&request.scene)?;
@@ -440,7 +440,7 @@ pub fn trace_to_file(request: &Request, config: Option<&Path>, output: &Path, la
     let rate = f64::from(width) * f64::from(height) * f64::from(request.samples)
         / (started.elapsed().as_secs_f64() * threads.current_num_threads() as f64);
     if ending == Some("png") {
-        write_png(output, &develop(&picture.light, picture.size, &case.development()), picture.size)?;
+        write_png(output, &post_process(&picture.light, picture.size, &case.post_process()), picture.size)?;
     } else {
         write_exr(output, picture.size, &channels(&picture, layers))?;
     }

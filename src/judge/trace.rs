@@ -10,14 +10,14 @@ use crate::spacetime::observer::Observer;
 
 /// A picture of so many pixels that an observer sees.
 #[derive(Clone, Copy, Debug)]
-pub struct Camera {
+pub struct PixelCamera {
     /// Who looks.
     pub observer: Observer,
     /// Width and height in pixels.
     pub size: [u32; 2],
 }
 
-impl Camera {
+impl PixelCamera {
     /// The direction, in the rain frame, of the light seen at (x, y) in pixels from the upper left corner, and how much bluer than
     /// for a rain observer it is seen: ν_camera/ν_rain.
     pub fn look(&self, x: f64, y: f64) -> (DVec3, f64) {

@@ -2,7 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::double::{Camera, bent_sweep, delay_across, delay_along, delay_factor, emission_scale, lens_equation, light_cones, slope_guess};
+use super::double::{
+    LensCamera, bent_sweep, delay_across, delay_along, delay_factor, emission_scale, lens_equation, light_cones, slope_guess,
+};
 use super::elementary::double::stumpff;
 use super::table::{Scheme, Table};
 use super::{grid, spline};
@@ -13,17 +15,17 @@ const SMALLEST_BAKED_SWEEP: f64 = 1e-4;
 
 /// The residuals at one place: the tangent of half the turn of the camera's slope, that of the delay, the same of the point's slope.
 /// None where no ray joins the two.
-pub fn residual(cam: &Camera, c: f64, sweep: f64) -> Option<[f64; 3]> {
+pub fn residual(cam: &LensCamera, c: f64, sweep: f64) -> Option<[f64; 3]> {
     let bent = bent_sweep(sweep);
     let (w0, w_e0) = slope_guess(cam, c - cam.a, bent);
     let ray = join_near(c, sweep, cam.a, Branch::Plus, Some(w0))?;
     let time = delay(&ray, c, sweep, cam.a);
     let Ray { slope: w, emission_slope: w_e, energy: e } = ray;
-    let (r, room, dr) = (1.0 / c, 1.0 - c, 1.0 / c - cam.l);
+    let (r, lapse2, dr) = (1.0 / c, 1.0 - c, 1.0 / c - cam.l);
     let lens = lens_equation(cam, c, bent, stumpff(0.25 * bent * bent));
-    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
+    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.lapse2, lapse2));
     let rest = time - delay_along(cam, r, c, dr, cones);
-    let across = delay_across(cam, r, c, room, dr, lens, ((r * cam.a).ln(), (0.5 * lens[1]).ln()));
+    let across = delay_across(cam, r, c, lapse2, dr, lens, ((r * cam.a).ln(), (0.5 * lens[1]).ln()));
     let turn = |u: f64, from: f64, to: f64| (0.5 * (u.atan2(-to) - u.atan2(-from))).tan();
     Some([turn(cam.a, w0, w), rest / delay_factor(cam, c, lens[0], e) - across, turn(emission_scale(cam, c), w_e0, w_e)])
 }
@@ -62,7 +64,7 @@ pub fn residual_table(nodes: usize, done: impl Fn(f64) + Sync) -> Table {
 }
 
 /// The coefficients, (nx + 2) × (ny + 2), of the residuals seen by one camera.
-pub(super) fn layer(cam: &Camera, nx: usize, ny: usize, mx: &[f64], my: &[f64]) -> Vec<[f64; 3]> {
+pub(super) fn layer(cam: &LensCamera, nx: usize, ny: usize, mx: &[f64], my: &[f64]) -> Vec<[f64; 3]> {
     let mut samples = vec![[0.0; 3]; nx * ny];
     for ix in 0..nx {
         let c = grid::point(cam, ix as f64 / (nx - 1) as f64);

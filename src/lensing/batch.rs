@@ -3,8 +3,8 @@
 
 use wide::f32x8;
 
-use super::lookup::{LEAST_ROOM, LensRay, YOUNG, lens_lookup_aged};
-use super::single::{BEND_RANGE, BEND_START, Camera, HALF_TURN, SMALLEST_SWEEP, SWEEP_LENGTH};
+use super::lookup::{LEAST_LAPSE2, LensRay, YOUNG, lens_lookup_aged};
+use super::single::{BEND_RANGE, BEND_START, HALF_TURN, LensCamera, SMALLEST_SWEEP, SWEEP_LENGTH};
 use super::slice::{HEADER, Slice};
 
 /// Points in a batch.
@@ -94,7 +94,7 @@ fn angle(sine: f32x8, cosine: f32x8) -> f32x8 {
 }
 
 /// r, 1 − 1/r, r − L, φ.
-pub(crate) fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
+pub(crate) fn source_point(cam: &LensCamera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
     let l = all(cam.l);
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
@@ -102,7 +102,7 @@ pub(crate) fn place(cam: &Camera, along: f32x8, across: f32x8, height: f32x8) ->
     let phi = angle(across * inverse, height * inverse);
     let near = square.simd_lt(all(0.25 * cam.l * cam.l));
     let offset = (all(2.0) * l * along + square) / (r + l);
-    let height = near.select(all(cam.room * cam.l) + offset, r - all(1.0));
+    let height = near.select(all(cam.lapse2 * cam.l) + offset, r - all(1.0));
     [r, height * inverse, near.select(offset, r - l), phi]
 }
 
@@ -116,7 +116,7 @@ fn bent_sweep(sweep: f32x8) -> f32x8 {
     sweep - off + off / (all(1.0) + x2 * x2)
 }
 
-fn basis(cam: &Camera, sweep: f32x8) -> [f32x8; 2] {
+fn basis(cam: &LensCamera, sweep: f32x8) -> [f32x8; 2] {
     let x = all(cam.rate) * sweep;
     let y = all(cam.bend) * sweep * sweep;
     let one = all(1.0);
@@ -137,7 +137,7 @@ fn basis(cam: &Camera, sweep: f32x8) -> [f32x8; 2] {
     [small.select(small_s, s), small.select(small_k, k)]
 }
 
-fn slopes(cam: &Camera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
+fn slopes(cam: &LensCamera, rise: f32x8, bent: f32x8) -> [f32x8; 2] {
     let [s, k] = basis(cam, bent);
     let m = all(cam.fade) / (all(1.0) + all(cam.a) * all(cam.a) * k * k);
     let am = all(cam.a) * m;
@@ -163,9 +163,9 @@ fn turned_slope(guess: f32x8, u: f32x8, turn: f32x8) -> f32x8 {
     u * (guess * ct + u * st) / sine
 }
 
-fn joined(w: f32x8, w_e: f32x8, cam: &Camera, c: f32x8, room: f32x8) -> [f32x8; 3] {
-    let (here, there) = (all(cam.a * cam.a * cam.room), c * c * room);
-    if cam.room <= 0.0 {
+fn joined(w: f32x8, w_e: f32x8, cam: &LensCamera, c: f32x8, lapse2: f32x8) -> [f32x8; 3] {
+    let (here, there) = (all(cam.a * cam.a * cam.lapse2), c * c * lapse2);
+    if cam.lapse2 <= 0.0 {
         let square = most(w_e * w_e + there, 0.0);
         return [-(square - here).sqrt(), square.sqrt(), w_e];
     }
@@ -177,16 +177,16 @@ fn joined(w: f32x8, w_e: f32x8, cam: &Camera, c: f32x8, room: f32x8) -> [f32x8; 
 }
 
 /// Frequency plus outward momentum, and frequency less it.
-fn light_cone(w: f32x8, e: f32x8, u: f32x8, beta: f32x8, room: f32x8) -> [f32x8; 2] {
+fn light_cone(w: f32x8, e: f32x8, u: f32x8, beta: f32x8, lapse2: f32x8) -> [f32x8; 2] {
     let rising = w.simd_gt(all(0.0));
     let square = u * u;
     let over = rising.select(e + w, square) * (all(1.0) + beta);
-    let under = rising.select(room, e - w);
+    let under = rising.select(lapse2, e - w);
     [over / under, square * under / over]
 }
 
 /// (K, h, q): see `formulas`.
-fn lens_equation(cam: &Camera, c: f32x8, bent: f32x8) -> [f32x8; 3] {
+fn lens_equation(cam: &LensCamera, c: f32x8, bent: f32x8) -> [f32x8; 3] {
     let (sine, cosine) = (all(0.5) * bent).sin_cos();
     let square = all(4.0) * sine * sine;
     let k = all(0.5) * square;
@@ -239,7 +239,7 @@ fn spline_weights(t: f32x8) -> [f32x8; 4] {
 pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES], height: [f32; LANES], order: u32) -> LensRays {
     let cam = &slice.camera;
     let sides = [along, across, height];
-    let [r, room, dr, phi] = place(cam, along.into(), across.into(), height.into());
+    let [r, lapse2, dr, phi] = source_point(cam, along.into(), across.into(), height.into());
     let sweep = match order {
         2 => all(2.0 * HALF_TURN) - phi,
         3 => all(2.0 * HALF_TURN) + phi,
@@ -247,7 +247,7 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     };
     let swept = most(sweep, SMALLEST_SWEEP);
     let (l, c) = (all(cam.l), all(1.0) / r);
-    let open = most(room, LEAST_ROOM);
+    let open = most(lapse2, LEAST_LAPSE2);
     let bent = bent_sweep(swept);
     let guess = slopes(cam, -dr * c * all(cam.a), bent);
     let [k, h, q] = lens_equation(cam, c, bent);
@@ -258,11 +258,11 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     let scale = c + all(cam.reach);
     let [w, e, w_e] = joined(turned_slope(guess[0], all(cam.a), table[0]), turned_slope(guess[1], scale, table[2]), cam, c, open);
     let root_c = c.sqrt();
-    let [seen, seen_less] = light_cone(w, e, all(cam.a), all(cam.beta), all(cam.room));
+    let [seen, seen_less] = light_cone(w, e, all(cam.a), all(cam.beta), all(cam.lapse2));
     let [emitted, emitted_less] = light_cone(w_e, e, c, root_c, open);
     let log = log1p(dr * all(cam.a));
     let mean = all(1.0) + dr.abs().simd_gt(all(1e-6 * cam.l)).select(all(3.0) * log / dr, all(3.0 * cam.a));
-    let both = open + all(cam.even) * (all(cam.room) - open) + k * c * c * all(cam.share - 1.5 * cam.share * cam.even);
+    let both = open + all(cam.even) * (all(cam.lapse2) - open) + k * c * c * all(cam.share - 1.5 * cam.share * cam.even);
     let across = (all(1.0) + all(1.5) * (all(cam.a) + c)) * both * r * l * q;
     let near_hole = c + all(0.01);
     let c4 = near_hole * near_hole * near_hole * near_hole;
@@ -287,7 +287,7 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
     };
     // What is not a plain point outside (inside, NaN, infinite, overflowing) is answered by the scalar lookup.
     let sum = frequency + emission_frequency + w.abs() + w_e.abs() + delay.abs() + r + f32x8::from(sides[0]).abs();
-    let plain = room.simd_gt(all(0.0)) & sum.simd_lt(all(3e38));
+    let plain = lapse2.simd_gt(all(0.0)) & sum.simd_lt(all(3e38));
     let plain = plain.to_bitmask();
     if plain != (1 << LANES) - 1 {
         for i in (0..LANES).filter(|i| plain >> i & 1 == 0) {

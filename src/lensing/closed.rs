@@ -5,8 +5,8 @@
 //! angle it still sweeps on its way to infinity; the impact parameter is the same at both ends. Sources: `lensing::methods`.
 
 use super::lookup::{LensRay, NOTHING, finite, ray_of};
-use super::place::Place;
-use super::single::{Camera, HALF_TURN, energy};
+use super::single::{HALF_TURN, LensCamera, energy};
+use super::source_point::SourcePoint;
 
 /// X of Beloborodov 2002, eq. 1.
 pub fn tilt_beloborodov(u: f32, y: f32) -> f32 {
@@ -21,22 +21,22 @@ pub fn tilt_poutanen(u: f32, y: f32) -> f32 {
 }
 
 /// The ray of what a static camera sees at `psi` with `delay`.
-pub fn static_ray(cam: &Camera, at: Place, order: u32, psi: f32, delay: f32) -> LensRay {
+pub fn static_ray(cam: &LensCamera, at: SourcePoint, order: u32, psi: f32, delay: f32) -> LensRay {
     // From the static angle the rest follows; on which side of a turning point the light left, as straight light would.
     let c = 1.0 / at.r;
-    let room = at.room.max(1e-4);
-    let w = -cam.a * cam.room.sqrt() * psi.cos() / psi.sin().max(1e-7);
-    let e = energy(w, cam.a, cam.room);
-    let w_e = (e * e - c * c * room).max(0.0).sqrt();
+    let lapse2 = at.lapse2.max(1e-4);
+    let w = -cam.a * cam.lapse2.sqrt() * psi.cos() / psi.sin().max(1e-7);
+    let e = energy(w, cam.a, cam.lapse2);
+    let w_e = (e * e - c * c * lapse2).max(0.0).sqrt();
     let leaves_inward = c * at.phi.cos() > cam.a && order == 1;
-    ray_of(cam, c, room, [w, e, if leaves_inward { w_e } else { -w_e }, delay])
+    ray_of(cam, c, lapse2, [w, e, if leaves_inward { w_e } else { -w_e }, delay])
 }
 
 /// b² of the ray at 1/u that sweeps `chi` more.
-fn impact(tilt: fn(f32, f32) -> f32, u: f32, room: f32, chi: f32) -> f32 {
+fn impact(tilt: fn(f32, f32) -> f32, u: f32, lapse2: f32, chi: f32) -> f32 {
     let half = (0.5 * chi).sin();
     let x = tilt(u, 2.0 * half * half);
-    x * (2.0 - x) / (u * u * room)
+    x * (2.0 - x) / (u * u * lapse2)
 }
 
 /// α.
@@ -57,13 +57,14 @@ fn lag(u: f32, chi: f32) -> f32 {
 pub const CLOSED_STEPS: u32 = 40;
 
 /// The ray by the relation `tilt`; order 1, both ends outside.
-pub fn closed_ray(tilt: fn(f32, f32) -> f32, cam: &Camera, at: Place, order: u32) -> LensRay {
-    if !(order == 1 && at.room > 0.0 && cam.room > 0.0 && finite(at.r)) {
+pub fn closed_ray(tilt: fn(f32, f32) -> f32, cam: &LensCamera, at: SourcePoint, order: u32) -> LensRay {
+    if !(order == 1 && at.lapse2 > 0.0 && cam.lapse2 > 0.0 && finite(at.r)) {
         return NOTHING;
     }
     let c = 1.0 / at.r;
     let camera_beyond = at.dr <= 0.0;
-    let (outer, inner, outer_room, inner_room) = if camera_beyond { (cam.a, c, cam.room, at.room) } else { (c, cam.a, at.room, cam.room) };
+    let (outer, inner, outer_room, inner_room) =
+        if camera_beyond { (cam.a, c, cam.lapse2, at.lapse2) } else { (c, cam.a, at.lapse2, cam.lapse2) };
     let excess = |chi: f32| impact(tilt, outer, outer_room, chi) - impact(tilt, inner, inner_room, chi + at.phi);
     // Illinois: b falls short at the outer end while χ is small, and overshoots where the ray goes on inward.
     let (mut low, mut high) = (1e-6, HALF_TURN - 0.5 * at.phi);
@@ -94,6 +95,6 @@ pub fn closed_ray(tilt: fn(f32, f32) -> f32, cam: &Camera, at: Place, order: u32
     // From Schwarzschild's time to Painlevé and Gullstrand's.
     let (l, r) = (cam.l.sqrt(), at.r.sqrt());
     let ends = (1.0 + r) / (1.0 + l);
-    let rain = 2.0 * at.dr / (l + r) - (cam.l * cam.room / (at.r * at.room) * ends * ends).ln();
+    let rain = 2.0 * at.dr / (l + r) - (cam.l * cam.lapse2 / (at.r * at.lapse2) * ends * ends).ln();
     static_ray(cam, at, order, psi, time - rain)
 }

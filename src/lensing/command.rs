@@ -16,7 +16,7 @@ macro_rules! say {
 
 /// What `bake` is asked for.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct BakeRequest {
     /// Nodes along each axis, at least 5 (twice as many angles in the scheme residual).
     pub nodes: usize,
     /// What to store.
@@ -28,7 +28,7 @@ pub struct Request {
 }
 
 /// Bakes with a progress bar, writes the file, prints size, time and the error on fresh random points.
-pub fn run(args: &Request) -> Result<(), super::TableError> {
+pub fn run(args: &BakeRequest) -> Result<(), super::TableError> {
     let style =
         indicatif::ProgressStyle::with_template("{bar:40} {percent} % {msg}").unwrap_or_else(|_| indicatif::ProgressStyle::default_bar());
     let bar = indicatif::ProgressBar::new(1000).with_style(style).with_message("baking");

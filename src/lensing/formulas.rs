@@ -26,11 +26,11 @@ pub const POINT_RANGE: [Real; 2] = [0.95e-4, 0.999_999_046_325_683_6];
 
 /// The constants of one camera radius, which the processor computes once a frame in f64.
 #[derive(Clone, Copy, Debug)]
-pub struct Camera {
+pub struct LensCamera {
     /// L.
     pub l: Real,
     /// 1 − 1/L, free of cancellation.
-    pub room: Real,
+    pub lapse2: Real,
     /// a = 1/L.
     pub a: Real,
     /// β = √a, the river's speed.
@@ -41,7 +41,7 @@ pub struct Camera {
     pub bend: Real,
     /// √|n|.
     pub rate: Real,
-    /// How much the room at the camera counts beside that at the point: a half, less and less the further inside the camera is.
+    /// How much the lapse squared at the camera counts beside that at the point: a half, less and less the further inside the camera is.
     pub even: Real,
     /// The softening of the axis of points.
     pub soft: Real,
@@ -58,16 +58,16 @@ pub struct Camera {
 }
 
 /// The constants of the camera at radius `l`.
-pub fn camera(l: f64) -> Camera {
+pub fn camera(l: f64) -> LensCamera {
     let a = 1.0 / l;
     let m = (-(a / 0.45f64).powi(2)).exp();
     let n = -m + (1.0 - m) * 2.25 * a * a / (a + 1.0 / 3.0);
     let soft = 0.3 * a / (1.0 + a * a).sqrt();
     let raw = |c: f64| (c + soft).ln() - 2.0 * (1.0 - c).sqrt();
     let (first, last) = (raw(POINT_RANGE[0] as f64), raw(POINT_RANGE[1] as f64));
-    Camera {
+    LensCamera {
         l: l as Real,
-        room: ((l - 1.0) / l) as Real,
+        lapse2: ((l - 1.0) / l) as Real,
         a: a as Real,
         beta: a.sqrt() as Real,
         fade: m as Real,
@@ -100,7 +100,7 @@ pub fn bent_sweep(sweep: Real) -> Real {
 /// h is half the chord's fall, cos(Φ/2), doubled and kept positive beyond π: (y + √(y² + s²))/2 with y = 2 cos(Φ/2) and the width s of the Einstein
 /// ring; q is the square of the chord between two unit vectors less what the lens takes.
 #[inline]
-pub fn lens_equation(cam: &Camera, c: Real, bent: Real, (sine, cosine): (Real, Real)) -> [Real; 3] {
+pub fn lens_equation(cam: &LensCamera, c: Real, bent: Real, (sine, cosine): (Real, Real)) -> [Real; 3] {
     let x = bent * sine;
     let square = x * x;
     let k = 0.5 * square;
@@ -122,13 +122,13 @@ pub fn near_axis(sweep: Real) -> Real {
 /// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The second runs
 /// over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the Einstein ring.
 #[inline]
-pub fn axes(cam: &Camera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
+pub fn axes(cam: &LensCamera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
     ((point - 2.0 * root_room - cam.start) * cam.scale, (sweep + near - 0.3 * lens) * (1.0 / SWEEP_LENGTH))
 }
 
 /// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin, from [`half_angle`] and Stumpff's functions of it.
 #[inline]
-pub fn basis(cam: &Camera, sweep: Real, x: Real, (sine, cosine): (Real, Real)) -> (Real, Real) {
+pub fn basis(cam: &LensCamera, sweep: Real, x: Real, (sine, cosine): (Real, Real)) -> (Real, Real) {
     let square = sweep * sweep;
     if x < -1.0 {
         let up = (cam.rate * sweep).exp();
@@ -140,19 +140,19 @@ pub fn basis(cam: &Camera, sweep: Real, x: Real, (sine, cosine): (Real, Real)) -
 
 /// The square of half the angle that [`basis`] is taken of, negative where it is hyperbolic.
 #[inline]
-pub fn half_angle(cam: &Camera, sweep: Real) -> Real {
+pub fn half_angle(cam: &LensCamera, sweep: Real) -> Real {
     -0.25 * cam.bend * sweep * sweep
 }
 
 /// The closed form of (w, w_e) for `rise` = c − a and the bent sweep.
-pub fn slope_guess(cam: &Camera, rise: Real, bent: Real) -> (Real, Real) {
+pub fn slope_guess(cam: &LensCamera, rise: Real, bent: Real) -> (Real, Real) {
     let x = half_angle(cam, bent);
     slopes(cam, rise, basis(cam, bent, x, stumpff(x)))
 }
 
 /// The same from [`basis`].
 #[inline]
-pub fn slopes(cam: &Camera, rise: Real, (s, k): (Real, Real)) -> (Real, Real) {
+pub fn slopes(cam: &LensCamera, rise: Real, (s, k): (Real, Real)) -> (Real, Real) {
     // What is right only in weak fields, held down where K grows.
     let m = cam.fade / (1.0 + cam.a * cam.a * k * k);
     let am = cam.a * m;
@@ -172,23 +172,23 @@ pub fn slopes(cam: &Camera, rise: Real, (s, k): (Real, Real)) -> (Real, Real) {
     (w, w * (turn * (1.0 + am * k) + am * s * s) + s * (f + am * f * k + m * k * w * w))
 }
 
-/// e ≥ 0 of a ray with slope w at u, `room` = 1 − u.
+/// e ≥ 0 of a ray with slope w at u, `lapse2` = 1 − u.
 #[inline]
-pub fn energy(w: Real, u: Real, room: Real) -> Real {
-    (w * w + u * u * room).max(0.0).sqrt()
+pub fn energy(w: Real, u: Real, lapse2: Real) -> Real {
+    (w * w + u * u * lapse2).max(0.0).sqrt()
 }
 
-/// The photon's rain-frame momentum per angular momentum at two places, [camera, point], at u with the river's speed `beta` and `room` = 1 − u, for
+/// The photon's rain-frame momentum per angular momentum at two places, [camera, point], at u with the river's speed `beta` and `lapse2` = 1 − u, for
 /// slopes w and the energy e: frequency plus outward momentum at both, then frequency less it. Their product is u², the square of the momentum
 /// against the sweep. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
 #[inline]
-pub fn light_cones(w: (Real, Real), e: Real, u: (Real, Real), beta: (Real, Real), room: (Real, Real)) -> [Real; 4] {
+pub fn light_cones(w: (Real, Real), e: Real, u: (Real, Real), beta: (Real, Real), lapse2: (Real, Real)) -> [Real; 4] {
     let pair = |(a, b): (Real, Real)| Four::from([a, b, a, b]);
     let (w, u, e) = (pair(w), pair(u), Four::splat(e));
     let rising = w.simd_gt(Four::ZERO) | Four::ZERO.simd_gt(e);
     let square = u * u;
     let over = (rising.select(e + w, square) * (pair(beta) + 1.0)).to_array();
-    let under = rising.select(pair(room), e - w);
+    let under = rising.select(pair(lapse2), e - w);
     let back = (square * under).to_array();
     let under = under.to_array();
     (Four::from([over[0], over[1], back[0], back[1]]) / Four::from([under[0], under[1], over[0], over[1]])).to_array()
@@ -209,26 +209,26 @@ pub fn turned_slopes(guesses: (Real, Real), u: (Real, Real), turns: (Real, Real)
 
 /// The slope against which the angle of w_e is measured: of the size of slopes near the point, and never small beside e.
 #[inline]
-pub fn emission_scale(cam: &Camera, c: Real) -> Real {
+pub fn emission_scale(cam: &LensCamera, c: Real) -> Real {
     c + cam.reach
 }
 
 /// The part of the delay that is regular across the Einstein ring: the chord and Shapiro's logarithm. `logs` are ln(r/L) and ln(h/2).
 ///
 /// Exact along Φ = 0 and, for a camera outside, to second order in the distance: the mean of 1 + 3/r over the way times the root of the squares of
-/// the radial distance and of the chord, the latter by the mean of the room at both ends. Next to the horizon it is exact at any distance that is
+/// the radial distance and of the chord, the latter by the mean of the lapse squared at both ends. Next to the horizon it is exact at any distance that is
 /// small beside 1: there four times ((ε₁ − ε₂)² + (ε₁ + ε₂) φ²/2 + φ⁴/16)^½ with ε = r − 1 is light between two falling observers in flat space.
 #[inline]
-pub fn delay_across(cam: &Camera, r: Real, c: Real, room: Real, dr: Real, [k, _, q]: [Real; 3], logs: (Real, Real)) -> Real {
+pub fn delay_across(cam: &LensCamera, r: Real, c: Real, lapse2: Real, dr: Real, [k, _, q]: [Real; 3], logs: (Real, Real)) -> Real {
     let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs.0 / dr } else { cam.a };
-    let both = room + cam.even * (cam.room - room) + k * c * c * (cam.share - 1.5 * cam.share * cam.even);
+    let both = lapse2 + cam.even * (cam.lapse2 - lapse2) + k * c * c * (cam.share - 1.5 * cam.share * cam.even);
     let across = (1.0 + 1.5 * (cam.a + c)) * both * r * cam.l * q;
     (mean * (mean * dr * dr + across)).sqrt() - 2.0 * logs.1
 }
 
 /// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
 #[inline]
-pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
+pub fn delay_factor(cam: &LensCamera, c: Real, k: Real, e: Real) -> Real {
     // Near the camera it is 1, and far away all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
     let near = c + 0.01;
     let c4 = near * near * near * near;
@@ -237,7 +237,7 @@ pub fn delay_factor(cam: &Camera, c: Real, k: Real, e: Real) -> Real {
 
 /// The rest of the delay: what is singular at the horizon and what falls with the rain, from the photon's [`light_cones`].
 #[inline]
-pub fn delay_along(cam: &Camera, r: Real, c: Real, dr: Real, cones: [Real; 4]) -> Real {
+pub fn delay_along(cam: &LensCamera, r: Real, c: Real, dr: Real, cones: [Real; 4]) -> Real {
     // The river's fall is 2 (√r − √L).
     2.0 * (ln(cones[1] * cones[2] * (r * cam.l)) - dr / (r * c.sqrt() + cam.l * cam.beta))
 }

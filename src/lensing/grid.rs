@@ -1,6 +1,6 @@
 //! The coordinates of the residual table: which (r, Φ, L) its nodes stand for.
 
-use super::double::{Camera, LARGEST_SWEEP, POINT_RANGE, axes, bent_sweep, camera, lens_equation, near_axis};
+use super::double::{LARGEST_SWEEP, LensCamera, POINT_RANGE, axes, bent_sweep, camera, lens_equation, near_axis};
 use super::elementary::double::stumpff;
 
 /// The range of camera radii, in r_s.
@@ -32,23 +32,23 @@ pub fn camera_radius(z: f64) -> f64 {
 }
 
 /// The first two coordinates, for c = 1/r and the angle swept.
-pub fn coordinates(cam: &Camera, c: f64, sweep: f64) -> (f64, f64) {
+pub fn coordinates(cam: &LensCamera, c: f64, sweep: f64) -> (f64, f64) {
     let bent = bent_sweep(sweep);
     let [_, h, _] = lens_equation(cam, c, bent, stumpff(0.25 * bent * bent));
     axes(cam, (1.0 - c).max(0.0).sqrt(), sweep, [(c + cam.soft).ln(), near_axis(sweep).ln(), (0.5 * h).ln()])
 }
 
 /// 1/r at the first coordinate `x`.
-pub fn point(cam: &Camera, x: f64) -> f64 {
+pub fn point(cam: &LensCamera, x: f64) -> f64 {
     invert(|c| coordinates(cam, c, 0.0).0, x, POINT_RANGE)
 }
 
 /// Φ at the second coordinate `y`; the last nodes lie somewhat beyond 3π.
-pub fn sweep(cam: &Camera, c: f64, y: f64) -> f64 {
+pub fn sweep(cam: &LensCamera, c: f64, y: f64) -> f64 {
     invert(|p| coordinates(cam, c, p).1, y, [0.0, 1.5 * LARGEST_SWEEP])
 }
 
 /// The camera at the third coordinate `z`.
-pub fn camera_at(z: f64) -> Camera {
+pub fn camera_at(z: f64) -> LensCamera {
     camera(camera_radius(z))
 }

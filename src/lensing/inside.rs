@@ -1,4 +1,4 @@
-//! Camera and point both inside the horizon, in f32: the twin of shaders/functions/lensing.wgsl, line by line.
+//! LensCamera and point both inside the horizon, in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 //!
 //! Between two places inside there is no turning point, so with t = √r and q = e² the angle swept is
 //!
@@ -12,8 +12,8 @@
 //! mean = 2 [artanh t − t].
 
 use super::elementary::single::{log1p, stumpff};
-use super::place::{Place, angle};
-use super::single::Camera;
+use super::single::LensCamera;
+use super::source_point::{SourcePoint, angle};
 
 /// Steps of Newton's method: the sixth changes the direction by less than 0.001°.
 pub const INSIDE_STEPS: u32 = 6;
@@ -79,9 +79,9 @@ pub fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32) -> Path {
 /// (w, e, w_e, delay) of the ray that joins the point at `at` (inside, farther out than the camera, which is inside too) to the camera and
 /// sweeps `sweep` > 0. Of the two rays it is the one whose light left on the same side of the zero-energy ray as light of age `elapsed`
 /// (r_s/c): 0 asks for E > 0, anything huge for E < 0. None where there is no ray.
-pub fn inside(cam: &Camera, at: Place, sweep: f32, elapsed: f32) -> Option<[f32; 4]> {
+pub fn inside(cam: &LensCamera, at: SourcePoint, sweep: f32, elapsed: f32) -> Option<[f32; 4]> {
     let (l, r, dr) = (cam.l, at.r, at.dr);
-    let (zl, zr) = (-cam.room * l, -at.room * r);
+    let (zl, zr) = (-cam.lapse2 * l, -at.lapse2 * r);
     if !(dr > 0.0 && zr > 0.0) {
         return None;
     }

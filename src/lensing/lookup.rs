@@ -1,6 +1,6 @@
 //! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
 
-use super::place::{Place, place};
+use super::source_point::{SourcePoint, source_point};
 use wide::f32x4;
 
 use super::elementary::single::{above, ln4, stumpffs};
@@ -51,7 +51,7 @@ pub const NOTHING: LensRay = LensRay {
 };
 
 /// The least 1 − 1/r that the logarithm of the horizon is taken of.
-pub const LEAST_ROOM: f32 = 1e-7;
+pub const LEAST_LAPSE2: f32 = 1e-7;
 
 /// The outermost weight at a node.
 pub const SIXTH: f32 = 1.0 / 6.0;
@@ -138,9 +138,9 @@ pub fn finite(x: f32) -> bool {
 
 /// (w, e, w_e) made consistent from the two slopes of the table: each is taken from where it is well conditioned.
 #[inline]
-pub fn joined(w: f32, w_e: f32, cam: &Camera, c: f32, room: f32) -> [f32; 3] {
-    let (here, there) = (cam.a * cam.a * cam.room, c * c * room);
-    if cam.room <= 0.0 {
+pub fn joined(w: f32, w_e: f32, cam: &LensCamera, c: f32, lapse2: f32) -> [f32; 3] {
+    let (here, there) = (cam.a * cam.a * cam.lapse2, c * c * lapse2);
+    if cam.lapse2 <= 0.0 {
         // Inside, e is a small difference of large terms at the camera, a sum at the point; the ray comes from above.
         let square = (w_e * w_e + there).max(0.0);
         return [-(square - here).sqrt(), square.sqrt(), w_e];
@@ -160,53 +160,53 @@ pub const OLD: f32 = 3e38;
 /// The ray from the point at `at` to the camera of `slice` that sweeps `sweep` (φ, 2π − φ or 2π + φ). Where camera and point are both
 /// inside the horizon there are two: `elapsed` (r_s/c), the time since the light left as far as it is known, decides ([`YOUNG`], [`OLD`]).
 #[inline]
-pub fn lookup(slice: &Slice, at: Place, sweep: f32, elapsed: f32) -> LensRay {
+pub fn lookup(slice: &Slice, at: SourcePoint, sweep: f32, elapsed: f32) -> LensRay {
     lookup_with(&slice.camera, at, sweep, elapsed, |x, y| residuals(slice, x, y))
 }
 
 /// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
 #[inline]
-pub fn lookup_with(cam: &Camera, at: Place, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
+pub fn lookup_with(cam: &LensCamera, at: SourcePoint, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
     }
     let swept = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let mut room = at.room;
-    if room > 0.0 {
-        room = room.max(LEAST_ROOM);
+    let mut lapse2 = at.lapse2;
+    if lapse2 > 0.0 {
+        lapse2 = lapse2.max(LEAST_LAPSE2);
         let bent = bent_sweep(swept);
         let square = half_angle(cam, bent);
         let [half, turned] = stumpffs(0.25 * bent * bent, square);
         let guesses = slopes(cam, -at.dr * c * cam.a, basis(cam, bent, square, turned));
         let lens = lens_equation(cam, c, bent, half);
         let logs = ln4([c + cam.soft, near_axis(swept), 0.5 * lens[1]], at.dr * cam.a);
-        let (x, y) = axes(cam, room.sqrt(), swept, [logs[0], logs[1], logs[2]]);
-        let across = delay_across(cam, at.r, c, room, at.dr, lens, (logs[3], logs[2]));
+        let (x, y) = axes(cam, lapse2.sqrt(), swept, [logs[0], logs[1], logs[2]]);
+        let across = delay_across(cam, at.r, c, lapse2, at.dr, lens, (logs[3], logs[2]));
         let table = residuals(x, y);
         let (w, w_e) = turned_slopes(guesses, (cam.a, emission_scale(cam, c)), (table[0], table[2]));
-        let [w, e, w_e] = joined(w, w_e, cam, c, room);
-        let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
+        let [w, e, w_e] = joined(w, w_e, cam, c, lapse2);
+        let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.lapse2, lapse2));
         let delay = delay_along(cam, at.r, c, at.dr, cones) + delay_factor(cam, c, lens[0], e) * (across + table[1]);
         return ray_with(cam, c, [w, e, w_e, delay], cones);
     }
-    if cam.room < 0.0 {
+    if cam.lapse2 < 0.0 {
         let Some(ray) = inside(cam, at, swept, elapsed) else { return NOTHING };
-        return ray_of(cam, c, room, ray);
+        return ray_of(cam, c, lapse2, ray);
     }
     NOTHING
 }
 
-/// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `room` = 1 − c.
+/// The ray with these (w, e, w_e, delay) between a camera and a point at c = 1/r, `lapse2` = 1 − c.
 #[inline]
-pub fn ray_of(cam: &Camera, c: f32, room: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
-    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.room, room));
+pub fn ray_of(cam: &LensCamera, c: f32, lapse2: f32, [w, e, w_e, delay]: [f32; 4]) -> LensRay {
+    let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.lapse2, lapse2));
     ray_with(cam, c, [w, e, w_e, delay], cones)
 }
 
 /// The same with the photon's [`light_cones`].
 #[inline]
-pub fn ray_with(cam: &Camera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
+pub fn ray_with(cam: &LensCamera, c: f32, [w, e, w_e, delay]: [f32; 4], [seen, emitted, seen_less, emitted_less]: [f32; 4]) -> LensRay {
     let twice = seen + seen_less;
     let left = emitted + emitted_less;
     if !finite(twice.abs() + left.abs() + w.abs() + w_e.abs() + delay.abs()) {
@@ -235,13 +235,13 @@ pub fn lens_lookup_aged(slice: &Slice, along: f32, across: f32, height: f32, ord
     if !finite(along) {
         return NOTHING;
     }
-    let at = place(&slice.camera, along, across, height);
+    let at = source_point(&slice.camera, along, across, height);
     lookup(slice, at, swept(at, order), elapsed)
 }
 
 /// Φ of `order` for the point at `at`.
 #[inline]
-pub fn swept(at: Place, order: u32) -> f32 {
+pub fn swept(at: SourcePoint, order: u32) -> f32 {
     match order {
         2 => 2.0 * HALF_TURN - at.phi,
         3 => 2.0 * HALF_TURN + at.phi,

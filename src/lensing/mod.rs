@@ -20,11 +20,11 @@ pub mod methods;
 pub mod orbit;
 pub mod paper;
 pub mod paper_format;
-pub mod place;
 pub mod project;
 pub mod score;
 pub mod shooting;
 pub mod slice;
+pub mod source_point;
 pub mod spline;
 pub mod table;
 

@@ -92,7 +92,7 @@ pub enum ProjectError {
 
 /// What is asked about every point.
 #[derive(Clone, Copy, Debug)]
-pub struct Request {
+pub struct ProjectRequest {
     /// Which image.
     pub order: Order,
     /// The frame of ψ.
@@ -102,7 +102,7 @@ pub struct Request {
 }
 
 /// [`project`] from `input` to `output`; nothing is written if any line is wrong.
-pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector, request: Request) -> Result<(), ProjectError> {
+pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector, request: ProjectRequest) -> Result<(), ProjectError> {
     let mut bytes = Vec::new();
     input.read_to_end(&mut bytes)?;
     let text = str::from_utf8(&bytes).map_err(|error| {
@@ -118,7 +118,7 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
 /// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay in
 /// r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
 /// empty where no ray joins the two. The input is checked as a whole before anything is returned.
-pub fn project(input: &str, method: &dyn Projector, request: Request) -> Result<String, ProjectError> {
+pub fn project(input: &str, method: &dyn Projector, request: ProjectRequest) -> Result<String, ProjectError> {
     let rows = parse(input)?;
     let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
     let mut output = String::with_capacity(OUTPUT_HEADER.len() + 1 + lines.iter().map(|line| line.len() + 1).sum::<usize>());
@@ -136,7 +136,7 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    fn answer(&self, method: &dyn Projector, request: Request) -> String {
+    fn answer(&self, method: &dyn Projector, request: ProjectRequest) -> String {
         let mut line = self.texts.join(",");
         // Integration with too few steps may end anywhere; light that would arrive before it left is none.
         let sight = method.project(self.query, request.order, request.branch).filter(|sight| sight.delay > 0.0);

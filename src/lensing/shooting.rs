@@ -5,10 +5,10 @@
 //! closed form.
 
 use super::inside::INSIDE_NODES;
-use super::lookup::{LEAST_ROOM, LensRay, NOTHING, finite, ray_of};
+use super::lookup::{LEAST_LAPSE2, LensRay, NOTHING, finite, ray_of};
 use super::orbit::{CRITICAL_SQUARE, FELL, LEFT, MET, PHOTON_SPHERE, carry, critical_excess, pole_orbit, shoot};
-use super::place::Place;
-use super::single::{Camera, HALF_TURN, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
+use super::single::{HALF_TURN, LensCamera, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
+use super::source_point::SourcePoint;
 
 /// A shot from the camera: its fate, u − a and du/dΦ at the end, ∂u/∂x there and the time it took.
 #[derive(Clone, Copy, Debug)]
@@ -38,24 +38,24 @@ pub const MOST_SHOTS: u32 = 30;
 pub const BEYOND: f32 = 3e38;
 
 /// Rays of a camera are numbered by x, which grows with the slope: w outside; inside w + s ≤ 0, from which e has its digits.
-pub fn fan_shift(cam: &Camera) -> f32 {
-    if cam.room < 0.0 { cam.a * (-cam.room).max(0.0).sqrt() } else { 0.0 }
+pub fn fan_shift(cam: &LensCamera) -> f32 {
+    if cam.lapse2 < 0.0 { cam.a * (-cam.lapse2).max(0.0).sqrt() } else { 0.0 }
 }
 
 /// w, d and ∂d/∂x of the ray x.
-pub fn fan_start(cam: &Camera, x: f32) -> [f32; 3] {
+pub fn fan_start(cam: &LensCamera, x: f32) -> [f32; 3] {
     let s = fan_shift(cam);
     let w = x - s;
-    let d = if cam.room < 0.0 { (x * (x - 2.0 * s) - CRITICAL_SQUARE) / 16.0 } else { critical_excess(cam.a, w) };
+    let d = if cam.lapse2 < 0.0 { (x * (x - 2.0 * s) - CRITICAL_SQUARE) / 16.0 } else { critical_excess(cam.a, w) };
     [w, d, 0.125 * w]
 }
 
 /// e of the ray x.
-pub fn fan_energy(cam: &Camera, x: f32) -> f32 {
-    if cam.room < 0.0 {
+pub fn fan_energy(cam: &LensCamera, x: f32) -> f32 {
+    if cam.lapse2 < 0.0 {
         return (x * (x - 2.0 * fan_shift(cam))).max(0.0).sqrt();
     }
-    energy(x, cam.a, cam.room)
+    energy(x, cam.a, cam.lapse2)
 }
 
 /// The step in x that should undo `miss` in u, on (u + 1)^{-1/2}: u has a double pole where the ray falls in, and is straight in x far out.
@@ -74,10 +74,10 @@ pub fn middle_ray(a: f32, low: f32, high: f32) -> f32 {
 }
 
 /// The ray that sweeps `phi` from u = a to u = c = a + `rise`, by shots of `fire(x)`.
-pub fn shot_ray(cam: &Camera, c: f32, rise: f32, phi: f32, fire: impl Fn(f32) -> Fired) -> Joined {
+pub fn shot_ray(cam: &LensCamera, c: f32, rise: f32, phi: f32, fire: impl Fn(f32) -> Fired) -> Joined {
     let mut x = slope_guess(cam, rise, bent_sweep(phi)).0 + fan_shift(cam);
     let mut low = -BEYOND;
-    let mut high = if cam.room < 0.0 { 0.0 } else { BEYOND };
+    let mut high = if cam.lapse2 < 0.0 { 0.0 } else { BEYOND };
     let mut last = BEYOND;
     let mut result = Joined { slope: 0.0, energy: 0.0, emission_slope: 0.0, time: 0.0, found: false };
     for _ in 0..MOST_SHOTS {
@@ -109,7 +109,7 @@ pub fn shot_ray(cam: &Camera, c: f32, rise: f32, phi: f32, fire: impl Fn(f32) ->
 }
 
 /// A shot by the closed form.
-pub fn fire_exactly(cam: &Camera, x: f32, phi: f32) -> Fired {
+pub fn fire_exactly(cam: &LensCamera, x: f32, phi: f32) -> Fired {
     let [w, d, d_x] = fan_start(cam, x);
     let shot = shoot(cam.a, w, d, phi);
     let carried = shot.carried;
@@ -123,8 +123,8 @@ pub fn fire_exactly(cam: &Camera, x: f32, phi: f32) -> Fired {
 }
 
 /// e − w without cancellation, e > 0.
-pub fn ahead(e: f32, w: f32, u: f32, room: f32) -> f32 {
-    if w > 0.0 { u * u * room / (e + w) } else { e - w }
+pub fn ahead(e: f32, w: f32, u: f32, lapse2: f32) -> f32 {
+    if w > 0.0 { u * u * lapse2 / (e + w) } else { e - w }
 }
 
 /// T − t̂: Painlevé–Gullstrand time less that which is regular on the horizon.
@@ -135,21 +135,21 @@ pub fn to_rain_time(u: f32) -> f32 {
 
 /// The travel time of light along the ray (w, e, w_e) from u = `c` to the camera over `phi`: by parts in closed form (see
 /// `spacetime::light`), the rest by Gauss's rule of twelve on panels of up to two radians, each half of the way reached from its own end.
-pub fn exact_delay(cam: &Camera, c: f32, room: f32, phi: f32, ray: &Joined) -> f32 {
+pub fn exact_delay(cam: &LensCamera, c: f32, lapse2: f32, phi: f32, ray: &Joined) -> f32 {
     let a = cam.a;
     let (e, w, w_e) = (ray.energy, ray.slope, ray.emission_slope);
-    let d = if cam.room < 0.0 { (e * e - CRITICAL_SQUARE) / 16.0 } else { critical_excess(a, w) };
+    let d = if cam.lapse2 < 0.0 { (e * e - CRITICAL_SQUARE) / 16.0 } else { critical_excess(a, w) };
     let scattered = d < 0.0 && a <= PHOTON_SPHERE;
     let near = (d < 0.0 && !scattered) || (phi < 0.5 && c < 2.0 * a && a < 2.0 * c);
     let outgoing = w > 0.0;
     let closed = if near {
-        2.0 * (c * ahead(e, w, a, cam.room) / (a * ahead(e, w_e, c, room))).ln()
+        2.0 * (c * ahead(e, w, a, cam.lapse2) / (a * ahead(e, w_e, c, lapse2))).ln()
     } else if scattered {
-        (ahead(e, w_e, c, room) * a / (c * ahead(e, w, a, cam.room))).ln() + (w / a - w_e / c) / e
+        (ahead(e, w_e, c, lapse2) * a / (c * ahead(e, w, a, cam.lapse2))).ln() + (w / a - w_e / c) / e
     } else {
         let rest = ((e + w_e.abs()) * a / (c * (e + w.abs()))).ln();
         let parts = if outgoing { -rest } else { rest } + (w / a - w_e / c) / e;
-        if outgoing { parts - 2.0 * (room / cam.room).ln() } else { parts }
+        if outgoing { parts - 2.0 * (lapse2 / cam.lapse2).ln() } else { parts }
     };
     let panels = (0.5 * phi).ceil().max(1.0);
     let half = 0.5 * phi / panels;
@@ -176,18 +176,18 @@ pub fn exact_delay(cam: &Camera, c: f32, room: f32, phi: f32, ray: &Joined) -> f
 }
 
 /// The ray of a point outside by the closed form.
-pub fn exact_ray(cam: &Camera, at: Place, sweep: f32) -> LensRay {
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+pub fn exact_ray(cam: &LensCamera, at: SourcePoint, sweep: f32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.lapse2 > 0.0) {
         return NOTHING;
     }
     let phi = sweep.max(SMALLEST_SWEEP);
     let c = 1.0 / at.r;
-    let room = at.room.max(1e-4);
+    let lapse2 = at.lapse2.max(1e-4);
     let ray = shot_ray(cam, c, -at.dr * c * cam.a, phi, |x| fire_exactly(cam, x, phi));
     if !ray.found {
         return NOTHING;
     }
-    ray_of(cam, c, room, [ray.slope, ray.energy, ray.emission_slope, exact_delay(cam, c, room, phi, &ray)])
+    ray_of(cam, c, lapse2, [ray.slope, ray.energy, ray.emission_slope, exact_delay(cam, c, lapse2, phi, &ray)])
 }
 
 /// Along a shot: the rates of u − a, w, ∂u/∂w, ∂w/∂w₀.
@@ -204,7 +204,7 @@ pub fn shot_time(u: f32, w: f32) -> f32 {
 }
 
 /// A shot by `steps` steps of Runge and Kutta's fourth-order rule.
-pub fn fire_in_steps(cam: &Camera, x: f32, phi: f32, steps: u32) -> Fired {
+pub fn fire_in_steps(cam: &LensCamera, x: f32, phi: f32, steps: u32) -> Fired {
     let a = cam.a;
     let h = phi / steps as f32;
     let ahead = |s: [f32; 4], k: [f32; 4], h: f32| [0, 1, 2, 3].map(|i| s[i] + h * k[i]);
@@ -235,8 +235,8 @@ pub fn fire_in_steps(cam: &Camera, x: f32, phi: f32, steps: u32) -> Fired {
 }
 
 /// The ray of a point outside by integration in `steps` steps.
-pub fn integrated_ray(cam: &Camera, at: Place, sweep: f32, steps: u32) -> LensRay {
-    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.room > 0.0) {
+pub fn integrated_ray(cam: &LensCamera, at: SourcePoint, sweep: f32, steps: u32) -> LensRay {
+    if !(finite(at.r) && finite(at.dr) && at.r > 1e-3 && at.lapse2 > 0.0) {
         return NOTHING;
     }
     let c = 1.0 / at.r;
@@ -245,7 +245,7 @@ pub fn integrated_ray(cam: &Camera, at: Place, sweep: f32, steps: u32) -> LensRa
     if !ray.found {
         return NOTHING;
     }
-    ray_of(cam, c, at.room.max(1e-4), [ray.slope, ray.energy, ray.emission_slope, ray.time])
+    ray_of(cam, c, at.lapse2.max(1e-4), [ray.slope, ray.energy, ray.emission_slope, ray.time])
 }
 
 /// The largest turn of a slope that is believed, radians: more than the table is ever off, and less than half a pixel. Beyond it, what speaks is
@@ -253,15 +253,15 @@ pub fn integrated_ray(cam: &Camera, at: Place, sweep: f32, steps: u32) -> LensRa
 pub const MOST_REFINED: f32 = 5e-5;
 
 /// `ray` with the slopes that one Newton step on the closed form gives; its delay stays.
-pub fn refined_ray(cam: &Camera, at: Place, sweep: f32, ray: LensRay) -> LensRay {
-    if !ray.valid || at.room <= 0.0 {
+pub fn refined_ray(cam: &LensCamera, at: SourcePoint, sweep: f32, ray: LensRay) -> LensRay {
+    if !ray.valid || at.lapse2 <= 0.0 {
         return ray;
     }
     let c = 1.0 / at.r;
     let phi = sweep.max(SMALLEST_SWEEP);
     let s = fan_shift(cam);
     let e = ray.energy;
-    let x = if cam.room < 0.0 { -e * e / (s + (s * s + e * e).sqrt()) } else { ray.slope };
+    let x = if cam.lapse2 < 0.0 { -e * e / (s + (s * s + e * e).sqrt()) } else { ray.slope };
     let fired = fire_exactly(cam, x, phi);
     let rise = -at.dr * c * cam.a;
     let moved = x + newton_change(cam.a, c, rise - fired.rise, fired.rise, fired.rate);
@@ -270,8 +270,8 @@ pub fn refined_ray(cam: &Camera, at: Place, sweep: f32, ray: LensRay) -> LensRay
     let a = cam.a;
     let turn = (a * (w - ray.slope)).abs() / ((a * a + w * w) * (a * a + ray.slope * ray.slope)).sqrt();
     let believed = turn < MOST_REFINED;
-    if fired.fate != MET || !believed || (cam.room < 0.0 && moved >= 0.0) {
+    if fired.fate != MET || !believed || (cam.lapse2 < 0.0 && moved >= 0.0) {
         return ray;
     }
-    ray_of(cam, c, at.room.max(LEAST_ROOM), [w, fan_energy(cam, moved), ray.emission_slope, ray.delay])
+    ray_of(cam, c, at.lapse2.max(LEAST_LAPSE2), [w, fan_energy(cam, moved), ray.emission_slope, ray.delay])
 }

@@ -1,7 +1,7 @@
 //! The slice of the residual table at one camera radius: what a frame sends to the GPU.
 
 use super::double;
-use super::single::{Camera, camera};
+use super::single::{LensCamera, camera};
 use super::table::{Scheme, Table};
 use super::{bake, grid, spline};
 
@@ -12,7 +12,7 @@ pub const HEADER: usize = 4;
 #[derive(Clone, Debug)]
 pub struct Slice {
     /// The constants that the lookup needs besides the table.
-    pub camera: Camera,
+    pub camera: LensCamera,
     /// Nodes along r and Φ; there are two more coefficients than nodes each way.
     pub size: [u32; 2],
     /// The storage buffer of the shader: four texels with the constants of `camera` and the size, then the coefficients, r fastest:
@@ -24,7 +24,7 @@ pub struct Slice {
 #[derive(Clone, Copy, Debug)]
 pub struct Cut<'a> {
     /// The constants of the camera radius.
-    pub camera: Camera,
+    pub camera: LensCamera,
     /// Nodes along r and Φ.
     pub size: [u32; 2],
     layers: [&'a [[f32; 3]]; 4],
@@ -144,9 +144,9 @@ impl Slice {
         texels
     }
 
-    fn assembled(cam: Camera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
+    fn assembled(cam: LensCamera, size: [u32; 2], coefficients: impl Iterator<Item = [f32; 4]>) -> Slice {
         let header = [
-            [cam.l, cam.room, cam.a, cam.beta],
+            [cam.l, cam.lapse2, cam.a, cam.beta],
             [cam.fade, cam.bend, cam.rate, cam.even],
             [cam.soft, cam.start, cam.scale, cam.share],
             [size[0] as f32, size[1] as f32, cam.reach, cam.lift],

@@ -1,6 +1,6 @@
 //! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
 
-use crate::play::seat::{Flown, GameSet, Seat};
+use crate::play::player_state::{Flown, GameSet, PlayerState};
 use std::time::Duration;
 
 use bevy::prelude::*;
@@ -13,17 +13,17 @@ use crate::spacetime::matter::gamma;
 
 use crate::play::input::gaze::Gaze;
 use crate::play::input::{Bindings, Hands, MouseTurn};
-use crate::play::menus::screens::{Screen, Wish, answer};
+use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::session::Session;
 use crate::play::window::record;
 
-/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`Seat`].
+/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`PlayerState`].
 pub struct GamePlugin;
 
 impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
         app.init_state::<Screen>()
-            .add_message::<Wish>()
+            .add_message::<MenuAction>()
             .init_resource::<Bindings>()
             .init_resource::<MouseTurn>()
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
@@ -44,7 +44,7 @@ fn begin(world: &mut World, screen: Screen) {
     start(world, &session.scene, &session.config, session.seed);
     let ship = world.resource::<Fleet>().0[session.player()];
     world.entity_mut(ship).insert(Player);
-    let mut player = world.resource_mut::<Seat>();
+    let mut player = world.resource_mut::<PlayerState>();
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
     player.gaze = Gaze::default();
@@ -65,8 +65,8 @@ fn read_keys(
     typing: Option<Res<EguiWantsInput>>,
     screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
-    mut player: ResMut<Seat>,
-    mut wishes: MessageWriter<Wish>,
+    mut player: ResMut<PlayerState>,
+    mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
     let hands = Hands { bindings: &bindings, keys: &keys, mouse: &buttons };
@@ -83,16 +83,16 @@ fn read_keys(
     }
     let enter = keys.just_pressed(KeyCode::Enter) || keys.just_pressed(KeyCode::NumpadEnter);
     match screen.get() {
-        Screen::Title if enter => _ = wishes.write(Wish::Start),
-        Screen::Result if enter => _ = wishes.write(Wish::Start),
-        Screen::Paused if enter => _ = wishes.write(Wish::Pause),
+        Screen::Title if enter => _ = actions.write(MenuAction::Start),
+        Screen::Result if enter => _ = actions.write(MenuAction::Start),
+        Screen::Paused if enter => _ = actions.write(MenuAction::Pause),
         _ => (),
     }
     if hands.pushed("pause") {
-        wishes.write(if *screen.get() == Screen::Result { Wish::Title } else { Wish::Pause });
+        actions.write(if *screen.get() == Screen::Result { MenuAction::Title } else { MenuAction::Pause });
     }
     if hands.pushed("restart") && *screen.get() != Screen::Title {
-        wishes.write(Wish::Start);
+        actions.write(MenuAction::Start);
     }
     if hands.pushed("toggle_camera") {
         player.view = player.view.toggled();
@@ -119,13 +119,13 @@ fn read_keys(
 }
 
 fn answer_wishes(world: &mut World) {
-    let wishes: Vec<Wish> = world.resource_mut::<Messages<Wish>>().drain().collect();
-    for wish in wishes {
-        if wish == Wish::Quit {
+    let actions: Vec<MenuAction> = world.resource_mut::<Messages<MenuAction>>().drain().collect();
+    for action in actions {
+        if action == MenuAction::Quit {
             world.write_message(AppExit::Success);
         }
         let screen = *world.resource::<State<Screen>>().get();
-        if let Some((next, anew)) = answer(screen, wish) {
+        if let Some((next, anew)) = answer(screen, action) {
             if anew {
                 begin(world, next);
             }
@@ -167,7 +167,7 @@ fn run_time(
 }
 
 /// Keeps who flies, for the result to say.
-fn note_pilot(mut player: ResMut<Seat>) {
+fn note_pilot(mut player: ResMut<PlayerState>) {
     let autopilot = player.autopilot;
     player.flown.by_autopilot |= autopilot;
     player.flown.by_hand |= !autopilot;
@@ -185,7 +185,7 @@ fn fly_by_hand(
     clock: Res<Clock>,
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,
-    mut player: ResMut<Seat>,
+    mut player: ResMut<PlayerState>,
     mut ships: Query<(&ShipMotion, &Engine, &mut Controls), ByHand>,
 ) {
     for (motion, engine, mut controls) in &mut ships {
@@ -220,7 +220,7 @@ mod tests {
         app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, SimulationPlugins, GamePlugin, LivePlugin))
             .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)))
             .insert_resource(Session::load(None, Some("chase"), 1).expect("the game's own files"))
-            .init_resource::<Seat>();
+            .init_resource::<PlayerState>();
         app.update();
         app.update();
         app
@@ -281,7 +281,7 @@ mod tests {
     /// The assist switched off is off for this chase, and the file's word when it changes.
     #[test]
     fn a_new_chase_has_the_configured_assist() {
-        let assisted = |app: &App| app.world().resource::<Seat>().assisted(&app.world().resource::<Session>().config);
+        let assisted = |app: &App| app.world().resource::<PlayerState>().assisted(&app.world().resource::<Session>().config);
         let mut app = game();
         push(&mut app, KeyCode::Enter);
         assert!(assisted(&app));
@@ -296,14 +296,14 @@ mod tests {
         assert!(assisted(&app), "switched on where off is configured");
         app.world_mut().resource_mut::<Session>().config.assist.enabled = true;
         app.update();
-        assert!(app.world().resource::<Seat>().assist.is_none(), "a changed configuration goes before the key");
+        assert!(app.world().resource::<PlayerState>().assist.is_none(), "a changed configuration goes before the key");
     }
 
     #[test]
     fn one_looks_at_the_target_while_the_key_is_held() {
         let mut app = game();
         push(&mut app, KeyCode::Enter);
-        let looking = |app: &App| app.world().resource::<Seat>().looking;
+        let looking = |app: &App| app.world().resource::<PlayerState>().looking;
         assert!(!looking(&app));
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyV);
         for _ in 0..3 {
@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn the_first_flight_begins_with_a_key() {
         let mut app = game();
-        let begun = |app: &App| app.world().resource::<Seat>().begun;
+        let begun = |app: &App| app.world().resource::<PlayerState>().begun;
         push(&mut app, KeyCode::KeyW);
         assert!(!begun(&app), "on the title nothing is flown");
         push(&mut app, KeyCode::Enter);
@@ -356,7 +356,7 @@ mod tests {
         assert!(thrust(&mut app).z < -0.01, "{}", thrust(&mut app));
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyW);
         push(&mut app, KeyCode::KeyP);
-        assert!(app.world().resource::<Seat>().autopilot);
+        assert!(app.world().resource::<PlayerState>().autopilot);
         let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
         assert_eq!(manual.iter(app.world()).count(), 0);
     }
@@ -364,7 +364,7 @@ mod tests {
     #[test]
     fn who_flew_is_kept_for_the_chase() {
         let mut app = game();
-        let flown = |app: &App| app.world().resource::<Seat>().flown;
+        let flown = |app: &App| app.world().resource::<PlayerState>().flown;
         push(&mut app, KeyCode::Enter);
         app.update();
         assert_eq!(flown(&app), Flown { by_hand: true, by_autopilot: false });

@@ -10,7 +10,7 @@ pub mod hud;
 pub mod input;
 pub mod menus;
 pub mod overlay;
-pub mod seat;
+pub mod player_state;
 pub mod session;
 pub mod window;
 

@@ -18,7 +18,7 @@ use crate::render::{Gpu, Renderer};
 
 /// What to time.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct FrameTimesRequest {
     /// Names or files of scenes.
     pub scenes: Vec<String>,
     /// Width and height in pixels.
@@ -93,7 +93,7 @@ impl fmt::Display for FrameTimes {
 }
 
 /// Times the scenes one after the other and says each result as it comes. What is wrong with any of them is said before the first is drawn.
-pub fn run(request: &Request, config: &GameConfig, out: &mut impl Write) -> Result<(), ShotError> {
+pub fn run(request: &FrameTimesRequest, config: &GameConfig, out: &mut impl Write) -> Result<(), ShotError> {
     let played = |name: &String| -> Result<(Scene, Moment), ShotError> {
         let scene = scene::load(name)?;
         let moment = Moment::new(&scene, config, request.at, 0);
@@ -120,7 +120,7 @@ fn frame_times(
     name: &str,
     scene: &Scene,
     moment: &Moment,
-    request: &Request,
+    request: &FrameTimesRequest,
     config: &GameConfig,
 ) -> Result<FrameTimes, ShotError> {
     let format = wgpu::TextureFormat::Rgba8UnormSrgb;

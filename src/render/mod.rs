@@ -2,11 +2,10 @@
 //!
 //! [`renderer::Renderer`] is the whole of it on plain wgpu, used alike by the window, by `shot` and by the tests. The way of a frame, file by
 //! file: [`instances`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
-//! (Milky Way, stars) → [`aurora`] → [`develop`] (bloom, exposure, tone curve).
+//! (Milky Way, stars) → [`aurora`] → [`post_process`] (bloom, exposure, tone curve).
 
 pub mod aurora;
 pub mod bench;
-pub mod develop;
 pub mod disk;
 pub mod frame;
 pub mod geometry;
@@ -16,6 +15,7 @@ pub mod method;
 pub mod models;
 mod passes;
 pub mod plugin;
+pub mod post_process;
 pub mod renderer;
 pub mod settings;
 pub mod shot;

@@ -10,8 +10,6 @@ use crate::scene::model::Model;
 
 use crate::render::Gpu;
 use crate::render::aurora::Aurora;
-use crate::render::develop::Develop;
-use crate::render::develop::coverage::covered;
 use crate::render::disk::types::DiskCounters;
 use crate::render::disk::{Disk, DiskPasses};
 use crate::render::frame::{FrameInput, blackbody_table, uniform};
@@ -26,6 +24,8 @@ use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, Models};
 use crate::render::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
+use crate::render::post_process::PostProcess;
+use crate::render::post_process::coverage::covered;
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
 use crate::render::sky::{Background, Stars};
 
@@ -66,7 +66,7 @@ pub struct Renderer {
     background: Background,
     stars: Stars,
     aurora: Aurora,
-    develop: Develop,
+    post_process: ToneMap,
     targets: Targets,
     /// The output has no size.
     hidden: bool,
@@ -92,9 +92,9 @@ impl Renderer {
         let blackbody = TableTexture::of(gpu, "black body", &table);
         // Until the first frame is metered, a middling exposure.
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
-        let mut develop = Develop::new(device, &frame_layout, format);
+        let mut post_process = PostProcess::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
-        develop.resize(gpu, &targets, &adaptation);
+        post_process.resize(gpu, &targets, &adaptation);
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
@@ -118,7 +118,7 @@ impl Renderer {
             slice: None,
             disk: None,
             has_disk: false,
-            develop,
+            post_process,
             targets,
             hidden: size.contains(&0),
             smooth: false,
@@ -189,7 +189,7 @@ impl Renderer {
         self.hidden = size.contains(&0);
         if !self.hidden && size != self.targets.size {
             self.targets = Targets::new(&self.gpu.device, size);
-            self.develop.resize(&self.gpu, &self.targets, &self.adaptation);
+            self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
 
@@ -197,8 +197,8 @@ impl Renderer {
     pub fn set_output_format(&mut self, format: wgpu::TextureFormat) {
         if format != self.format {
             self.format = format;
-            self.develop = Develop::new(&self.gpu.device, &self.frame_layout, format);
-            self.develop.resize(&self.gpu, &self.targets, &self.adaptation);
+            self.post_process = PostProcess::new(&self.gpu.device, &self.frame_layout, format);
+            self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
 
@@ -325,11 +325,11 @@ impl Renderer {
             draw_disk(disk, crossings + 1..=left, &mut self.timing, encoder, group, &self.targets);
             left = crossings;
             draw_thin(geometry, laid_over.then_some(crossings), self.timing.render("thin"), encoder, group, &self.targets);
-            self.develop.compose(encoder, &mut self.timing, group, &self.targets);
+            self.post_process.compose(encoder, &mut self.timing, group, &self.targets);
         }
         draw_disk(disk, 1..=left, &mut self.timing, encoder, group, &self.targets);
         draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
-        self.develop.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
+        self.post_process.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
         self.timing.end(encoder);
     }
 
@@ -348,7 +348,7 @@ impl Renderer {
             }
             self.gpu.queue.submit([encoder.finish()]);
         }
-        let developed = readback::texture(&self.gpu, &texture, 4)?;
+        let display = readback::texture(&self.gpu, &texture, 4)?;
         let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
         let linear = halves
             .chunks_exact(8)
@@ -366,7 +366,7 @@ impl Renderer {
         } else {
             Vec::new()
         };
-        Ok(Picture { size: self.targets.size, developed, linear, layers, surface, thin })
+        Ok(Picture { size: self.targets.size, display, linear, layers, surface, thin })
     }
 
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {

@@ -56,7 +56,7 @@ impl ShotError {
 
 /// What to draw.
 #[derive(Clone, Debug)]
-pub struct Request<'a> {
+pub struct ShotRequest<'a> {
     /// A scene's name or file.
     pub scene: &'a str,
     /// Width and height in pixels.
@@ -95,7 +95,7 @@ fn star(star: &scene::stars::Star) -> Star {
 }
 
 /// Draws the picture.
-pub fn shot(request: &Request, config: &GameConfig) -> Result<Picture, ShotError> {
+pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotError> {
     if !(0.0..=1e5).contains(&request.at) {
         return Err(ShotError::Time(request.at));
     }
@@ -169,7 +169,7 @@ fn drawn(renderer: &mut Renderer, what: &Compared, stage: &Stage, layers: bool, 
 }
 
 /// Draws the picture into a file, with the configuration of `config`.
-pub fn shot_to_file(request: &Request, config: Option<&Path>, output: &Path) -> Result<(), ShotError> {
+pub fn shot_to_file(request: &ShotRequest, config: Option<&Path>, output: &Path) -> Result<(), ShotError> {
     let config = scene::config::find(config)?;
     // A wrong name is said before the work.
     if !matches!(output.extension().and_then(|extension| extension.to_str()), Some("png" | "exr")) {

@@ -15,11 +15,11 @@ use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
 use crate::render::Renderer;
-use crate::render::aurora::{Show, planet_history};
+use crate::render::aurora::{AuroraAnimation, planet_history};
 use crate::render::disk::Disk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
-use crate::render::instances::{Motion, Object, Placed, View, place};
+use crate::render::instances::{Motion, Object, Placed, View, instances_of};
 use crate::render::method::Method;
 use crate::render::models::ModelRange;
 use crate::render::models::coarse::coarse;
@@ -32,7 +32,7 @@ pub struct Stage {
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
-    camera: scene::Camera,
+    camera: scene::SceneCamera,
     sky: (bool, bool, f32),
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
@@ -43,7 +43,7 @@ pub struct Stage {
     /// Inner and outer radius of the disk.
     disk: Option<[f64; 2]>,
     /// Shared, because a stage is only read when it makes a frame.
-    show: Arc<Mutex<Option<Show>>>,
+    show: Arc<Mutex<Option<AuroraAnimation>>>,
 }
 
 /// A model, what stands for it in images a few pixels wide, and in those narrower than so many pixels, the coarsest first.
@@ -101,14 +101,14 @@ impl Stage {
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             disk,
-            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| Show::new(planet, disk, &config.aurora)))),
+            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)))),
         }
     }
 
     /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came before.
     pub fn watched(self) -> Stage {
         let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-        *show = show.take().map(Show::watched);
+        *show = show.take().map(AuroraAnimation::watched);
         drop(show);
         self
     }
@@ -117,7 +117,7 @@ impl Stage {
     pub fn change_aurora(&self, config: &AuroraConfig) {
         let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
         if show.as_mut().is_none_or(|show| !show.change(config)) {
-            *show = self.planet.as_ref().and_then(|planet| Show::new(planet, self.disk, config)).map(Show::watched);
+            *show = self.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, self.disk, config)).map(AuroraAnimation::watched);
         }
     }
 
@@ -191,17 +191,17 @@ impl Stage {
                 light,
             };
             let images = placed.len();
-            placed.extend(place(&view, time, &object, settings.orders));
+            placed.extend(instances_of(&view, time, &object, settings.orders));
             if let Some(ship) = number_of_ship
                 && let Some(full) = self.full_thrust(ship, settings)
             {
                 placed[images..].iter_mut().for_each(|image| {
-                    let emitted = time - f64::from(image.placement.offset[3]);
-                    image.placement.position[3] = (1.0 - glow(histories[ship], emitted, full)) as f32;
+                    let emitted = time - f64::from(image.instance.offset[3]);
+                    image.instance.position[3] = (1.0 - glow(histories[ship], emitted, full)) as f32;
                 });
             }
             if matches!(number_of_ship, Some(ship) if settings.own_ship == Some(ship)) {
-                placed[images..].iter_mut().for_each(|image| image.placement.triangles[3] |= OWN);
+                placed[images..].iter_mut().for_each(|image| image.instance.triangles[3] |= OWN);
                 unmetered = placed[images..].first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
             }
         }
@@ -240,12 +240,12 @@ fn glow(history: &History, time: f64, full: f64) -> f64 {
 /// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in widths of the picture. That is
 /// exact enough for what is a few lengths away, and what is far away is small.
 fn circle(camera: &Observer, image: &Placed, reach: f64) -> [f32; 3] {
-    let [x, y, z, delay] = image.placement.offset.map(f64::from);
+    let [x, y, z, delay] = image.instance.offset.map(f64::from);
     // Space falls inwards at √(1/r) and takes the light with it.
     let radius = camera.radius().max(1e-3);
     let offset = DVec3::new(x, y, z) - camera.position / radius * (delay / radius.sqrt());
     let apparent = (camera.camera_from_rain() * offset.extend(-offset.length())).truncate();
-    if image.placement.ids[0] != 1 || apparent.z >= -1e-3 {
+    if image.instance.ids[0] != 1 || apparent.z >= -1e-3 {
         return [0.0; 3];
     }
     let scale = 0.5 / ((0.5 * camera.field_of_view).tan() * -apparent.z);

@@ -39,7 +39,7 @@ pub const MAX_CAMERA_RADIUS: f64 = 1e4;
 
 /// From where a scene is seen.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Camera {
+pub struct SceneCamera {
     /// How it moves.
     pub mount: Mount,
     /// Horizontal field of view, in radians.
@@ -68,19 +68,19 @@ pub enum Mount {
     Planet {
         /// Place in the axes of the planet's dipole, in its radii.
         place: DVec3,
-        /// Camera axes to the dipole's.
+        /// SceneCamera axes to the dipole's.
         view: DQuat,
         /// The planet.
         planet: Planet,
     },
 }
 
-impl Default for Camera {
+impl Default for SceneCamera {
     /// Static at 20 r_s on the +z axis, looking into the hole.
     fn default() -> Self {
         let position = DVec3::new(0.0, 0.0, 20.0);
         let state = ShipState { attitude: DQuat::IDENTITY, ..ShipState::new(position, static_momentum(position).unwrap_or_default()) };
-        Camera { mount: Mount::Static(state), fov: 60f64.to_radians() }
+        SceneCamera { mount: Mount::Static(state), fov: 60f64.to_radians() }
     }
 }
 
@@ -120,7 +120,7 @@ pub struct CameraEntry {
 }
 
 /// Checks the camera against its ranges and the ships or the planet it may go with.
-pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec], planet: Option<&Planet>) -> Result<Camera, Fault> {
+pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec], planet: Option<&Planet>) -> Result<SceneCamera, Fault> {
     let whole = entry;
     let entry = entry.get_ref();
     let fov = entry.fov.as_ref().map_or(Ok(60.0), |fov| in_range(fov, "fov", 1.0..=170.0, "degrees"))?.to_radians();
@@ -132,7 +132,7 @@ pub fn check_camera(entry: &Spanned<CameraEntry>, ships: &[ShipSpec], planet: Op
             return fault(whole, "needs either position, follow or above (and only one)".into());
         }
     };
-    Ok(Camera { mount, fov })
+    Ok(SceneCamera { mount, fov })
 }
 
 fn free(entry: &CameraEntry, position: &Spanned<[f64; 3]>) -> Result<Mount, Fault> {

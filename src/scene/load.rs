@@ -7,7 +7,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::assets::assets_folder;
-use super::camera::{Camera, CameraEntry, check_camera};
+use super::camera::{CameraEntry, SceneCamera, check_camera};
 use super::config::{self, GameConfig, RulesConfig};
 use super::document::{complain_all, one, parse, syntax};
 use super::error::{Complaints, SceneError};
@@ -23,7 +23,7 @@ pub struct Scene {
     /// The file's name without its ending.
     pub name: String,
     /// From where it is seen.
-    pub camera: Camera,
+    pub camera: SceneCamera,
     /// The ships, in the order of the file.
     pub ships: Vec<ShipSpec>,
     /// The things held in place.
@@ -106,7 +106,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
     let planet = entry.planet.as_ref().map(check_planet).transpose()?;
     Ok(Scene {
         name: String::new(),
-        camera: entry.camera.as_ref().map_or(Ok(Camera::default()), |camera| check_camera(camera, &ships, planet.as_ref()))?,
+        camera: entry.camera.as_ref().map_or(Ok(SceneCamera::default()), |camera| check_camera(camera, &ships, planet.as_ref()))?,
         props: check_props(&entry.prop)?,
         planet,
         sky: check_sky(&entry.sky)?,

@@ -30,7 +30,7 @@ pub mod viewpoint;
 
 pub use assembly::{Assembly, Body, Object};
 pub use assets::assets_folder;
-pub use camera::{Camera, Mount, picture_size};
+pub use camera::{Mount, SceneCamera, picture_size};
 pub use config::GameConfig;
 pub use config_fields::METHODS;
 pub use error::{Complaint, Complaints, ConfigError, SceneError};

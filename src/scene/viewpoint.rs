@@ -3,7 +3,7 @@
 use crate::spacetime::Observer;
 use glam::{DMat3, DQuat, DVec3};
 
-use super::camera::{Camera, Mount};
+use super::camera::{Mount, SceneCamera};
 use crate::spacetime::frames;
 use crate::spacetime::matter::{ShipState, gamma, has_ended, momentum_of, step};
 
@@ -15,8 +15,8 @@ pub struct CameraEnded(pub f64);
 /// The nearest to the hole that a third-person camera goes while its ship is outside, in r_s.
 const CAMERA_FLOOR: f64 = 1.003;
 
-impl Camera {
-    /// An error if, at T = `time`, the camera or the ship that it follows has come to where nothing is seen; `ships` as for [`Camera::viewpoint`].
+impl SceneCamera {
+    /// An error if, at T = `time`, the camera or the ship that it follows has come to where nothing is seen; `ships` as for [`SceneCamera::viewpoint`].
     pub fn check(&self, time: f64, ships: &[(&str, ShipState)]) -> Result<(), CameraEnded> {
         let ended = match &self.mount {
             Mount::Follow { ship, .. } => ships.iter().any(|(name, state)| name == ship && has_ended(state)),

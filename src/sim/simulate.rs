@@ -29,7 +29,7 @@ const KEEP: f64 = 100.0;
 
 /// What is asked of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Request {
+pub struct SimulateRequest {
     /// The last T, in r_s/c.
     pub until: Option<f64>,
     /// T between rows, in r_s/c.
@@ -38,13 +38,13 @@ pub struct Request {
     pub seed: u64,
 }
 
-impl Default for Request {
+impl Default for SimulateRequest {
     fn default() -> Self {
-        Request { until: None, every: DEFAULT_EVERY, seed: 0 }
+        SimulateRequest { until: None, every: DEFAULT_EVERY, seed: 0 }
     }
 }
 
-impl Request {
+impl SimulateRequest {
     /// Whether it can be run on `scene`, and its last T.
     pub fn check(&self, scene: &Scene, config: &GameConfig) -> Result<f64, SimulateError> {
         if scene.ships.is_empty() {
@@ -108,7 +108,7 @@ pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
 pub fn simulate(
     scene: &Scene,
     config: &GameConfig,
-    request: &Request,
+    request: &SimulateRequest,
     out: &mut dyn Write,
     log: &mut dyn Write,
 ) -> Result<Summary, SimulateError> {

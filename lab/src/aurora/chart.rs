@@ -3,7 +3,7 @@
 use crate::say::say;
 use std::path::PathBuf;
 
-use super::experiment::{self, Request, Row, Runner, View};
+use super::experiment::{self, ExperimentRequest, Row, Runner, View};
 use crate::chart::{Output, Provenance, Sheet, SheetError};
 use crate::plot::{Axis, Figure, Line, Lines, Panel, PlotError, Point, Scatter};
 
@@ -39,7 +39,12 @@ pub fn size(text: &str) -> Result<[usize; 2], String> {
 }
 
 /// Measures (or reads) and draws; returns the files written. `adapter` and `runners` come from whoever has a GPU.
-pub fn run(output: &Output, request: &Request, adapter: &str, runners: &mut [Box<dyn Runner>]) -> Result<Vec<PathBuf>, ChartError> {
+pub fn run(
+    output: &Output,
+    request: &ExperimentRequest,
+    adapter: &str,
+    runners: &mut [Box<dyn Runner>],
+) -> Result<Vec<PathBuf>, ChartError> {
     let sheet = output.sheet("aurora", || -> Result<Sheet, ChartError> {
         let table = lensrunner::lensing::default_table();
         let bar = indicatif::ProgressBar::new_spinner();

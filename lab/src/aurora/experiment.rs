@@ -300,7 +300,7 @@ pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
 
 /// What is swept.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct ExperimentRequest {
     /// Numbers of the auroras, 1 to 10 of them.
     pub auroras: usize,
     /// Electrons.
@@ -339,7 +339,7 @@ pub struct Row {
 }
 
 /// Runs the experiment; `report` is told what is being drawn.
-pub fn run(request: &Request, table: &Table, runners: &mut [Box<dyn Runner>], mut report: impl FnMut(&str)) -> Vec<Row> {
+pub fn run(request: &ExperimentRequest, table: &Table, runners: &mut [Box<dyn Runner>], mut report: impl FnMut(&str)) -> Vec<Row> {
     let falls = Falls::new();
     let tables = Tables::default();
     let sheets = Sheet::ten();

@@ -14,13 +14,13 @@ use std::path::PathBuf;
 use super::chart::{Provenance, Sheet, interleaved_by, thread_time, times_the_first};
 use rays::Job;
 
-pub use request::{ChartError, Request};
+pub use request::{BvhRequest, ChartError};
 
 /// How many times as often as everything else runs what is compared with 8 × 8: single percents are to be told apart there.
 const MORE_ROUNDS: usize = 10;
 
 /// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
+pub fn run(request: &BvhRequest) -> Result<Vec<PathBuf>, ChartError> {
     if let Some(unknown) = request.scenes.iter().find(|name| !request::ALL.contains(&name.as_str())) {
         return Err(ChartError::Scene(unknown.clone()));
     }
@@ -33,7 +33,7 @@ pub fn run(request: &Request) -> Result<Vec<PathBuf>, ChartError> {
     Ok(files.into_iter().chain([request.output.csv("bvh")]).collect())
 }
 
-fn measure(request: &Request) -> Result<Sheet, ChartError> {
+fn measure(request: &BvhRequest) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&[
         "scene",
         "triangles",

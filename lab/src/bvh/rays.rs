@@ -7,7 +7,7 @@ use glam::Vec3;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use super::request::{ChartError, Request};
+use super::request::{BvhRequest, ChartError};
 use crate::straight::scenes::{Scene, View, bunny, castle, needles, spd};
 use crate::straight::{Hit, Ray, Wide, order};
 
@@ -37,7 +37,7 @@ pub struct Job {
 }
 
 impl Job {
-    pub fn new(name: &str, request: &Request) -> Result<Job, ChartError> {
+    pub fn new(name: &str, request: &BvhRequest) -> Result<Job, ChartError> {
         let mut stand_in = false;
         let (name, triangles, view) = match name {
             "bunny" => {

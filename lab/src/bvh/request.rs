@@ -8,7 +8,7 @@ use crate::straight::scenes::bunny::PlyError;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct BvhRequest {
     /// Where it goes.
     pub output: Output,
     /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, which is not of paper 4.

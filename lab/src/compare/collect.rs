@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::metrics::{Limits, Verdict};
 use super::report::{BEYOND, said};
 use crate::chart::{Provenance, Sheet, SheetError};
-use lensrunner::judge::case::Request;
+use lensrunner::judge::case::TraceRequest;
 use lensrunner::scene;
 
 /// The columns. T in r_s/c; displacements in pixels; `percent` of an image's pixels and its rim; thin areas in pixels; `verdict` is `within`,
@@ -51,7 +51,7 @@ pub fn moments() -> Vec<(String, f64)> {
 }
 
 /// Adds a verdict to the table in `csv`, in the place of an earlier one of the same scene, T and rays a pixel, and writes its Markdown beside it.
-pub fn add(csv: &Path, request: &Request, verdict: &Verdict, limits: &Limits, faults: &[String]) -> Result<(), SheetError> {
+pub fn add(csv: &Path, request: &TraceRequest, verdict: &Verdict, limits: &Limits, faults: &[String]) -> Result<(), SheetError> {
     let mut sheet = open(csv)?;
     let commit = Provenance::now("").commit;
     insert(&mut sheet, rows(request, verdict, limits, faults, &commit));
@@ -76,7 +76,7 @@ pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
 }
 
 /// The rows of a verdict; one, without an object, where nothing solid is seen.
-pub fn rows(request: &Request, verdict: &Verdict, limits: &Limits, faults: &[String], commit: &str) -> Vec<Vec<String>> {
+pub fn rows(request: &TraceRequest, verdict: &Verdict, limits: &Limits, faults: &[String], commit: &str) -> Vec<Vec<String>> {
     let [width, height] = request.size;
     let before = [request.scene.clone(), request.at.to_string(), format!("{width}x{height}"), request.samples.to_string()];
     let said = match said(verdict, limits, faults) {

@@ -12,7 +12,7 @@ use super::narrow;
 use super::report::{side_by_side, table};
 use crate::chart::SheetError;
 use crate::flip::flip;
-use lensrunner::judge::case::{Case, Request, TraceError};
+use lensrunner::judge::case::{Case, TraceError, TraceRequest};
 use lensrunner::judge::picture::{Picture, Quality};
 use lensrunner::picture_file::{PictureFileError, check_writable, write_png};
 use lensrunner::scene;
@@ -60,14 +60,14 @@ pub const ALL: &str = "all";
 
 /// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts. Scenes
 /// without anything solid get the rays that colours need. Gives what goes beyond the limits, and what could not be judged.
-pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
+pub fn run_all(request: &TraceRequest, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
     let mut faults = Vec::new();
     for (scene, at) in moments() {
         let name = if at == 0.0 { format!("{scene}.png") } else { format!("{scene}-{at}.png") };
         say(format_args!("{scene}, T = {at}:"));
         let solid = scene::load(&scene).map_or(true, |scene| !(scene.ships.is_empty() && scene.props.is_empty() && scene.planet.is_none()));
         let samples = if solid { request.samples } else { request.samples.max(COLOUR_SAMPLES) };
-        let request = Request { scene, at, samples, ..request.clone() };
+        let request = TraceRequest { scene, at, samples, ..request.clone() };
         match run(&request, config, &output.join(name), Some(&output.join("verdict.csv")), contestant) {
             Ok(found) => faults.extend(found),
             // What the asker did wrong is wrong everywhere; the other scenes can be judged without this one.
@@ -84,7 +84,7 @@ pub fn run_all(request: &Request, config: Option<&Path>, output: &Path, contesta
 /// Renders both, gives what goes beyond the limits, prints the verdict to standard output, writes the pictures side by side to `output`, a .png, and
 /// adds the verdict to `collected`, a .csv.
 pub fn run(
-    request: &Request,
+    request: &TraceRequest,
     config: Option<&Path>,
     output: &Path,
     collected: Option<&Path>,
@@ -131,7 +131,7 @@ pub fn run(
     let limits = Limits { flip: (request.samples >= COLOUR_SAMPLES && nothing_solid).then(|| colour_limit(&judge)), ..limits };
     let faults = verdict.faults(&limits);
     say(table(&verdict, &limits, &faults).trim_end());
-    let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.development());
+    let (size, bytes) = side_by_side(&judge, &frame, &difference, &verdict.displaced, &case.post_process());
     write_png(output, &bytes, size)?;
     if let Some(csv) = collected {
         add(csv, request, &verdict, &limits, &faults)?;

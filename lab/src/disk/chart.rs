@@ -3,7 +3,7 @@
 //! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
 //! for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the instruments know no renderer.
 
-use super::request::{ChartError, Contestant, Draw, REFERENCE, Request, TIME, View, contestants, eye, median, own, passes, timed};
+use super::request::{ChartError, Contestant, DiskRequest, Draw, REFERENCE, TIME, View, contestants, eye, median, own, passes, timed};
 use lensrunner::spacetime::Observer;
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ use super::flight::{self, flight};
 use super::places::errors_by_place;
 
 /// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Vec<PathBuf>, ChartError> {
+pub fn run(request: &DiskRequest, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Vec<PathBuf>, ChartError> {
     let contestants = contestants(config);
     let alone = request.output.sheet("disk-alone", || alone(request, &contestants, adapter, draw))?;
     let chase = request.output.sheet("disk-chase", || chase(request, &contestants, adapter, draw))?;
@@ -45,7 +45,7 @@ fn portrait() -> Observer {
     eye(position, -position)
 }
 
-fn alone(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+fn alone(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet =
         Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
     sheet.notes = Provenance::now(adapter).notes();

@@ -5,7 +5,7 @@ use lensrunner::scene::disk::Gas;
 
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, DISK_PASSES, Draw, Request, View, median, own, timed};
+use super::request::{ChartError, Contestant, DISK_PASSES, DiskRequest, Draw, View, median, own, timed};
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.
@@ -17,7 +17,7 @@ const LEAST_PEAK: f32 = 0.01;
 
 /// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the pictures that are
 /// compared show the disk alone. Times are medians of the rounds, in which all take turns.
-pub(super) fn chase(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&[
         "contestant",
         "family",

@@ -3,7 +3,7 @@
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::GameConfig;
 
-use super::request::{ChartError, DISK_PASSES, Draw, REFERENCE, Request, View, contestants};
+use super::request::{ChartError, DISK_PASSES, DiskRequest, Draw, REFERENCE, View, contestants};
 use super::script::script;
 
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
@@ -11,7 +11,7 @@ const DRAWN: usize = 3;
 
 /// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the adapter's timestamps, of
 /// them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the disk's draw shaded.
-pub(super) fn flight(request: &Request, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub(super) fn flight(request: &DiskRequest, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
     sheet.notes = Provenance::now(adapter).notes();
     let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);

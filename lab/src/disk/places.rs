@@ -10,7 +10,7 @@ use lensrunner::scene::disk::Gas;
 
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, Draw, Request, TIME, View, eye};
+use super::request::{ChartError, Contestant, DiskRequest, Draw, TIME, View, eye};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];
@@ -37,7 +37,7 @@ fn seats() -> Vec<(String, Observer)> {
 }
 
 /// PSNR and ꟻLIP of polygons and arcs from each of these places.
-pub fn errors_by_place(request: &Request, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["contestant", "family", "place", "psnr_db", "flip", "mean_difference"]);
     sheet.notes = Provenance::now(adapter).notes();
     let base = &contestants[0].config;

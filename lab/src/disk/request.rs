@@ -10,7 +10,7 @@ use crate::plot::PlotError;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct DiskRequest {
     /// Where it goes.
     pub output: Output,
     /// Width and height of the pictures that are timed.

@@ -2,7 +2,7 @@
 
 use super::score::{Truth, tally};
 use super::time::TimedFrame;
-use super::{ChartError, Request};
+use super::{ChartError, ProjectionRequest};
 use crate::chart::{Provenance, Sheet};
 use lensrunner::lensing::adversarial::{Row, by_camera};
 use lensrunner::lensing::methods::{FAMILIES, Vertex};
@@ -74,7 +74,7 @@ const COLUMNS: &[&str] = &[
 /// One row for each method and order, on the very `rows` of the processor, whose truth in each order is `truths`; timed on points of the
 /// processor's `frames`.
 pub fn measure(
-    request: &Request,
+    request: &ProjectionRequest,
     adapter: &mut dyn Adapter,
     rows: &[Row],
     truths: &[Vec<Truth>],

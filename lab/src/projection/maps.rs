@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::draw::HALF_PIXEL;
-use super::{ChartError, Request, chosen};
+use super::{ChartError, ProjectionRequest, chosen};
 use crate::chart::{Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Map, Panel};
 use lensrunner::lensing::adversarial::POINTS;
@@ -68,7 +68,7 @@ impl Plane {
 }
 
 /// One row of the sheet for each method, plane and φ; the errors at all r stand in it side by side.
-pub fn measure(request: &Request) -> Result<Sheet, ChartError> {
+pub fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["method", "L", "points", "phi"]);
     sheet.columns.extend((1..=SIZE[0]).map(|k| format!("r{k}")));
     sheet.notes = Provenance::now("").notes();

@@ -22,7 +22,7 @@ use lensrunner::spacetime::light::Order;
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct ProjectionRequest {
     /// Where it goes.
     pub output: Output,
     /// Adversarial points for each method and order.
@@ -51,7 +51,7 @@ pub enum ChartError {
 }
 
 /// Measures (or reads) and draws; returns the files written. `adapter` adds a sheet and a panel of its own.
-pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
+pub fn run(request: &ProjectionRequest, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("projection", || measure(request))?;
     let mut paths = vec![output.csv("projection")];
@@ -83,7 +83,7 @@ pub fn run(request: &Request, adapter: Option<&mut dyn Adapter>) -> Result<Vec<P
 type Methods = Vec<(Entry, Box<dyn Projector>)>;
 
 /// The methods asked for.
-fn chosen(request: &Request) -> Result<Methods, ChartError> {
+fn chosen(request: &ProjectionRequest) -> Result<Methods, ChartError> {
     let wrong = request.methods.iter().find(|name| !CATALOGUE.iter().any(|entry| entry.name == name.as_str()));
     if let Some(name) = wrong {
         return Err(ChartError::Method { name: name.clone() });
@@ -93,7 +93,7 @@ fn chosen(request: &Request) -> Result<Methods, ChartError> {
 }
 
 /// What the rows are, for the notes of a sheet.
-fn told(request: &Request, rows: &[Row]) -> String {
+fn told(request: &ProjectionRequest, rows: &[Row]) -> String {
     format!(
         "{} for each order, from {} cameras, seed {}",
         rows.len(),
@@ -132,7 +132,7 @@ const COLUMNS: &[&str] = &[
     "bytes",
 ];
 
-fn measure(request: &Request) -> Result<Sheet, ChartError> {
+fn measure(request: &ProjectionRequest) -> Result<Sheet, ChartError> {
     let methods = chosen(request)?;
     let mut sheet = Sheet::new(COLUMNS);
     sheet.notes = Provenance::now("").notes();

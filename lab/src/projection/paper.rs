@@ -9,7 +9,7 @@ use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
-use super::Request;
+use super::ProjectionRequest;
 use crate::chart::{Provenance, Sheet};
 use lensrunner::lensing::Scheme;
 use lensrunner::lensing::methods::{self, Exact, Projector, Query};
@@ -49,7 +49,7 @@ const PRINTED: [(Scheme, usize, u8, bool, [f64; 2]); 24] = [
 ];
 
 /// Every row of both tables with the printed values and ours.
-pub fn measure(request: &Request) -> Sheet {
+pub fn measure(request: &ProjectionRequest) -> Sheet {
     let mut sheet = Sheet::new(&[
         "mesh",
         "nodes",
@@ -86,7 +86,14 @@ pub fn measure(request: &Request) -> Sheet {
 }
 
 /// The errors of ψ in degrees. The standard deviation of errors whose mean is far smaller is their rms.
-fn errors(method: &dyn Projector, scheme: Scheme, request: &Request, order: Order, inside: bool, sampling: usize) -> super::score::Spread {
+fn errors(
+    method: &dyn Projector,
+    scheme: Scheme,
+    request: &ProjectionRequest,
+    order: Order,
+    inside: bool,
+    sampling: usize,
+) -> super::score::Spread {
     let drawn: Vec<(f64, [f64; 3])> = (0..request.points)
         .into_par_iter()
         .filter_map(|i| {
@@ -109,7 +116,7 @@ fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Qu
         let camera = match sampling {
             0 => uniform(cameras, z),
             1 => logarithmic(cameras, z),
-            _ => camera_mesh(scheme, inside).place(z),
+            _ => camera_mesh(scheme, inside).source_point(z),
         };
         let radii = if inside { [RANGES[2], camera] } else { [camera, RANGES[3]] };
         let (r, phi) = match sampling {
@@ -117,7 +124,7 @@ fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Qu
             1 => (logarithmic(radii, x), PI * y),
             _ => {
                 let [radial, angular] = slice_meshes(scheme, inside, camera);
-                (radial.place(x), angular.place(y))
+                (radial.source_point(x), angular.source_point(y))
             }
         };
         let half = (0.5 * phi).sin();

@@ -20,7 +20,7 @@ use lensrunner::spacetime::metric::river_speed;
 
 /// What to measure.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct ThinDiskRequest {
     /// Where it goes.
     pub output: Output,
     /// Pixels along each side of the picture that is compared.
@@ -151,7 +151,7 @@ const COLUMNS: [&str; 9] =
     ["method", "tolerance", "rays", "rays_per_second", "shift_max", "shift_median", "flux_max", "flux_median", "coverage"];
 
 /// Measures, or takes the CSV that is there, and draws.
-pub fn run(request: &Request) -> Result<Vec<PathBuf>, ThinDiskError> {
+pub fn run(request: &ThinDiskRequest) -> Result<Vec<PathBuf>, ThinDiskError> {
     let sheet = request.output.sheet::<ThinDiskError>(NAME, || Ok(measure(request.pixels)))?;
     let [svg, png] = figure(&sheet).save(&request.output.folder, NAME)?;
     Ok(vec![request.output.csv(NAME), svg, png])

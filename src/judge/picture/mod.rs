@@ -6,12 +6,12 @@
 //! - `roots`: where a curve of bounded bend goes through a plane.
 //! - `sweep`: where flying bodies may be at which delay; `span`: at which delays a camera may see them at all.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
-//! - [`develop`]: linear light to a picture for the eye.
+//! - [`post_process`]: linear light to a picture for the eye.
 
-pub mod develop;
 pub mod disk;
 mod find;
 mod packet;
+pub mod post_process;
 mod roots;
 pub mod shade;
 pub mod sky;
@@ -35,7 +35,7 @@ pub use world::{Thing, World};
 pub use worldline::{Motion, Pose, Sway, Worldline};
 
 use super::bvh::order::squares;
-use super::trace::{Camera, Hit};
+use super::trace::{Hit, PixelCamera};
 use shade::{Shift, Surface, detail, shaded, texel};
 use sky::{Background, SPOT_SIGMA, Spot};
 use texture::Pyramid;
@@ -139,7 +139,7 @@ enum Ending {
 }
 
 /// Traces the picture that `camera` sees. `done` is told how many pixels have been finished, again and again.
-pub fn picture(world: &World, setting: &Setting, camera: &Camera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
+pub fn picture(world: &World, setting: &Setting, camera: &PixelCamera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
     let [width, height] = camera.size;
     let given_up = world.given_up();
     let painter = Painter { world, setting, camera, quality, pyramids: pyramids(world) };
@@ -210,7 +210,7 @@ fn pyramids(world: &World) -> HashMap<usize, Pyramid> {
 struct Painter<'a> {
     world: &'a World<'a>,
     setting: &'a Setting<'a>,
-    camera: &'a Camera,
+    camera: &'a PixelCamera,
     quality: &'a Quality,
     pyramids: HashMap<usize, Pyramid>,
 }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::shade::{Shift, shifted_colour};
 use super::texture::{Level, Pyramid};
 use crate::judge::ray::{Follower, Stop, sky_radius};
-use crate::judge::trace::Camera;
+use crate::judge::trace::PixelCamera;
 use crate::scene::blackbody;
 use crate::scene::milky_way::{self, MilkyWay};
 use crate::scene::stars::{SKY_UNIT, Star};
@@ -133,7 +133,7 @@ fn shadow_angle(r: f64) -> f64 {
 }
 
 /// Where the camera sees each star, in the first two orders, and how bright. `brightness` is the factor on the catalogue.
-pub fn stars(catalogue: &[Star], camera: &Camera, hole: bool, tolerance: f64, brightness: f64, shift: Shift) -> Vec<Spot> {
+pub fn stars(catalogue: &[Star], camera: &PixelCamera, hole: bool, tolerance: f64, brightness: f64, shift: Shift) -> Vec<Spot> {
     let radius = camera.observer.position.length();
     let n = camera.observer.position / radius;
     let sweep = Sweep::new(radius, hole, tolerance);

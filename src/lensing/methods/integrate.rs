@@ -4,7 +4,7 @@
 //! time is a third equation. It starts from the table's closed form, which is generous.
 
 use super::{Frame, Projector, Query, Sight, each, sight};
-use crate::lensing::double::{self, Camera, bent_sweep, slope_guess};
+use crate::lensing::double::{self, LensCamera, bent_sweep, slope_guess};
 use crate::spacetime::light::{Branch, Order};
 
 /// Shooting with `steps` steps a shot.
@@ -53,7 +53,7 @@ impl Integrate {
         Ok(state)
     }
 
-    fn solve(&self, cam: &Camera, query: Query, order: Order) -> Option<Sight> {
+    fn solve(&self, cam: &LensCamera, query: Query, order: Order) -> Option<Sight> {
         let (a, c, swept) = (cam.a, 1.0 / query.r, order.swept(query.phi));
         let (mut w, _) = slope_guess(cam, -(query.r - query.camera) / (query.r * query.camera), bent_sweep(swept));
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);

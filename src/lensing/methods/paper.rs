@@ -5,8 +5,8 @@ use wide::f32x8;
 
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::batch::{self, LANES};
-use crate::lensing::place::place;
-use crate::lensing::single::{Camera, camera};
+use crate::lensing::single::{LensCamera, camera};
+use crate::lensing::source_point::place;
 use crate::lensing::{Table, paper};
 use crate::spacetime::light::{Branch, Order};
 
@@ -56,7 +56,7 @@ struct Half {
 
 /// What a frame needs.
 struct Ready {
-    cam: Camera,
+    cam: LensCamera,
     halves: [Half; 2],
 }
 
@@ -76,7 +76,7 @@ impl Paper {
     /// ψ of a static camera, and the delay.
     fn fetch(&self, ready: &Ready, point: &Vertex, order: Order) -> [f32; 2] {
         let n = self.0.size[0] as usize;
-        let at = place(&ready.cam, point.along, point.across, point.height);
+        let at = source_point(&ready.cam, point.along, point.across, point.height);
         let inside = at.dr <= 0.0;
         let half = &ready.halves[usize::from(!inside)];
         let (i, x) = half.radial.cell(if inside { at.r - half.first } else { at.dr }, n);
@@ -121,7 +121,7 @@ impl PaperBatch {
         let n = self.0.0.size[0] as usize;
         let last = points.len() - 1;
         let of = |field: fn(&Vertex) -> f32| f32x8::from(std::array::from_fn(|i| field(&points[i.min(last)])));
-        let [r, _, dr, phi] = batch::place(&ready.cam, of(|p| p.along), of(|p| p.across), of(|p| p.height));
+        let [r, _, dr, phi] = batch::source_point(&ready.cam, of(|p| p.along), of(|p| p.across), of(|p| p.height));
         let beyond = dr.simd_gt(f32x8::ZERO);
         let side = beyond.to_bitmask();
         let halves: [&Half; LANES] = std::array::from_fn(|i| &ready.halves[(side >> i & 1) as usize]);

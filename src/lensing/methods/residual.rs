@@ -6,8 +6,8 @@ use half::f16;
 use super::slice::{in_range, seen};
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::lookup::{LensRay, OLD, YOUNG, lookup_with, swept};
-use crate::lensing::place::place;
-use crate::lensing::single::{Camera, camera};
+use crate::lensing::single::{LensCamera, camera};
+use crate::lensing::source_point::place;
 use crate::lensing::{Table, grid, spline};
 use crate::spacetime::light::{Branch, Order};
 
@@ -118,8 +118,8 @@ impl<T: Texels> Residual<T> {
         (layer, t as f32)
     }
 
-    fn ray(&self, cam: &Camera, layer: (usize, f32), point: &Vertex, order: Order, branch: Branch) -> LensRay {
-        let at = place(cam, point.along, point.across, point.height);
+    fn ray(&self, cam: &LensCamera, layer: (usize, f32), point: &Vertex, order: Order, branch: Branch) -> LensRay {
+        let at = source_point(cam, point.along, point.across, point.height);
         let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
         lookup_with(cam, at, swept(at, u32::from(order.number())), elapsed, |x, y| self.at(x, y, layer))
     }

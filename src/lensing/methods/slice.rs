@@ -3,9 +3,9 @@
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
 use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear, swept};
-use crate::lensing::place::place;
-use crate::lensing::single::Camera;
+use crate::lensing::single::LensCamera;
 use crate::lensing::slice::Cut;
+use crate::lensing::source_point::place;
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
 
@@ -106,14 +106,14 @@ pub struct Reformatted {
 impl Reformatted {
     fn look_up(
         &self,
-        cam: &Camera,
+        cam: &LensCamera,
         size: [u32; 2],
         texel: impl Fn(usize) -> [f32; 4],
         point: &Vertex,
         order: Order,
         branch: Branch,
     ) -> LensRay {
-        let at = place(cam, point.along, point.across, point.height);
+        let at = source_point(cam, point.along, point.across, point.height);
         let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
         let sweep = swept(at, u32::from(order.number()));
         if self.half {

@@ -6,26 +6,26 @@ use glam::DVec3;
 
 use crate::play::camera::BEHIND;
 use crate::play::hud::layout::settle;
+use crate::play::hud::paint::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
 use crate::play::hud::panel::Panel;
-use crate::play::hud::plate::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum MarkerPosition {
     /// On the screen, in points from the upper left corner.
     On([f64; 2]),
     /// At the edge, with the unit vector towards it (x right, y down).
     Edge([f64; 2], [f64; 2]),
 }
 
-/// See [`Place`]; `size` in points, `inset` the distance of arrows from the edge.
-pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -> Place {
+/// See [`MarkerPosition`]; `size` in points, `inset` the distance of arrows from the edge.
+pub fn marker_position(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -> MarkerPosition {
     let camera = Observer { position: DVec3::X, momentum: DVec3::ZERO, attitude: glam::DQuat::IDENTITY, field_of_view };
     // On a square of 1,000 pixels; its middle is the screen's.
     if let Some([x, y]) = camera.pixel(direction, [1000, 1000]) {
         let at = [0.5 * size[0] + (x - 500.0) * size[0] / 1000.0, 0.5 * size[1] + (y - 500.0) * size[0] / 1000.0];
         if (0.0..=size[0]).contains(&at[0]) && (0.0..=size[1]).contains(&at[1]) {
-            return Place::On(at);
+            return MarkerPosition::On(at);
         }
     }
     // The shortest turn that brings it into view goes along its projection across the line of sight.
@@ -33,7 +33,7 @@ pub fn place(direction: DVec3, field_of_view: f64, size: [f64; 2], inset: f64) -
     let towards = if length > 1e-9 { [direction.x / length, -direction.y / length] } else { [0.0, 1.0] };
     let room = [0.5 * size[0] - inset, 0.5 * size[1] - inset];
     let reach = (room[0] / towards[0].abs().max(1e-9)).min(room[1] / towards[1].abs().max(1e-9));
-    Place::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
+    MarkerPosition::Edge([0.5 * size[0] + reach * towards[0], 0.5 * size[1] + reach * towards[1]], towards)
 }
 
 /// Where one's own ship is on the screen `rect` in third person, wings and all, in points: names and arrows keep off it.
@@ -71,7 +71,7 @@ struct Board<'a> {
 /// arrows, then names. All in points.
 pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> Vec<Rect> {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
-    let find = |direction: DVec3| place(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
+    let find = |direction: DVec3| marker_position(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
     let before = taken.len();
     let mut board = Board { painter, rect, taken, names: Vec::new() };
@@ -85,13 +85,13 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     let truth = panel.truth.map(find);
     let heading = panel.heading.map(find);
     // The names most wanted come first; each keeps off those before it.
-    if let Some((Place::On(at), age)) = first {
+    if let Some((MarkerPosition::On(at), age)) = first {
         let at = point(at);
         diamond(painter, at, 13.0, Stroke::new(2.0, SEEN));
         board.takes(at, 13.0);
         board.name(format!("seen, {age:.1} r_s/c ago"), 13.0, SEEN, at + vec2(18.0, -10.0), Align2::LEFT_BOTTOM);
     }
-    if let Some(Place::On(at)) = truth {
+    if let Some(MarkerPosition::On(at)) = truth {
         let at = point(at);
         for quarter in 0..8 {
             let begin = f64::from(quarter) / 8.0;
@@ -100,7 +100,7 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
         board.takes(at, 13.0);
         board.name("now".into(), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
     }
-    if let Some(Place::On(at)) = heading {
+    if let Some(MarkerPosition::On(at)) = heading {
         let at = point(at);
         rimmed(painter, Stroke::new(1.5, OWN), |stroke| Shape::circle_stroke(at, 6.0, stroke));
         for (from, to) in [(vec2(-12.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(12.0, 0.0)), (vec2(0.0, -12.0), vec2(0.0, -6.0))] {
@@ -109,17 +109,17 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
         board.takes(at, 12.0);
         board.name("course".into(), 11.5, OWN, at + vec2(14.0, 12.0), Align2::LEFT_TOP);
     }
-    if let Some((Place::On(at), _)) = second {
+    if let Some((MarkerPosition::On(at), _)) = second {
         let at = point(at);
         diamond(painter, at, 7.0, Stroke::new(1.2, SEEN));
         board.takes(at, 7.0);
         board.name("2nd image".into(), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
     }
-    if let Some((Place::Edge(at, towards), _)) = first {
+    if let Some((MarkerPosition::Edge(at, towards), _)) = first {
         board.arrow(at, towards, "target", SEEN);
     }
     // The hole's shadow shows it where it is on the screen.
-    if let Some(Place::Edge(at, towards)) = panel.hole.map(find) {
+    if let Some(MarkerPosition::Edge(at, towards)) = panel.hole.map(find) {
         board.arrow(at, towards, "hole", ALARM);
     }
     board.write();
@@ -203,24 +203,28 @@ mod tests {
     use super::*;
     use crate::play::camera::seen::Apparition;
     use crate::play::hud::layout::overlap;
-    use crate::play::hud::plate::tests::on_canvas;
+    use crate::play::hud::paint::tests::on_canvas;
     use bevy_egui::egui::pos2;
 
     #[test]
     fn ahead_is_the_middle() {
-        assert_eq!(place(DVec3::NEG_Z, 1.0, [1280.0, 720.0], 50.0), Place::On([640.0, 360.0]));
+        assert_eq!(marker_position(DVec3::NEG_Z, 1.0, [1280.0, 720.0], 50.0), MarkerPosition::On([640.0, 360.0]));
     }
 
     #[test]
     fn right_and_up_are_right_and_up() {
-        let Place::On([x, y]) = place(DVec3::new(0.1, 0.1, -1.0), 1.0, [1280.0, 720.0], 50.0) else { panic!("off the screen") };
+        let MarkerPosition::On([x, y]) = marker_position(DVec3::new(0.1, 0.1, -1.0), 1.0, [1280.0, 720.0], 50.0) else {
+            panic!("off the screen")
+        };
         assert!(x > 640.0 && y < 360.0, "{x} {y}");
     }
 
     #[test]
     fn what_is_behind_has_an_arrow_at_the_edge() {
         for direction in [DVec3::new(0.2, 0.1, 1.0), DVec3::new(3.0, -1.0, -0.1), DVec3::Z] {
-            let Place::Edge([x, y], towards) = place(direction, 1.0, [1280.0, 720.0], 50.0) else { panic!("on the screen") };
+            let MarkerPosition::Edge([x, y], towards) = marker_position(direction, 1.0, [1280.0, 720.0], 50.0) else {
+                panic!("on the screen")
+            };
             let at_edge = (x - 50.0).abs() < 1.0 || (x - 1230.0).abs() < 1.0 || (y - 50.0).abs() < 1.0 || (y - 670.0).abs() < 1.0;
             assert!(at_edge && (49.0..1231.0).contains(&x) && (49.0..671.0).contains(&y), "{direction}: {x} {y}");
             assert!(direction.x * towards[0] >= 0.0 && direction.y * towards[1] <= 0.0);

@@ -4,8 +4,8 @@ pub mod instruments;
 pub mod layout;
 pub mod markers;
 pub mod notice;
+pub mod paint;
 pub mod panel;
-pub mod plate;
 
 use bevy::prelude::*;
 use bevy_egui::EguiContexts;
@@ -18,16 +18,16 @@ use crate::sim::{Chase, ChaseRules};
 use crate::play::camera::View;
 use crate::play::hud::instruments::{Countdown, Instruments, Scale, hold_words};
 use crate::play::hud::notice::Notice;
+use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::{Panel, Staged, loaded};
-use crate::play::hud::plate::{ALARM, BAR_ROOM, FAINT, OWN, Plate, TEXT, TRUE, text};
 use crate::play::menus::screens::Screen;
-use crate::play::seat::Seat;
+use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
 use markers::arc;
 
 /// Space between the screen's edge and the dials, in points.
 const MARGIN: f32 = 18.0;
-/// Space between two plates one above the other, in points.
+/// Space between two text boxes one above the other, in points.
 const BETWEEN: f32 = 6.0;
 /// What comes down from the upper edge ends above this, in points.
 const BELOW_DIALS: f32 = 122.0;
@@ -38,7 +38,7 @@ pub fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
     session: Res<Session>,
-    player: Res<Seat>,
+    player: Res<PlayerState>,
     panel: Res<Panel>,
     chase: Option<Res<Chase>>,
     rules: Res<ChaseRules>,
@@ -56,7 +56,7 @@ pub fn draw(
     let shown = shows(*screen.get(), player.bare);
     if let Some(words) = left_out(&session.config) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
-        Plate::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
+        TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
     }
     let mut taken = Vec::new();
     if real.elapsed_secs_f64() < notice.until {
@@ -70,23 +70,23 @@ pub fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut plates = dials(&painter, rect, &session, &player, &read);
+    let mut text_boxes = dials(&painter, rect, &session, &player, &read);
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         if chase.held > 0.0 {
             taken.push(hold(&painter, rect.center(), chase.held, rules.hold_time));
         }
         let scale = Scale::of(session.config.hole.mass_solar);
-        plates.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
+        text_boxes.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
     }
-    taken.extend(plates.iter().map(|plate| plate.frame));
+    taken.extend(text_boxes.iter().map(|text_box| text_box.frame));
     if player.view == View::ThirdPerson {
         taken.push(markers::own_ship(rect, panel.field_of_view));
     }
     // Below the dials, and named off them.
     markers::paint(&painter, rect, &panel, taken);
-    for plate in plates {
-        plate.paint(&painter);
+    for text_box in text_boxes {
+        text_box.paint(&painter);
     }
     warnings(&painter, rect, player.avoiding, read.radius);
     Ok(())
@@ -98,9 +98,9 @@ fn shows(screen: Screen, bare: bool) -> bool {
 }
 
 /// A line for the player, wrapped where it is wider than the screen.
-fn message(painter: &Painter, rect: Rect, words: &str) -> Plate {
+fn message(painter: &Painter, rect: Rect, words: &str) -> TextBox {
     let at = pos2(rect.center().x, rect.top() + BELOW_DIALS);
-    Plate::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
+    TextBox::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
 }
 
 /// Sizes of all text of the HUD, in points.
@@ -136,7 +136,7 @@ fn hold(painter: &Painter, middle: Pos2, held: f64, needed: f64) -> Rect {
 }
 
 /// What is left of the chase's time, on the far clock, over a bar that grows shorter.
-fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown) -> Plate {
+fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown) -> TextBox {
     let [colour, filled] = if countdown.late() { [ALARM; 2] } else { [TEXT, OWN] };
     let lines = [
         ("TIME LEFT", 11.0, FAINT),
@@ -144,20 +144,20 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
         (&format!("T = {:.1} of {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
     ];
     let top = pos2(rect.center().x, rect.top() + MARGIN);
-    Plate::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
+    TextBox::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
 /// The dials in the corners, and above the speed who flies and what is in the tanks.
-fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: &Instruments) -> Vec<Plate> {
-    let mut plates = Vec::new();
-    let lay = |at, anchor, lines: &[(&str, f32, Color32)]| Plate::lay(painter, at, anchor, f32::INFINITY, lines);
-    let mut plate = |at, anchor, lines: &[(&str, f32, Color32)]| plates.push(lay(at, anchor, lines));
+fn dials(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments) -> Vec<TextBox> {
+    let mut text_boxes = Vec::new();
+    let lay = |at, anchor, lines: &[(&str, f32, Color32)]| TextBox::lay(painter, at, anchor, f32::INFINITY, lines);
+    let mut text_box = |at, anchor, lines: &[(&str, f32, Color32)]| text_boxes.push(lay(at, anchor, lines));
     let scale = Scale::of(session.config.hole.mass_solar);
     let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
     let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
 
     let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
-    plate(
+    text_box(
         pos2(left, top),
         Align2::LEFT_TOP,
         &[
@@ -176,7 +176,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
     } else {
         TEXT
     };
-    plate(
+    text_box(
         pos2(right, top),
         Align2::RIGHT_TOP,
         &[
@@ -190,7 +190,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
     let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
     let gees = scale.gees(read.acceleration);
     let load = format!("{gees:.1} g");
-    plate(
+    text_box(
         pos2(left, bottom),
         Align2::LEFT_BOTTOM,
         &[
@@ -203,7 +203,7 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
 
     if let Some(target) = read.target {
         let closing = format!("{:+.3} c", target.closing);
-        plate(
+        text_box(
             pos2(right, bottom),
             Align2::RIGHT_BOTTOM,
             &[
@@ -229,9 +229,9 @@ fn dials(painter: &Painter, rect: Rect, session: &Session, player: &Seat, read: 
     let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };
     let lines = [(&*state, 12.0, TEXT), (&*pace, 12.0, TEXT), (&*tanks, 12.0, colour)];
     // Above the speed: below the middle it would lie on one's own ship.
-    let above = plates[2].frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM);
-    plates.push(lay(above, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
-    plates
+    let above = text_boxes[2].frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM);
+    text_boxes.push(lay(above, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
+    text_boxes
 }
 
 /// What must not be missed, in large letters.
@@ -248,7 +248,7 @@ fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
 mod tests {
     use super::*;
     use crate::play::hud::layout::overlap;
-    use crate::play::hud::plate::tests::on_canvas;
+    use crate::play::hud::paint::tests::on_canvas;
     use crate::scene::config::parse;
     use crate::spacetime::matter::ShipState;
     use glam::DVec3;
@@ -284,14 +284,14 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut plates = dials(painter, rect, &session, &Seat::default(), &read);
-                plates.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
-                assert_eq!(plates.len(), 6);
-                for (k, plate) in plates.iter().enumerate() {
-                    assert!(rect.contains_rect(plate.frame), "{}", plate.frame);
-                    assert!(!overlap(&plate.frame, &markers::own_ship(rect, 60_f64.to_radians())), "{}", plate.frame);
-                    assert!(plate.frame.bottom() < BELOW_DIALS || plate.frame.top() > rect.center().y, "{}", plate.frame);
-                    assert!(plates[..k].iter().all(|other| !overlap(&other.frame, &plate.frame)), "{}", plate.frame);
+                let mut text_boxes = dials(painter, rect, &session, &PlayerState::default(), &read);
+                text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
+                assert_eq!(text_boxes.len(), 6);
+                for (k, text_box) in text_boxes.iter().enumerate() {
+                    assert!(rect.contains_rect(text_box.frame), "{}", text_box.frame);
+                    assert!(!overlap(&text_box.frame, &markers::own_ship(rect, 60_f64.to_radians())), "{}", text_box.frame);
+                    assert!(text_box.frame.bottom() < BELOW_DIALS || text_box.frame.top() > rect.center().y, "{}", text_box.frame);
+                    assert!(text_boxes[..k].iter().all(|other| !overlap(&other.frame, &text_box.frame)), "{}", text_box.frame);
                 }
             });
         }

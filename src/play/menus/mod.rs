@@ -9,10 +9,10 @@ use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 use crate::sim::{Chase, Outcome};
 
 use crate::play::hud::instruments::Scale;
+use crate::play::hud::paint::{OWN, SEEN, SHADE, TRUE};
 use crate::play::hud::panel::Panel;
-use crate::play::hud::plate::{OWN, SEEN, SHADE, TRUE};
-use crate::play::menus::screens::{Screen, Wish};
-use crate::play::seat::{Flown, Seat};
+use crate::play::menus::screens::{MenuAction, Screen};
+use crate::play::player_state::{Flown, PlayerState};
 use crate::play::session::Session;
 
 const PALE: Color32 = Color32::from_rgb(226, 234, 242);
@@ -26,11 +26,11 @@ pub fn draw(
     mut session: ResMut<Session>,
     chase: Option<Res<Chase>>,
     panel: Res<Panel>,
-    seat: Res<Seat>,
-    mut wishes: MessageWriter<Wish>,
+    player: Res<PlayerState>,
+    mut actions: MessageWriter<MenuAction>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
-    let mut ask = |wish| _ = wishes.write(wish);
+    let mut ask = |action| _ = actions.write(action);
     match screen.get() {
         Screen::Playing => (),
         Screen::Title => card(context, "title", WIDE, |ui| title(ui, &mut session, &mut ask)),
@@ -38,14 +38,23 @@ pub fn draw(
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
             ui.add_space(10.0);
-            buttons(ui, &mut ask, &[("Go on", Wish::Pause), ("Start again", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
+            buttons(
+                ui,
+                &mut ask,
+                &[
+                    ("Go on", MenuAction::Pause),
+                    ("Start again", MenuAction::Start),
+                    ("Title", MenuAction::Title),
+                    ("Quit", MenuAction::Quit),
+                ],
+            );
             calm(ui, &mut session);
             ui.add_space(6.0);
             controls(ui, &session);
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
-            result(ui, &session, chase.as_deref(), &panel, seat.flown);
-            buttons(ui, &mut ask, &[("Once more", Wish::Start), ("Title", Wish::Title), ("Quit", Wish::Quit)]);
+            result(ui, &session, chase.as_deref(), &panel, player.flown);
+            buttons(ui, &mut ask, &[("Once more", MenuAction::Start), ("Title", MenuAction::Title), ("Quit", MenuAction::Quit)]);
         }),
     }
     Ok(())
@@ -72,17 +81,17 @@ fn card(context: &egui::Context, name: &'static str, width: f32, content: impl F
     });
 }
 
-fn buttons(ui: &mut Ui, ask: &mut impl FnMut(Wish), choices: &[(&str, Wish)]) {
-    for &(words, wish) in choices {
+fn buttons(ui: &mut Ui, ask: &mut impl FnMut(MenuAction), choices: &[(&str, MenuAction)]) {
+    for &(words, action) in choices {
         let button = egui::Button::new(RichText::new(words).size(18.0).color(PALE)).min_size(egui::vec2(230.0, 34.0));
         if ui.add(button).clicked() {
-            ask(wish);
+            ask(action);
         }
         ui.add_space(4.0);
     }
 }
 
-fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(Wish)) {
+fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(MenuAction)) {
     ui.label(RichText::new("LENSRUNNER").size(42.0).color(PALE).strong());
     ui.label(RichText::new("a chase in the spacetime of a black hole").size(15.0).color(FAINT));
     ui.add_space(8.0);
@@ -92,7 +101,7 @@ fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(Wish)) {
     ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
     ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
     ui.add_space(8.0);
-    buttons(ui, ask, &[("Start  (Enter)", Wish::Start), ("Quit", Wish::Quit)]);
+    buttons(ui, ask, &[("Start  (Enter)", MenuAction::Start), ("Quit", MenuAction::Quit)]);
     ui.add_space(4.0);
     controls(ui, session);
 }
@@ -286,7 +295,7 @@ mod tests {
     fn the_title_fits() {
         let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
         let mut height = f32::INFINITY;
-        crate::play::hud::plate::tests::on_canvas(INTERFACE, |painter, _| {
+        crate::play::hud::paint::tests::on_canvas(INTERFACE, |painter, _| {
             // The first picture of an area only measures it.
             card(painter.ctx(), "title", WIDE, |ui| {
                 title(ui, &mut session, &mut |_| ());

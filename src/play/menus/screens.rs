@@ -25,7 +25,7 @@ impl Screen {
 
 /// What a player can ask of the menus.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wish {
+pub enum MenuAction {
     /// A new chase.
     Start,
     /// Stop, or go on.
@@ -36,13 +36,13 @@ pub enum Wish {
     Quit,
 }
 
-/// Where a wish leads, and whether the chase begins anew; None where it means nothing.
-pub fn answer(screen: Screen, wish: Wish) -> Option<(Screen, bool)> {
-    match (screen, wish) {
-        (_, Wish::Start) => Some((Screen::Playing, true)),
-        (Screen::Playing, Wish::Pause) => Some((Screen::Paused, false)),
-        (Screen::Paused, Wish::Pause) => Some((Screen::Playing, false)),
-        (Screen::Paused | Screen::Result, Wish::Title) => Some((Screen::Title, true)),
+/// Where a action leads, and whether the chase begins anew; None where it means nothing.
+pub fn answer(screen: Screen, action: MenuAction) -> Option<(Screen, bool)> {
+    match (screen, action) {
+        (_, MenuAction::Start) => Some((Screen::Playing, true)),
+        (Screen::Playing, MenuAction::Pause) => Some((Screen::Paused, false)),
+        (Screen::Paused, MenuAction::Pause) => Some((Screen::Playing, false)),
+        (Screen::Paused | Screen::Result, MenuAction::Title) => Some((Screen::Title, true)),
         _ => None,
     }
 }
@@ -53,16 +53,16 @@ mod tests {
 
     #[test]
     fn pause_stops_and_goes_on() {
-        assert_eq!(answer(Screen::Playing, Wish::Pause), Some((Screen::Paused, false)));
-        assert_eq!(answer(Screen::Paused, Wish::Pause), Some((Screen::Playing, false)));
-        assert_eq!(answer(Screen::Title, Wish::Pause), None);
-        assert_eq!(answer(Screen::Result, Wish::Pause), None);
+        assert_eq!(answer(Screen::Playing, MenuAction::Pause), Some((Screen::Paused, false)));
+        assert_eq!(answer(Screen::Paused, MenuAction::Pause), Some((Screen::Playing, false)));
+        assert_eq!(answer(Screen::Title, MenuAction::Pause), None);
+        assert_eq!(answer(Screen::Result, MenuAction::Pause), None);
     }
 
     #[test]
     fn every_screen_leads_to_a_new_chase() {
         for screen in [Screen::Title, Screen::Playing, Screen::Paused, Screen::Result] {
-            assert_eq!(answer(screen, Wish::Start), Some((Screen::Playing, true)));
+            assert_eq!(answer(screen, MenuAction::Start), Some((Screen::Playing, true)));
         }
     }
 

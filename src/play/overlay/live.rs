@@ -16,7 +16,7 @@ use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
 use crate::play::hud::panel::Staged;
 use crate::play::input::Bindings;
-use crate::play::seat::{GameSet, Seat};
+use crate::play::player_state::{GameSet, PlayerState};
 use crate::play::session::Session;
 
 /// Time between two looks at the file.
@@ -108,9 +108,9 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     }
     // The key switches for the chase; a change of the configuration is newer.
     if before.as_ref().is_some_and(|before| before.assist.enabled != config.assist.enabled)
-        && let Some(mut seat) = world.get_resource_mut::<Seat>()
+        && let Some(mut player) = world.get_resource_mut::<PlayerState>()
     {
-        seat.assist = None;
+        player.assist = None;
     }
     if before.as_ref().is_some_and(|before| restage(before, config))
         && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()

@@ -14,7 +14,7 @@ use crate::render::plugin::SharedRenderer;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
-use crate::play::seat::Seat;
+use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
 
 /// Frames over which mean and worst are taken.
@@ -46,7 +46,7 @@ impl FrameTimes {
 #[allow(clippy::too_many_arguments)]
 pub fn draw(
     mut contexts: EguiContexts,
-    player: Res<Seat>,
+    player: Res<PlayerState>,
     mut session: ResMut<Session>,
     renderer: Option<Res<SharedRenderer>>,
     real: Res<Time<Real>>,

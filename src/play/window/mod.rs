@@ -28,7 +28,7 @@ use crate::play::hud::notice::Notice;
 use crate::play::input::MouseTurn;
 use crate::play::menus::screens::Screen;
 use crate::play::overlay::live::LivePlugin;
-use crate::play::seat::{GameSet, Seat};
+use crate::play::player_state::{GameSet, PlayerState};
 use crate::play::session::Session;
 use crate::play::{hud, menus, overlay};
 
@@ -71,7 +71,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         record::RecordPlugin { folder: options.record.clone(), frames: options.frames },
     ))
     .insert_resource(ClearColor(Color::BLACK))
-    .insert_resource(Seat { always_autopilot: options.autopilot, ..default() })
+    .insert_resource(PlayerState { always_autopilot: options.autopilot, ..default() })
     .insert_resource(session)
     .init_resource::<Panel>()
     .add_systems(Startup, spawn_camera)
@@ -117,7 +117,7 @@ fn welcome(
     screen: Res<State<Screen>>,
     clock: Res<Clock>,
     real: Res<Time<Real>>,
-    mut seat: ResMut<Seat>,
+    mut player: ResMut<PlayerState>,
     mut notice: ResMut<Notice>,
 ) {
     /// How long the goal is shown after the beginning, in r_s/c of T.
@@ -127,12 +127,12 @@ fn welcome(
     if *screen.get() != Screen::Playing {
         return;
     }
-    if !seat.begun {
-        seat.hinted += real.delta_secs_f64();
-        seat.begun = seat.hinted > HINTED;
+    if !player.begun {
+        player.hinted += real.delta_secs_f64();
+        player.begun = player.hinted > HINTED;
     }
-    let goal = (clock.time < SHOWN || !seat.begun).then(|| menus::goal(&session));
-    let hint = (!seat.begun).then(|| menus::hint(&session));
+    let goal = (clock.time < SHOWN || !player.begun).then(|| menus::goal(&session));
+    let hint = (!player.begun).then(|| menus::hint(&session));
     let words: Vec<String> = goal.into_iter().chain(hint).collect();
     if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
         *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
@@ -142,13 +142,13 @@ fn welcome(
 /// In play the mouse belongs to the ship.
 fn grab_cursor(
     screen: Res<State<Screen>>,
-    seat: Res<Seat>,
+    player: Res<PlayerState>,
     motion: Res<AccumulatedMouseMotion>,
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,
     mut cursors: Query<&mut CursorOptions, With<PrimaryWindow>>,
 ) {
-    let grabbed = *screen.get() == Screen::Playing && !seat.overlay && !seat.autopilot;
+    let grabbed = *screen.get() == Screen::Playing && !player.overlay && !player.autopilot;
     for mut cursor in &mut cursors {
         if cursor.visible == grabbed {
             cursor.visible = !grabbed;
@@ -209,7 +209,7 @@ fn make_frame(
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
     chase: Option<Res<Chase>>,
-    mut seat: ResMut<Seat>,
+    mut player: ResMut<PlayerState>,
     mut frame: ResMut<FrameToDraw>,
     mut panel: ResMut<Panel>,
     mut cut: Local<Option<(Sight, f64)>>,
@@ -225,20 +225,20 @@ fn make_frame(
     let time = (clock.time - clock.step * (1.0 - fixed.overstep_fraction_f64())).max(0.0);
     let state = state_of(&history.at(time));
     let seconds = real.delta_secs_f64();
-    let cockpit = seat.view == View::Cockpit;
+    let cockpit = player.view == View::Cockpit;
     let rigid = cockpit || config.video.reduced_motion;
-    let attitude = seat.follower.follow(state.attitude, seconds, rigid);
+    let attitude = player.follower.follow(state.attitude, seconds, rigid);
     let field_of_view = config.video.fov.to_radians();
     let sight = Sight::of(*screen.get(), chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome));
     let named = session.target();
     let target = named.and_then(|target| histories.get(target).copied());
     let size_of_ship = length(&session, me);
-    let sought = target.filter(|_| seat.looking && sight == Sight::Own);
-    let facing = sought.and_then(|target| seat.gaze.facing(&state, seat.view, size_of_ship, attitude, time, target));
-    let attitude = seat.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
+    let sought = target.filter(|_| player.looking && sight == Sight::Own);
+    let facing = sought.and_then(|target| player.gaze.facing(&state, player.view, size_of_ship, attitude, time, target));
+    let attitude = player.gaze.turned(attitude, facing, seconds, config.video.reduced_motion);
     let (camera, hidden, lit) = match (sight, named.zip(target)) {
         (Sight::Own, _) => {
-            (on_ship(&state, seat.view, attitude, size_of_ship, field_of_view), (seat.view == View::Cockpit).then_some(me), Some(me))
+            (on_ship(&state, player.view, attitude, size_of_ship, field_of_view), (player.view == View::Cockpit).then_some(me), Some(me))
         }
         (Sight::Caught, Some((caught, history))) => {
             (on_caught(history, length(&session, caught), state.position, time, field_of_view), None, Some(caught))
@@ -276,7 +276,7 @@ fn make_frame(
         decided: chase.and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view,
-        aside: seat.gaze.aside(),
+        aside: player.gaze.aside(),
     };
 }
 

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec2, Mat3};
 use half::f16;
 
-use crate::render::aurora::rows::{Row, Rows, place};
+use crate::render::aurora::node_history::{NodeHistory, Row, place};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 use crate::scene::aurora::ground::GroundMap;
@@ -128,7 +128,7 @@ impl Ground {
     }
 
     /// The light of the two newest rows; `midnight` points to magnetic midnight, as long as an oval is brighter there. What was made of a row before is kept.
-    fn follow(&mut self, rows: &Rows, midnight: DVec2) {
+    fn follow(&mut self, rows: &NodeHistory, midnight: DVec2) {
         let wanted = [0, 1].map(|ago| rows.row(ago));
         let [Some(newest), Some(before)] = wanted else { return };
         let serves = |kept: &Option<Kept>, row: &Row| kept.as_ref().is_some_and(|kept| kept.serves(row, midnight));
@@ -158,7 +158,7 @@ impl Ground {
 
     /// What a frame is told: `ahead` is the part of the time between the rows by which the newest is ahead of what is seen, `kilo` the thousands of collisions a cm² and a
     /// second in a curtain, times what a unit of luminance is in the picture. `dipole` turns the dipole's axes into the model's.
-    pub fn frame(&mut self, rows: &Rows, ahead: f64, midnight: DVec2, kilo: f64, dipole: DQuat, both: bool) -> GroundFrame {
+    pub fn frame(&mut self, rows: &NodeHistory, ahead: f64, midnight: DVec2, kilo: f64, dipole: DQuat, both: bool) -> GroundFrame {
         self.follow(rows, midnight);
         let (corner, side) = self.map.square();
         let [x, y] = [-corner.x / side, -corner.y / side].map(|x| x as f32);

@@ -1,20 +1,20 @@
 //! The aurora: its light on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), strokes are added up
 //! line by line, and the spectrum becomes a colour at the end.
 //!
-//! [`Show`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
+//! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
 //! experiment of paper 3 for the chart.
 
+mod animation;
 mod chords;
 mod colours;
 pub mod ground;
 mod levels;
+pub mod node_history;
 mod pass;
 pub mod race;
 pub mod ration;
 pub mod rooms;
-pub mod rows;
 pub mod shift;
-mod show;
 pub mod sight;
 pub mod veil;
 
@@ -22,7 +22,7 @@ pub use colours::Colours;
 pub use levels::PYRAMID;
 pub use pass::Aurora;
 pub use shift::SHIFTS;
-pub use show::{AuroraFrame, RAYS_PERIOD, Show, planet_history};
+pub use show::{AuroraAnimation, AuroraFrame, RAYS_PERIOD, planet_history};
 
 use bytemuck::{Pod, Zeroable};
 

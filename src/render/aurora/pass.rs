@@ -5,17 +5,17 @@ use std::sync::Arc;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
+use crate::render::aurora::animation::AuroraFrame;
 use crate::render::aurora::colours::Colours;
 use crate::render::aurora::levels::{Levels, PYRAMID, Ranges, light_format};
+use crate::render::aurora::node_history::{NodeHistory, ROWS};
 use crate::render::aurora::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
-use crate::render::aurora::rows::{ROWS, Rows};
-use crate::render::aurora::show::AuroraFrame;
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, Segment};
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
-use crate::render::gpu::types::Placement;
+use crate::render::gpu::types::Instance;
 use crate::render::method::Method;
 use crate::scene::blackbody::xyz_to_rgb;
 
@@ -57,7 +57,7 @@ pub struct Aurora {
     tiles_layout: wgpu::BindGroupLayout,
     resolve_layout: wgpu::BindGroupLayout,
     settings: wgpu::Buffer,
-    placements: wgpu::Buffer,
+    instances: wgpu::Buffer,
     nodes: Growing,
     segments: Growing,
     falls: Growing,
@@ -77,7 +77,7 @@ pub struct Aurora {
     /// Of the prepared frame.
     rooms: Rooms,
     /// What is on the GPU.
-    uploaded_rows: Rows,
+    uploaded_rows: NodeHistory,
     uploaded_falls: Option<Arc<Vec<f32>>>,
 }
 
@@ -141,7 +141,7 @@ impl Aurora {
                 ..Default::default()
             }),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
-            placements: buffer(device, "aurora placements", (ORDERS * size_of::<Placement>()) as u64, BufferUsages::STORAGE),
+            instances: buffer(device, "aurora instances", (ORDERS * size_of::<Instance>()) as u64, BufferUsages::STORAGE),
             nodes: Growing::new(device, "aurora nodes", BufferUsages::STORAGE),
             segments: Growing::new(device, "aurora segments", BufferUsages::STORAGE),
             falls: Growing::new(device, "aurora falls", BufferUsages::STORAGE),
@@ -156,7 +156,7 @@ impl Aurora {
             drawn: [0; 3],
             projected: 0,
             rooms: Rooms::default(),
-            uploaded_rows: Rows::default(),
+            uploaded_rows: NodeHistory::default(),
             uploaded_falls: None,
             walk_layout,
             draw_layout,
@@ -177,7 +177,7 @@ impl Aurora {
         self.drawn = [0; 3];
         let Some(frame) = frame else { return };
         let device = &gpu.device;
-        let orders = frame.placements.len().min(ORDERS);
+        let orders = frame.instances.len().min(ORDERS);
         let mut settings = frame.settings;
         let [streaks, chords, ..] = settings.counts;
         // All of them must fit into a buffer, with the quarter more that it grows by.
@@ -210,7 +210,7 @@ impl Aurora {
             self.groups = self.make_groups(device);
         }
         gpu.queue.write_buffer(&self.settings, 0, bytemuck::bytes_of(&settings));
-        gpu.queue.write_buffer(&self.placements, 0, bytemuck::cast_slice(&frame.placements[..orders]));
+        gpu.queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&frame.instances[..orders]));
         gpu.queue.write_buffer(&self.draws, 0, bytemuck::cast_slice(&rooms.empty(orders as u32)));
         let tile = [0, 1].map(|axis| targets.size[axis].div_ceil(LIT_TILES[axis]) as f32 * 2.0 / targets.size[axis] as f32);
         for (buffer, colours) in self.colours.iter().zip(&frame.colours) {
@@ -226,11 +226,11 @@ impl Aurora {
     }
 
     /// Writes the rows that are not on the GPU yet, one of a step. True if the buffer was replaced.
-    fn write_rows(&mut self, gpu: &Gpu, rows: &Rows) -> bool {
+    fn write_rows(&mut self, gpu: &Gpu, rows: &NodeHistory) -> bool {
         let bytes = size_of_val(rows.ago(0)) as u64;
         let replaced = self.nodes.reserve(&gpu.device, bytes * ROWS as u64);
         if replaced {
-            self.uploaded_rows = Rows::default();
+            self.uploaded_rows = NodeHistory::default();
         }
         for (slot, row) in rows.changed(&self.uploaded_rows) {
             gpu.queue.write_buffer(&self.nodes.buffer, bytes * slot as u64, bytemuck::cast_slice(row));
@@ -243,7 +243,7 @@ impl Aurora {
         let levels = self.levels.as_ref()?;
         let walk = [
             &self.settings,
-            &self.placements,
+            &self.instances,
             &self.nodes.buffer,
             &self.segments.buffer,
             &self.falls.buffer,

@@ -5,9 +5,9 @@
 
 pub mod arcs;
 pub mod bench;
+pub mod circles;
 mod drawn;
 pub mod polygons;
-pub mod rows;
 pub mod sigma;
 pub mod sprites;
 pub mod textures;

@@ -13,7 +13,7 @@ use crate::render::geometry::Geometry;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::shaders::{Pass, Worldlines};
 use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
-use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Placement};
+use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Instance};
 use crate::render::instances::{Placed, by_axis};
 use crate::render::method::Method;
 use crate::render::models::{ModelRange, Models};
@@ -113,7 +113,7 @@ impl PolygonPass {
         let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
         let momentum = [0.0, 0.0, 0.0, 1.0];
         let unit = [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]];
-        let axis = by_axis(&input.camera, &Placement::default(), height * DVec3::Z, self.extent[1] + elapsed);
+        let axis = by_axis(&input.camera, &Instance::default(), height * DVec3::Z, self.extent[1] + elapsed);
         let mut placed = Vec::new();
         let mut turning = Vec::new();
         for order in 1..=input.settings.orders.min(input.settings.method.orders()).min(3) {
@@ -121,7 +121,7 @@ impl PolygonPass {
                 let azimuth = part.rate.map_or(0.0, |rate| (rate * (input.time - elapsed)).rem_euclid(TAU));
                 let [inner, outer] = part.rims.map(|rim| rim.map_or(-1.0, |radius| radius as f32));
                 let rate = part.rate.unwrap_or_default();
-                let placement = Placement {
+                let instance = Instance {
                     offset,
                     axis,
                     position: [0.0, 0.0, height as f32, 0.0],
@@ -133,9 +133,9 @@ impl PolygonPass {
                     // Light may cross a ring in several orders, so each order covers what is behind by itself (`coverage_sign`).
                     ids: [order, order, 0, 0],
                     triangles: [0, 0, 0, HELD_TWO_SIDED],
-                    ..Placement::default()
+                    ..Instance::default()
                 };
-                placed.push(Placed { model: part.range, placement });
+                placed.push(Placed { model: part.range, instance });
                 turning.push([rate / TAU, azimuth / TAU].map(|value| value as f32));
             }
         }

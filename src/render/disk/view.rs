@@ -11,7 +11,7 @@ use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use crate::render::disk::Disk;
-use crate::render::disk::rows::{AZIMUTHS, Bend, FROM_FAR, FROM_NEAR, Look, Rows, SeenCircle, azimuth, pixel_angle, radii};
+use crate::render::disk::circles::{AZIMUTHS, Bend, Circles, FROM_FAR, FROM_NEAR, Look, SeenCircle, azimuth, pixel_angle, radii};
 use crate::render::disk::sigma::sigma;
 use crate::render::disk::types::{Circle, DiskFrame};
 
@@ -40,13 +40,13 @@ const DETOUR: f64 = 60.0;
 pub struct DiskView {
     /// For the shaders; the arc pass fills in the places in its buffers.
     pub frame: DiskFrame,
-    /// Rows of all orders.
+    /// Circles of all orders.
     pub circles: Vec<Circle>,
     /// Behind them in the same buffer: circles whose mean a thin image shows.
     pub samples: Vec<Circle>,
     /// σ of the cuts, in rad.
     pub cuts: Vec<f32>,
-    /// Rows on either side of each ring, and its order.
+    /// Circles on either side of each ring, and its order.
     pub rings: Vec<[u32; 4]>,
     /// For each row, by azimuth, by how much the middle of the ring that begins there is beyond the straight line between its circles: height in the pattern, light,
     /// optical depth.
@@ -87,7 +87,7 @@ impl DiskView {
             let own = own_shares(camera, &seen, width, order);
             let gaps = disk.config.gap > 0.0;
             let rows = if gaps {
-                Rows::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
+                Circles::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
             } else {
                 look.rows(&seen, &own, if order == 1 && close > 0 { FROM_NEAR } else { FROM_FAR })
             };

@@ -17,7 +17,7 @@ use crate::render::aurora::ground::GroundFrame;
 use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, SIGNED_FORMAT, Slot, TableTexture, bind, buffer, layout, module, raster_of};
 use crate::render::gpu::shaders::{Pass, Worldlines};
 use crate::render::gpu::types::placed::THIN;
-use crate::render::gpu::types::{self, Chunk, Counters, Placement, SeenVertex};
+use crate::render::gpu::types::{self, Chunk, Counters, Instance, SeenVertex};
 use crate::render::instances::Placed;
 use crate::render::method::Method;
 use crate::render::models::Models;
@@ -45,7 +45,7 @@ pub struct Geometry {
     draw_layout: wgpu::BindGroupLayout,
     stages: Shelf,
     draws: Draws,
-    placements: TableTexture,
+    instances: TableTexture,
     chunks: [Growing; 3],
     /// Groups to dispatch over vertices, edges, triangles.
     dispatch: [[u32; 2]; 3],
@@ -149,7 +149,7 @@ impl Geometry {
             draw_layout,
             stages,
             draws,
-            placements: TableTexture::new(device, "placements", true),
+            instances: TableTexture::new(device, "instances", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| Growing::new(device, label, storage)),
             dispatch: [[0; 2]; 3],
             seen: Growing::new(device, "seen vertices", storage | BufferUsages::VERTEX),
@@ -208,45 +208,45 @@ impl Geometry {
     /// Writes what is to be drawn in this frame, with room for `budget` vertices of the mesh stage.
     /// `ground` is the aurora's light on its planet.
     pub fn prepare(&mut self, gpu: &Gpu, models: &Models, placed: &[Placed], budget: u32, ground: Option<&GroundFrame>) {
-        let mut placements: Vec<Placement> = Vec::with_capacity(placed.len());
+        let mut instances: Vec<Instance> = Vec::with_capacity(placed.len());
         let mut chunks: [Vec<Chunk>; 3] = Default::default();
         let (mut vertices, mut edges, mut triangles) = (0, 0, 0);
         let mut refused = 0;
         for item in placed {
-            if !item.placement.is_finite() {
+            if !item.instance.is_finite() {
                 // Caught at the door: counted with what the shaders catch.
                 refused += 1;
                 continue;
             }
             let model = item.model;
-            let mut placement = item.placement;
-            placement.ids[2] = vertices;
-            placement.ids[3] = edges;
-            placement.vertices = [model.vertices[0], model.vertices[1], model.edges[0], model.edges[1]];
-            placement.triangles = [model.triangles[0], model.triangles[1], model.material, item.placement.triangles[3]];
-            let number = placements.len() as u32;
+            let mut instance = item.instance;
+            instance.ids[2] = vertices;
+            instance.ids[3] = edges;
+            instance.vertices = [model.vertices[0], model.vertices[1], model.edges[0], model.edges[1]];
+            instance.triangles = [model.triangles[0], model.triangles[1], model.material, item.instance.triangles[3]];
+            let number = instances.len() as u32;
             for (list, count) in chunks.iter_mut().zip([model.vertices[1], model.edges[1], model.triangles[1]]) {
-                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { placement: number, first: chunk * LANES }));
+                list.extend((0..count.div_ceil(LANES)).map(|chunk| Chunk { instance: number, first: chunk * LANES }));
             }
             vertices += model.vertices[1];
             edges += model.edges[1];
             triangles += model.triangles[1];
-            placements.push(placement);
+            instances.push(instance);
         }
         self.thin_across = [false; 4];
-        for placement in placements.iter().filter(|placement| placement.triangles[3] & THIN != 0) {
-            let (order, crossings) = (placement.ids[0] as usize, placement.snap[3]);
+        for instance in instances.iter().filter(|instance| instance.triangles[3] & THIN != 0) {
+            let (order, crossings) = (instance.ids[0] as usize, instance.snap[3]);
             let range = if crossings < 0.0 { order - 1..=order } else { crossings as usize..=crossings as usize };
             self.thin_across[range].fill(true);
         }
         let device = &gpu.device;
         self.capacity = room(budget, vertices, triangles, device.limits().max_storage_buffer_binding_size);
-        let mut replaced = self.placements.write(gpu, &placements);
+        let mut replaced = self.instances.write(gpu, &instances);
         replaced |= self.ground.write(gpu, ground);
         for ((list, buffer), dispatch) in chunks.iter_mut().zip(&mut self.chunks).zip(&mut self.dispatch) {
             let count = list.len() as u32;
             *dispatch = [count.min(GROUPS), count.div_ceil(GROUPS)];
-            list.resize((dispatch[0] * dispatch[1]) as usize, Chunk { placement: u32::MAX, first: 0 });
+            list.resize((dispatch[0] * dispatch[1]) as usize, Chunk { instance: u32::MAX, first: 0 });
             replaced |= buffer.write(gpu, list);
         }
         replaced |= self.seen.reserve(device, u64::from(self.capacity.vertices) * size_of::<SeenVertex>() as u64);
@@ -283,7 +283,7 @@ impl Geometry {
                 &self.counters,
             ];
             let resources: Vec<_> =
-                std::iter::once(self.placements.binding()).chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
+                std::iter::once(self.instances.binding()).chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });
         let textures = models
@@ -294,7 +294,7 @@ impl Geometry {
             "draw",
             &self.draw_layout,
             &[
-                self.placements.binding(),
+                self.instances.binding(),
                 self.seen.buffer.as_entire_binding(),
                 models.material_buffer.buffer.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&textures),

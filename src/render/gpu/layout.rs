@@ -277,7 +277,7 @@ pub struct Raster<'a> {
     pub depth: Option<bool>,
 }
 
-/// The format of the picture before it is developed: linear light.
+/// The format of the picture before it is display: linear light.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// Of thin triangles' coverage with signs, and that of the nearer parts of the same images: halves, so that one image alone gives the same as its sum without.
 pub const SIGNED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;

@@ -102,8 +102,8 @@ pub struct Picture {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// Developed, sRGB, 4 bytes a pixel.
-    pub developed: Vec<u8>,
-    /// Linear light before development, RGBA.
+    pub display: Vec<u8>,
+    /// Linear light before post-processing, RGBA.
     pub linear: Vec<[f32; 4]>,
     /// Object id, image order, travel time, g of the nearest surface; empty unless asked for.
     pub layers: Vec<[f32; 4]>,
@@ -114,7 +114,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// Writes the developed picture (.png) or the linear light and layers (.exr).
+    /// Writes the finished picture (.png) or the linear light and layers (.exr).
     pub fn write(&self, path: &Path) -> Result<(), PictureError> {
         let failed = |reason: String| PictureError::Write { path: path.display().to_string(), reason };
         if let Some(folder) = path.parent() {
@@ -123,7 +123,7 @@ impl Picture {
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("png") => {
                 let [width, height] = self.size;
-                let opaque: Vec<u8> = self.developed.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
+                let opaque: Vec<u8> = self.display.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
                 image::save_buffer(path, &opaque, width, height, image::ColorType::Rgb8).map_err(|error| failed(error.to_string()))
             }
             Some("exr") => self.write_exr(path).map_err(|error| failed(error.to_string())),

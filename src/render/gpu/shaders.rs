@@ -19,7 +19,7 @@ const COLOUR: &str = include_str!("../../../shaders/functions/colour.wgsl");
 const COVERAGE: &str = include_str!("../../../shaders/functions/coverage.wgsl");
 const HIDING: &str = include_str!("../../../shaders/functions/hiding.wgsl");
 const GEOMETRY_BINDINGS: &str = include_str!("../../../shaders/geometry/bindings.wgsl");
-const PLACEMENT: &str = include_str!("../../../shaders/geometry/placement.wgsl");
+const INSTANCE: &str = include_str!("../../../shaders/geometry/instance.wgsl");
 const SWING: &str = include_str!("../../../shaders/geometry/swing.wgsl");
 const RING: &str = include_str!("../../../shaders/geometry/ring.wgsl");
 const PROJECT: &str = include_str!("../../../shaders/geometry/project.wgsl");
@@ -105,7 +105,7 @@ pub enum Pass {
     /// Meters the light.
     Exposure,
     /// Exposes, blooms, encodes.
-    Develop,
+    ToneMap,
     /// Smooths outlines of bodies.
     Smooth,
     /// Projects the places of the disk's arcs, and those that halving asks for.
@@ -151,7 +151,7 @@ impl Pass {
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
-        Pass::Develop,
+        Pass::ToneMap,
         Pass::Smooth,
         Pass::DiskVertices,
         Pass::DiskSegments,
@@ -182,7 +182,7 @@ impl Pass {
             Worldlines::Bodies => SWING,
             Worldlines::Rings => RING,
         };
-        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, PLACEMENT, CLIP, swing, PROJECT, PATCH];
+        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, INSTANCE, CLIP, swing, PROJECT, PATCH];
         let disk = [TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_SIGMA];
         let own = match self {
             Pass::Vertices => include_str!("../../../shaders/geometry/vertices.wgsl"),
@@ -204,11 +204,11 @@ impl Pass {
             Pass::AuroraSpread => include_str!("../../../shaders/aurora/spread.wgsl"),
             Pass::AuroraWipe => include_str!("../../../shaders/aurora/wipe.wgsl"),
             Pass::AuroraResolve => include_str!("../../../shaders/aurora/resolve.wgsl"),
-            Pass::Compose => include_str!("../../../shaders/develop/compose.wgsl"),
-            Pass::Bloom => include_str!("../../../shaders/develop/bloom.wgsl"),
-            Pass::Exposure => include_str!("../../../shaders/develop/exposure.wgsl"),
-            Pass::Develop => include_str!("../../../shaders/develop/develop.wgsl"),
-            Pass::Smooth => include_str!("../../../shaders/develop/smooth.wgsl"),
+            Pass::Compose => include_str!("../../../shaders/post_process/compose.wgsl"),
+            Pass::Bloom => include_str!("../../../shaders/post_process/bloom.wgsl"),
+            Pass::Exposure => include_str!("../../../shaders/post_process/exposure.wgsl"),
+            Pass::ToneMap => include_str!("../../../shaders/post_process/tone_map.wgsl"),
+            Pass::Smooth => include_str!("../../../shaders/post_process/smooth.wgsl"),
             Pass::DiskVertices => include_str!("../../../shaders/disk/vertices.wgsl"),
             Pass::DiskSegments => include_str!("../../../shaders/disk/segments.wgsl"),
             Pass::DiskStrips => include_str!("../../../shaders/disk/strips.wgsl"),
@@ -221,7 +221,7 @@ impl Pass {
         let library: Vec<&str> = match self {
             Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
             Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, BOUNDS, EMIT]).collect(),
-            Pass::Draw => vec![TYPES, BINDINGS, PLACEMENT, CLIP, COLOUR, COVERAGE, AURORA_LIGHT, SHADE],
+            Pass::Draw => vec![TYPES, BINDINGS, INSTANCE, CLIP, COLOUR, COVERAGE, AURORA_LIGHT, SHADE],
             Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
             Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
             Pass::StarsDraw => vec![TYPES, BINDINGS],
@@ -237,7 +237,7 @@ impl Pass {
             Pass::AuroraResolve => vec![LIT_TILES, LIT_CORNERS, ENLARGE],
             Pass::Compose => vec![COVERAGE],
             Pass::Bloom | Pass::Smooth => vec![],
-            Pass::Exposure | Pass::Develop => vec![TYPES, BINDINGS, COLOUR],
+            Pass::Exposure | Pass::ToneMap => vec![TYPES, BINDINGS, COLOUR],
             Pass::DiskVertices => disk.into_iter().chain([DISK_BINDINGS, DISK_PLACE]).collect(),
             Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
             Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],

@@ -38,11 +38,11 @@ pub mod flags {
     pub const HOLD_EXPOSURE: u32 = 32;
 }
 
-/// One object seen in one image order; `Placement` in WGSL.
+/// One object seen in one image order; `Instance` in WGSL.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
-pub struct Placement {
+pub struct Instance {
     pub offset: [f32; 4],
     pub axis: [f32; 4],
     pub position: [f32; 4],
@@ -62,7 +62,7 @@ pub struct Placement {
     pub triangles: [u32; 4],
 }
 
-impl Placement {
+impl Instance {
     /// Whether every number of it is one.
     pub fn is_finite(&self) -> bool {
         let rows = [
@@ -82,7 +82,7 @@ impl Placement {
     }
 }
 
-/// Bits of `Placement::triangles[3]`, the `PLACEMENT_*` of WGSL.
+/// Bits of `Instance::triangles[3]`, the `INSTANCE_*` of WGSL.
 pub mod placed {
     /// Both sides of every triangle are drawn.
     pub const TWO_SIDED: u32 = 1;
@@ -122,7 +122,7 @@ pub struct ModelTriangle {
 #[repr(C)]
 #[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
 pub struct Chunk {
-    pub placement: u32,
+    pub instance: u32,
     pub first: u32,
 }
 

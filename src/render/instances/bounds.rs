@@ -13,7 +13,7 @@ use crate::spacetime::light::Order;
 use crate::render::instances::{Extent, MARGIN, View};
 use crate::render::method::Method;
 
-/// Three caps of directions in camera axes, as `Placement.bounds` of WGSL: xyz their middle; w the square of the chord from there to their rim, positive if the image lies
+/// Three caps of directions in camera axes, as `Instance.bounds` of WGSL: xyz their middle; w the square of the chord from there to their rim, positive if the image lies
 /// inside, negative if outside, 0 if it may lie anywhere.
 pub type Bounds = [[f32; 4]; 3];
 

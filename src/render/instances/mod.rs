@@ -18,7 +18,7 @@ use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::gamma;
 use crate::spacetime::orbit::static_momentum;
 
-use crate::render::gpu::types::Placement;
+use crate::render::gpu::types::Instance;
 use crate::render::gpu::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};
 use crate::render::instances::swing::Swing;
 use crate::render::instances::visibility::{may_be_seen, part_of_screen};
@@ -67,19 +67,19 @@ pub struct Placed {
     /// Its model.
     pub model: ModelRange,
     /// What the shader gets; the renderer fills in the places in its buffers.
-    pub placement: Placement,
+    pub instance: Instance,
 }
 
-/// The placements of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
+/// The instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
 /// (it has not been reached by light yet, or never will) is left out.
 ///
 /// A camera inside the horizon sees what is held inside twice, by light of E > 0 and of E < 0 that left at two times. The worldline of
 /// something that moves is met once: it leaves the camera's past on one side or on the other, and each vertex finds out which.
-pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
+pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
-        let (mut placement, position, age) = match object.motion {
+        let (mut instance, position, age) = match object.motion {
             // From inside, higher orders show only what is outside.
             Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
             Motion::Held { position, attitude } => {
@@ -87,17 +87,17 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
             }
             Motion::Flying(history) => flying(view, time, history, order, object)?,
         };
-        placement.ids = [u32::from(order.number()), object.id, 0, 0];
-        placement.axis = by_axis(camera, &placement, position, object.reach);
+        instance.ids = [u32::from(order.number()), object.id, 0, 0];
+        instance.axis = by_axis(camera, &instance, position, object.reach);
         // Within this of its centre are all points of it, each where its light leaves.
         let whole = position.z.abs() > MARGIN * object.reach;
-        placement.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
+        instance.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
         if !settings.method.bends() {
             // Drawn straight, light leaves otherwise than the shape on the slice is meant for.
-            placement.triangles[3] |= TWO_SIDED;
+            instance.triangles[3] |= TWO_SIDED;
         }
         if branch == Branch::Minus {
-            placement.triangles[3] |= MINUS;
+            instance.triangles[3] |= MINUS;
         }
         let extent = view.extent(position, object.reach, order, age);
         if view.aspect.is_some_and(|aspect| !extent.may_be_seen(camera, aspect)) {
@@ -112,19 +112,19 @@ pub fn place(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed
         let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
         let model = stands_in.map_or(object.model, |(_, model)| model);
         if width < settings.thin_below && settings.min_width > 0.0 {
-            placement.triangles[3] |= THIN;
-            placement.axis[3] = THIN_STRICTNESS;
+            instance.triangles[3] |= THIN;
+            instance.axis[3] = THIN_STRICTNESS;
         } else {
-            placement.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
+            instance.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
             let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
-            placement.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
+            instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
         }
         if NEAR_PHOTON_SPHERE.contains(&camera.radius()) {
-            placement.axis[3] *= PHOTON_SPHERE_STRICTNESS;
+            instance.axis[3] *= PHOTON_SPHERE_STRICTNESS;
         }
-        let longer = drawn_out(camera, &placement, position, order, age);
-        placement.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
-        Some(Placed { model, placement })
+        let longer = drawn_out(camera, &instance, position, order, age);
+        instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
+        Some(Placed { model, instance })
     };
     let folded = match object.motion {
         Motion::Held { position, .. } => camera.radius() < 1.0 && position.length() - object.reach < 1.0 && settings.method.bends(),
@@ -309,21 +309,21 @@ const BESIDE: f64 = 4.0;
 /// Rounding of f32 in where a point of an object is, relative to the object's reach, and of its emission time, relative to the delay: some roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
-/// The row `axis` of a placement at `position`: where that is across the axis, how far a point of the object may be put beside its place by rounding, and 1 for an image
+/// The row `axis` of an instance at `position`: where that is across the axis, how far a point of the object may be put beside its place by rounding, and 1 for an image
 /// that is not slim.
-pub(super) fn by_axis(camera: &Observer, placement: &Placement, position: DVec3, reach: f64) -> [f32; 4] {
+pub(super) fn by_axis(camera: &Observer, instance: &Instance, position: DVec3, reach: f64) -> [f32; 4] {
     let [_, a, b] = camera.axis_frame();
-    let [vx, vy, vz, moves] = placement.velocity.map(f64::from);
+    let [vx, vy, vz, moves] = instance.velocity.map(f64::from);
     let speed = if moves == 0.0 { 0.0 } else { DVec3::new(vx, vy, vz).length() };
-    let rounding = ROUNDING * (reach + speed * f64::from(placement.offset[3]).abs());
+    let rounding = ROUNDING * (reach + speed * f64::from(instance.offset[3]).abs());
     let aside = BESIDE * rounding;
     // In a direction that nobody chooses.
     [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 1.0]
 }
 
-fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) -> Placement {
+fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) -> Instance {
     let turn = DMat3::from_quat(attitude);
-    Placement {
+    Instance {
         offset: row(position - camera.position, 0.0),
         position: row(position, 0.0),
         momentum: [0.0, 0.0, 0.0, 1.0],
@@ -331,14 +331,14 @@ fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) ->
         turn: columns(turn),
         light: light_rows(&object.light),
         triangles: [0, 0, 0, HELD],
-        ..Placement::default()
+        ..Instance::default()
     }
 }
 
 /// By how much farther from its centre, at the most, points of an object are where their light leaves than they are at one time: light leaves what is farther earlier by
 /// the delay's gradient ∇Δ, and as much earlier again for the way that it moved meanwhile, as v ∇Δ/(1 + v ∇Δ).
-fn drawn_out(camera: &Observer, placement: &Placement, position: DVec3, order: Order, age: f64) -> f64 {
-    let [x, y, z, moves] = placement.velocity.map(f64::from);
+fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Order, age: f64) -> f64 {
+    let [x, y, z, moves] = instance.velocity.map(f64::from);
     if moves == 0.0 {
         return 1.0;
     }
@@ -359,8 +359,8 @@ pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Opt
     }
 }
 
-/// The placement, where the object then is, and the age of its light.
-fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Placement, DVec3, f64)> {
+/// The instance, where the object then is, and the age of its light.
+fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Instance, DVec3, f64)> {
     let camera = view.camera;
     let emission = departure(view, time, history, order)?;
     let sample = history.at(emission);
@@ -369,7 +369,7 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
     let still = !view.settings.light_delay;
     let p = sample.momentum;
     let momentum = if view.settings.method.bends() { sample.momentum } else { against_static(sample.position, sample.momentum) };
-    let placement = Placement {
+    let instance = Instance {
         offset: row(sample.position - camera.position, time - emission),
         position: row(sample.position, 0.0),
         velocity: row(sample.velocity, if still { 0.0 } else { object.scale }),
@@ -382,9 +382,9 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
         turn: columns_and(turn, swing.jerk),
         snap: row(swing.snap, 0.0),
         light: light_rows(&object.light),
-        ..Placement::default()
+        ..Instance::default()
     };
-    Some((placement, sample.position, time - emission))
+    Some((instance, sample.position, time - emission))
 }
 
 /// The momentum against what hovers there, which takes the part of the rain where light is drawn straight; inside nothing hovers.

@@ -1,5 +1,5 @@
 //! How a moving body swings while its light crosses it: its centre to fourth order, its attitude to second order in the rotation vector and
-//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the placement;
+//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the instance;
 //! [`swing_at`] is the twin of the shader's.
 
 use glam::{DVec3, Vec3};
@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 use crate::sim::History;
 use crate::sim::history::{Sample, rotation};
 
-use crate::render::gpu::types::Placement;
+use crate::render::gpu::types::Instance;
 
 /// Coefficients about the emission time T₀ of the centre.
 #[derive(Clone, Copy, Debug)]
@@ -73,25 +73,25 @@ const FARTHEST_TURN: f32 = 2.0;
 
 /// Where a point of a body (model's unit, body axes) is on the slice, away from the body's centre at T₀, `s` r_s/c after that time, in r_s and rain axes.
 /// The function of the same name in shaders/geometry/project.wgsl.
-pub fn swing_at(placement: &Placement, body: Vec3, s: f32) -> Vec3 {
+pub fn swing_at(instance: &Instance, body: Vec3, s: f32) -> Vec3 {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
     let columns = |m: [[f32; 4]; 3]| xyz(m[0]) * body.x + xyz(m[1]) * body.y + xyz(m[2]) * body.z;
     let last = |m: [[f32; 4]; 3]| Vec3::new(m[0][3], m[1][3], m[2][3]);
-    let scale = placement.velocity[3];
+    let scale = instance.velocity[3];
     if scale == 0.0 {
-        return columns(placement.shape);
+        return columns(instance.shape);
     }
-    let jolted = (s - placement.jolt[3]).max(0.0) - (-placement.jolt[3]).max(0.0);
-    let turned = (xyz(placement.spin) + xyz(placement.spin_rate) * (0.5 * s)) * s + xyz(placement.jolt) * jolted;
+    let jolted = (s - instance.jolt[3]).max(0.0) - (-instance.jolt[3]).max(0.0);
+    let turned = (xyz(instance.spin) + xyz(instance.spin_rate) * (0.5 * s)) * s + xyz(instance.jolt) * jolted;
     let turned = turned * (FARTHEST_TURN / turned.length().max(FARTHEST_TURN));
     let q = turned.length_squared();
-    let rest = columns(placement.turn) * scale;
+    let rest = columns(instance.turn) * scale;
     // Rodrigues: sin θ / θ and (1 − cos θ) / θ² as polynomials in θ².
     let once = turned.cross(rest);
     let rest = rest + once * (1.0 - q * (1.0 / 6.0 - q / 120.0)) + turned.cross(once) * (0.5 - q * (1.0 / 24.0 - q / 720.0));
-    let p = Vec3::new(placement.spin[3], placement.spin_rate[3], placement.force[3]) + xyz(placement.force) * s;
+    let p = Vec3::new(instance.spin[3], instance.spin_rate[3], instance.force[3]) + xyz(instance.force) * s;
     let gamma = (1.0 + p.length_squared()).sqrt();
     let contracted = rest - p * (p.dot(rest) / (gamma * (1.0 + gamma)));
-    let jerk = last(placement.turn) + xyz(placement.snap) * (0.25 * s);
-    contracted + (xyz(placement.velocity) + (last(placement.shape) + jerk * (s / 3.0)) * (0.5 * s)) * s
+    let jerk = last(instance.turn) + xyz(instance.snap) * (0.25 * s);
+    contracted + (xyz(instance.velocity) + (last(instance.shape) + jerk * (s / 3.0)) * (0.5 * s)) * s
 }

@@ -24,7 +24,7 @@ pub type Shower<'a> = dyn Fn(&Case) -> Result<Vec<Shown>, String> + 'a;
 
 /// What to judge.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct FlightRequest {
     /// The scene's name or file.
     pub scene: String,
     /// How many chases.
@@ -49,7 +49,7 @@ pub struct Request {
     pub collected: Option<PathBuf>,
 }
 
-impl Request {
+impl FlightRequest {
     fn check(&self) -> Result<(), TraceError> {
         let input = |text: String| Err(TraceError::Input(text));
         if !(1..=100_000).contains(&self.seeds) {
@@ -66,7 +66,7 @@ impl Request {
 }
 
 /// Flies and judges; leaves each moment that fails in the folder as a scene of its own; prints a table. Gives a row for each moment.
-pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Result<Vec<Row>, CompareError> {
+pub fn run(request: &FlightRequest, contestant: &Contestant, shower: &Shower) -> Result<Vec<Row>, CompareError> {
     request.check()?;
     let config = configuration(request.config.as_deref())?;
     let scene = scene::load(&request.scene).map_err(TraceError::from)?;
@@ -103,7 +103,7 @@ pub fn run(request: &Request, contestant: &Contestant, shower: &Shower) -> Resul
 }
 
 struct Flight<'a> {
-    request: &'a Request,
+    request: &'a FlightRequest,
     scene: &'a Scene,
     text: &'a str,
     config: &'a GameConfig,

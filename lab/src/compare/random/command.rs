@@ -23,7 +23,7 @@ use lensrunner::scene::{self, GameConfig};
 
 /// What to judge.
 #[derive(Clone, Debug)]
-pub struct Request {
+pub struct RandomRequest {
     /// How many cases.
     pub count: u64,
     /// Where they are drawn from.
@@ -42,7 +42,7 @@ pub struct Request {
     pub collected: Option<PathBuf>,
 }
 
-impl Request {
+impl RandomRequest {
     /// Checks the numbers.
     pub fn check(&self) -> Result<(), TraceError> {
         let input = |text: String| Err(TraceError::Input(text));
@@ -80,7 +80,7 @@ pub struct Keep<'a> {
 }
 
 /// Judges cases that nobody chose; leaves each that fails in the folder; prints a table. Gives a row for each case.
-pub fn run(request: &Request, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
+pub fn run(request: &RandomRequest, contestant: &Contestant) -> Result<Vec<Row>, CompareError> {
     request.check()?;
     let config = configuration(request.config.as_deref())?;
     // Before the work of which it would lose the result.
@@ -213,7 +213,7 @@ pub fn leave(output: &Path, name: &str, file: &CaseFile, case: &Case, judged: &J
     write(&path, &file.to_text())?;
     if let (Some((frame, picture)), Some(verdict)) = (&judged.pictures, &judged.verdict) {
         let difference = difference(picture, frame);
-        let (size, bytes) = side_by_side(picture, frame, &difference, &verdict.displaced, &case.development());
+        let (size, bytes) = side_by_side(picture, frame, &difference, &verdict.displaced, &case.post_process());
         write_png(&path.with_extension("png"), &bytes, size)?;
     }
     Ok(())

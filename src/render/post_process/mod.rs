@@ -1,4 +1,4 @@
-//! Development: thin triangles laid over, bloom, exposure, tone curve, outlines smoothed.
+//! Post-processing: thin triangles laid over, bloom, exposure, tone curve, outlines smoothed.
 
 pub mod coverage;
 
@@ -11,24 +11,24 @@ use crate::render::gpu::targets::{Targets, target};
 use crate::render::gpu::timing::Timing;
 use crate::render::passes::colour;
 
-/// Pixels along the side of a tile in which outlines are smoothed; as in shaders/develop/smooth.wgsl.
+/// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
 const TILE: u32 = 16;
 
 /// The passes after the picture is drawn.
 #[derive(Debug)]
-pub struct Develop {
+pub struct PostProcess {
     thin_layout: wgpu::BindGroupLayout,
     sampled_layout: wgpu::BindGroupLayout,
     meter_layout: wgpu::BindGroupLayout,
-    develop_layout: wgpu::BindGroupLayout,
+    tone_map_layout: wgpu::BindGroupLayout,
     smooth_layout: wgpu::BindGroupLayout,
     compose: wgpu::RenderPipeline,
     down: wgpu::RenderPipeline,
     up: wgpu::RenderPipeline,
     soften: wgpu::RenderPipeline,
     meter: wgpu::ComputePipeline,
-    develop: wgpu::RenderPipeline,
-    develop_twice: wgpu::RenderPipeline,
+    tone_map: wgpu::RenderPipeline,
+    tone_map_twice: wgpu::RenderPipeline,
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
@@ -43,20 +43,20 @@ struct Groups {
     /// Sampling the picture, each level of the bloom, and what is between two softenings.
     sampled: Vec<wgpu::BindGroup>,
     meter: wgpu::BindGroup,
-    develop: wgpu::BindGroup,
+    tone_map: wgpu::BindGroup,
     /// The picture for the eye before outlines are smoothed, and the pass that does it.
-    developed: wgpu::TextureView,
+    display: wgpu::TextureView,
     smooth: wgpu::BindGroup,
 }
 
-impl Develop {
+impl PostProcess {
     /// Compiles the passes for an output of this format, which is to encode sRGB by itself.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, output: wgpu::TextureFormat) -> Self {
         let fragment = ShaderStages::FRAGMENT;
         let sampled_layout = layout(device, "sampled", fragment, &[Slot::Texture, Slot::Sampler]);
         let thin_layout = layout(device, "thin", fragment, &[Slot::Texture, Slot::Texture]);
         let meter_layout = layout(device, "meter", ShaderStages::COMPUTE, &[Slot::Texture, Slot::Write]);
-        let develop_layout = layout(device, "develop", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
+        let tone_map_layout = layout(device, "tone map", fragment, &[Slot::Texture, Slot::Sampler, Slot::Texture, Slot::Uniform]);
         let pass = |label, pass, fragment, layout: &wgpu::BindGroupLayout, format, blend| {
             let shader = module(device, label, pass);
             let stage = Raster { vertex: "vertex", fragment, targets: &[(format, blend)], depth: None };
@@ -65,18 +65,18 @@ impl Develop {
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let mixed = wgpu::BlendState::ALPHA_BLENDING;
         let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &[Slot::Texture, Slot::Sampler, Slot::Depth]);
-        Develop {
+        PostProcess {
             compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
             // The same, and nothing to mix it with.
             soften: pass("bloom soften", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, None),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
-            develop: pass("develop", Pass::Develop, "fragment", &develop_layout, output, None),
-            develop_twice: {
-                let shader = module(device, "develop", Pass::Develop);
+            tone_map: pass("tone map", Pass::ToneMap, "fragment", &tone_map_layout, output, None),
+            tone_map_twice: {
+                let shader = module(device, "tone map", Pass::ToneMap);
                 let stage = Raster { vertex: "vertex", fragment: "twice", targets: &[(output, None), (output, None)], depth: None };
-                raster(device, "develop", &shader, stage, &[Some(frame_layout), None, Some(&develop_layout)])
+                raster(device, "tone map", &shader, stage, &[Some(frame_layout), None, Some(&tone_map_layout)])
             },
             smooth: pass("smooth", Pass::Smooth, "fragment", &smooth_layout, output, None),
             output,
@@ -90,7 +90,7 @@ impl Develop {
             thin_layout,
             sampled_layout,
             meter_layout,
-            develop_layout,
+            tone_map_layout,
             smooth_layout,
             groups: None,
         }
@@ -100,7 +100,7 @@ impl Develop {
     pub fn resize(&mut self, gpu: &Gpu, targets: &Targets, adaptation: &wgpu::Buffer) {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
-        let (_, developed) = target(device, "developed", targets.size, self.output);
+        let (_, display) = target(device, "display", targets.size, self.output);
         let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
@@ -113,19 +113,19 @@ impl Develop {
                 &self.meter_layout,
                 &[TextureView(&targets.bloom[targets.meter_level()]), adaptation.as_entire_binding()],
             ),
-            develop: bind(
+            tone_map: bind(
                 device,
-                "develop",
-                &self.develop_layout,
+                "tone map",
+                &self.tone_map_layout,
                 &[TextureView(&targets.picture), Sampler(&self.sampler), TextureView(&targets.bloom[0]), self.adapted.as_entire_binding()],
             ),
             smooth: bind(
                 device,
                 "smooth",
                 &self.smooth_layout,
-                &[TextureView(&developed), Sampler(&self.sampler), TextureView(&targets.depth)],
+                &[TextureView(&display), Sampler(&self.sampler), TextureView(&targets.depth)],
             ),
-            developed,
+            display,
         });
     }
 
@@ -138,7 +138,7 @@ impl Develop {
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the frame's exposure
     /// is kept in.
-    #[allow(clippy::too_many_arguments, reason = "one call says all that development is")]
+    #[allow(clippy::too_many_arguments, reason = "one call says all of it")]
     pub fn run(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -174,9 +174,9 @@ impl Develop {
             begin(encoder, timing.render("bloom"), "bloom soften", to, &self.soften, frame, from).draw(0..3, 0..1);
         }
         // What smooths outlines reads the picture as it was before.
-        let both = [output, &groups.developed].map(|view| Some(colour(view, true)));
-        let (to, develop) = if smooth { (&both[..], &self.develop_twice) } else { (&both[..1], &self.develop) };
-        begin(encoder, timing.render("develop"), "develop", to, develop, frame, &groups.develop).draw(0..3, 0..1);
+        let both = [output, &groups.display].map(|view| Some(colour(view, true)));
+        let (to, tone_map) = if smooth { (&both[..], &self.tone_map_twice) } else { (&both[..1], &self.tone_map) };
+        begin(encoder, timing.render("tone map"), "tone map", to, tone_map, frame, &groups.tone_map).draw(0..3, 0..1);
         if smooth {
             let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
             let onto = &[Some(colour(output, false))];

@@ -1,4 +1,4 @@
-// Develop: exposure, bloom, tone curve. The target encodes sRGB.
+// Tone mapping: exposure, bloom, tone curve. The target encodes sRGB.
 
 @group(2) @binding(0) var picture: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;

@@ -80,7 +80,7 @@ pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
 
 /// The rows of an order.
 #[derive(Clone, Debug)]
-pub struct Rows {
+pub struct Circles {
     /// Their radii, ascending, in r_s.
     pub radii: Vec<f64>,
     /// Pairs of them with gas between.
@@ -89,10 +89,10 @@ pub struct Rows {
     pub bends: Vec<[Bend; AZIMUTHS]>,
 }
 
-impl Rows {
+impl Circles {
     /// All of these circles, with what lies between two of them straight.
-    pub fn straight(radii: Vec<f64>, pairs: Vec<[u32; 2]>) -> Rows {
-        Rows { bends: vec![[Bend::default(); AZIMUTHS]; radii.len()], radii, pairs }
+    pub fn straight(radii: Vec<f64>, pairs: Vec<[u32; 2]>) -> Circles {
+        Circles { bends: vec![[Bend::default(); AZIMUTHS]; radii.len()], radii, pairs }
     }
 }
 
@@ -117,7 +117,7 @@ impl Look<'_> {
     /// Of the circles there are to choose from as few as will do.
     ///
     /// `own` says how much of its own each shows, by azimuth: of a thin image less than all.
-    pub fn rows(&self, seen: &[SeenCircle], own: &[f64; AZIMUTHS], within: Within) -> Rows {
+    pub fn rows(&self, seen: &[SeenCircle], own: &[f64; AZIMUTHS], within: Within) -> Circles {
         let brightest =
             std::array::from_fn(|k| [0, 1].map(|side| seen.iter().map(|circle| circle.shining(k, side)).fold(1e-300, f64::max)));
         let smooth = |a: usize, b: usize| {
@@ -146,7 +146,7 @@ impl Look<'_> {
         let mut bends: Vec<_> = chosen.windows(2).map(bend).collect();
         bends.push([Bend::default(); AZIMUTHS]);
         let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
-        Rows { radii: chosen.into_iter().map(|k| seen[k].radius).collect(), pairs, bends }
+        Circles { radii: chosen.into_iter().map(|k| seen[k].radius).collect(), pairs, bends }
     }
 
     /// Whether the circle `here` looks as it should in the `ring` of an inner circle, one in the middle and an outer; the light that may be missing is an absolute

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 
 /// How the player plays: what is not in `game.toml`.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Seat {
+pub struct PlayerState {
     /// The autopilot flies.
     pub autopilot: bool,
     /// From where one looks.
@@ -45,7 +45,7 @@ pub struct Flown {
     pub by_autopilot: bool,
 }
 
-impl Seat {
+impl PlayerState {
     /// Whether the assist is on: as the player switched it, else as `config` says.
     pub fn assisted(&self, config: &GameConfig) -> bool {
         self.assist.unwrap_or(config.assist.enabled)
@@ -57,6 +57,6 @@ impl Seat {
 pub enum GameSet {
     /// Keys are read.
     Keys,
-    /// Wishes are answered: screens change, chases begin.
+    /// Menu actions are answered: screens change, chases begin.
     Answer,
 }

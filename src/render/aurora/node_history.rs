@@ -8,7 +8,7 @@ use crate::render::aurora::Segment;
 use crate::scene::aurora::curve::between_nodes;
 use crate::scene::aurora::motion::Node;
 
-/// Rows that red light waits in; HISTORY_ROWS in shaders/aurora/streaks.wgsl.
+/// NodeHistory that red light waits in; HISTORY_ROWS in shaders/aurora/streaks.wgsl.
 pub const ROWS: usize = 128;
 /// Seconds between two of them.
 pub const ROW: f64 = 1.0;
@@ -18,16 +18,16 @@ pub type Row = Arc<Vec<[f32; 4]>>;
 
 /// The rows of a history. One that is cloned has the same rows.
 #[derive(Clone, Debug, Default)]
-pub struct Rows {
+pub struct NodeHistory {
     /// By slot: from the newest on each is older than the one before, round the ring.
     slots: Vec<Row>,
     newest: usize,
 }
 
-impl Rows {
+impl NodeHistory {
     /// A past in which nothing happened: all rows are this one.
-    pub fn still(nodes: impl Iterator<Item = Node>) -> Rows {
-        Rows { slots: vec![row(nodes); ROWS], newest: 0 }
+    pub fn still(nodes: impl Iterator<Item = Node>) -> NodeHistory {
+        NodeHistory { slots: vec![row(nodes); ROWS], newest: 0 }
     }
 
     /// Another row, in place of the oldest.
@@ -59,7 +59,7 @@ impl Rows {
     }
 
     /// Slots whose rows are others than in an earlier history.
-    pub fn changed<'a>(&'a self, before: &'a Rows) -> impl Iterator<Item = (usize, &'a Row)> {
+    pub fn changed<'a>(&'a self, before: &'a NodeHistory) -> impl Iterator<Item = (usize, &'a Row)> {
         let same = |&(slot, row): &(usize, &Row)| before.slots.get(slot).is_some_and(|old| Arc::ptr_eq(old, row));
         self.slots.iter().enumerate().filter(move |row| !same(row))
     }

@@ -1,15 +1,15 @@
 //! Where a point is, as the lookup asks for it.
 
 use super::elementary::single::{above, least, most, short_arctan};
-use super::single::{Camera, HALF_TURN};
+use super::single::{HALF_TURN, LensCamera};
 
 /// Where a point is, as the lookup needs it, free of cancellation near the camera.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct SourcePoint {
     /// r, in r_s.
     pub r: f32,
     /// 1 − 1/r.
-    pub room: f32,
+    pub lapse2: f32,
     /// r − L, in r_s.
     pub dr: f32,
     /// φ, the angle at the hole, in 0..=π.
@@ -29,7 +29,7 @@ pub fn angle(across: f32, height: f32, r: f32) -> f32 {
 /// The place of a point `along` outward and `across` from the axis, away from the camera; `height` = L + along. All three are
 /// rounded from f64: near the camera the offset counts, elsewhere the height.
 #[inline]
-pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
+pub fn source_point(cam: &LensCamera, along: f32, across: f32, height: f32) -> SourcePoint {
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
     let inverse = 1.0 / r;
@@ -37,6 +37,6 @@ pub fn place(cam: &Camera, along: f32, across: f32, height: f32) -> Place {
     let near = 0.25 * cam.l * cam.l - square;
     let offset = (2.0 * cam.l * along + square) / (r + cam.l);
     // r − 1 and r − L: near the camera from the offset, elsewhere from the place.
-    let height = above(near, cam.room * cam.l + offset, r - 1.0);
-    Place { r, room: height * inverse, dr: above(near, offset, r - cam.l), phi }
+    let height = above(near, cam.lapse2 * cam.l + offset, r - 1.0);
+    SourcePoint { r, lapse2: height * inverse, dr: above(near, offset, r - cam.l), phi }
 }

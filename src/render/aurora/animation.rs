@@ -9,12 +9,12 @@ use crate::render::aurora::chords::Bend;
 use crate::render::aurora::colours::Colours;
 use crate::render::aurora::ground::{Glow, Ground, GroundFrame};
 use crate::render::aurora::levels::PYRAMID;
+use crate::render::aurora::node_history::{NodeHistory, ROW, ROWS, place as node_place};
 use crate::render::aurora::ration::Ration;
-use crate::render::aurora::rows::{ROW, ROWS, Rows, place as node_place};
 use crate::render::aurora::shift::Shift;
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
-use crate::render::gpu::types::Placement;
-use crate::render::instances::{Motion as Movement, Object, View, against_static, departure, light_path, place};
+use crate::render::gpu::types::Instance;
+use crate::render::instances::{Motion as Movement, Object, View, against_static, departure, instances_of, light_path};
 use crate::render::models::ModelRange;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
@@ -30,7 +30,7 @@ use crate::sim::flight::Command;
 use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};
 
-/// Rows that a frame of a watched aurora makes at most: four steps of the motion, of some milliseconds each where an oval has thousands of nodes.
+/// NodeHistory that a frame of a watched aurora makes at most: four steps of the motion, of some milliseconds each where an oval has thousands of nodes.
 const MOST_ROWS: usize = 2;
 /// Seconds after which the rays' noise is the same again: in them it drifts by whole numbers of times its 512 values (ends.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
@@ -76,7 +76,7 @@ pub struct AuroraFrame {
     /// Counts and numbers for the shaders.
     pub settings: AuroraSettings,
     /// The planet in each order it is seen in, body axes those of the dipole in km.
-    pub placements: Vec<Placement>,
+    pub instances: Vec<Instance>,
     /// The part of the screen that each may be on: left, upper, right and lower edge as shares of width and height.
     pub parts: Vec<[f64; 4]>,
     /// Whether each is seen through the accretion disk, by its centre.
@@ -86,7 +86,7 @@ pub struct AuroraFrame {
     /// Parts of the curtains with their streaks.
     pub segments: Vec<Segment>,
     /// The curtains' history.
-    pub rows: Rows,
+    pub rows: NodeHistory,
     /// [`Quantiles`] of the curtains' electrons.
     pub falls: Arc<Vec<f32>>,
     /// What is lit by them, if any of it is wide enough to show.
@@ -95,7 +95,7 @@ pub struct AuroraFrame {
 
 /// The curtains of a planet, as they move.
 #[derive(Clone, Debug)]
-pub struct Show {
+pub struct AuroraAnimation {
     planet: Planet,
     /// Inner and outer radius of the scene's accretion disk, r_s.
     disk: Option<[f64; 2]>,
@@ -104,7 +104,7 @@ pub struct Show {
     plan: Plan,
     motion: Option<Motion>,
     /// The curtains' history, and when its newest row was (s).
-    rows: Rows,
+    rows: NodeHistory,
     newest: f64,
     /// Their light on the ground, once it has been asked for.
     ground: Option<Ground>,
@@ -133,9 +133,9 @@ pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Opt
     Some(history)
 }
 
-impl Show {
+impl AuroraAnimation {
     /// The aurora of a planet, beside an accretion disk between two radii if there is one; None if it has none.
-    pub fn new(planet: &Planet, disk: Option<[f64; 2]>, config: &AuroraConfig) -> Option<Show> {
+    pub fn new(planet: &Planet, disk: Option<[f64; 2]>, config: &AuroraConfig) -> Option<AuroraAnimation> {
         if !config.enabled || planet.aurora == AuroraShape::None {
             return None;
         }
@@ -150,14 +150,14 @@ impl Show {
             seed: config.seed,
         };
         let config = config.clone();
-        Some(Show {
+        Some(AuroraAnimation {
             planet: *planet,
             disk,
             falls: Falls::of(&config),
             config,
             plan,
             motion: None,
-            rows: Rows::default(),
+            rows: NodeHistory::default(),
             newest: 0.0,
             ground: None,
             watched: false,
@@ -168,7 +168,7 @@ impl Show {
     }
 
     /// The same, watched as it goes: no frame takes much longer than another.
-    pub fn watched(mut self) -> Show {
+    pub fn watched(mut self) -> AuroraAnimation {
         self.watched = true;
         self
     }
@@ -219,10 +219,10 @@ impl Show {
         let pixels = 2.0 * self.planet.radius / distance.max(1e-6) / view.pixel;
         let mut frame = AuroraFrame::default();
         let mut whole_width: f64 = 0.0;
-        for placed in place(view, time, &object, orders) {
-            let placement = placed.placement;
-            let Some(order) = Order::new(placement.ids[0] as u8) else { continue };
-            let position = DVec3::from_array([0, 1, 2].map(|k| f64::from(placement.position[k])));
+        for placed in instances_of(view, time, &object, orders) {
+            let instance = placed.instance;
+            let Some(order) = Order::new(instance.ids[0] as u8) else { continue };
+            let position = DVec3::from_array([0, 1, 2].map(|k| f64::from(instance.position[k])));
             let extent = view.extent(position, object.reach, order, 0.0);
             // Light of higher orders comes round the hole: from there even a near planet is far away.
             let near = distance < 2.0 * object.reach && order.number() == 1;
@@ -237,10 +237,10 @@ impl Show {
                 let bends = view.settings.method.bends();
                 frame.behind.push(self.disk.is_some_and(|disk| veil::is_behind(view.camera, position, order, bends, disk)));
                 frame.colours.push(self.colours(view, time, &history, order, part));
-                frame.placements.push(placement);
+                frame.instances.push(instance);
             }
         }
-        if frame.placements.is_empty() {
+        if frame.instances.is_empty() {
             return None;
         }
         if let Some(pace) = self.old_pace.take() {
@@ -255,7 +255,7 @@ impl Show {
         if both {
             flags |= BOTH_POLES;
         }
-        let orders: Vec<Order> = frame.placements.iter().filter_map(|placement| Order::new(placement.ids[0] as u8)).collect();
+        let orders: Vec<Order> = frame.instances.iter().filter_map(|instance| Order::new(instance.ids[0] as u8)).collect();
         let bend =
             Bend { view, time, history: &history, scale, tops: self.falls.tops, heights: self.falls.ends.map(|ends| ends.map(f64::from)) };
         let chords = bend.chords(&segments, |segment, wait| self.rows.middle_of(segment, wait + ahead), &orders, flags);
@@ -293,7 +293,7 @@ impl Show {
         let now = now + self.offset;
         if self.motion.is_none() {
             let motion = Motion::new(self.plan.clone(), (now / ROW).floor() * ROW);
-            self.rows = Rows::still(motion.row());
+            self.rows = NodeHistory::still(motion.row());
             self.newest = motion.time();
             self.motion = Some(motion);
         }
@@ -324,7 +324,7 @@ impl Show {
         let stale = self.motion.as_ref().is_none_or(|motion| !(motion.time() - warm_up..=motion.time() + warm_up).contains(&now));
         if stale {
             let motion = Motion::new(self.plan.clone(), ((now - warm_up) / ROW).floor() * ROW);
-            self.rows = Rows::still(motion.row());
+            self.rows = NodeHistory::still(motion.row());
             self.newest = motion.time();
             self.motion = Some(motion);
         }

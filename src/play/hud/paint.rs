@@ -1,4 +1,4 @@
-//! What the HUD is painted with: words on a dark ground, plates, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
+//! What the HUD is painted with: words on a dark ground, text boxes, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
 
 use std::sync::Arc;
 
@@ -22,11 +22,11 @@ pub const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
 pub const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 252);
 /// Behind the names of markers: a little more is seen through them, for they lie on what they name.
 const NAME_SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 250);
-/// Space between a plate's edge and its words, in points.
+/// Space between a text box's edge and its words, in points.
 const PAD: Size = vec2(10.0, 6.0);
 /// How thick bars are, in points.
 const BAR: f32 = 5.0;
-/// How much higher a plate is by its bar, in points.
+/// How much higher a text box is by its bar, in points.
 pub const BAR_ROOM: f32 = BAR + PAD.y;
 
 /// Space between a name and the edge of its ground, in points.
@@ -55,16 +55,16 @@ fn bar(painter: &Painter, bar: Rect, share: f32, colour: Color32) {
 }
 
 /// Lines of text on a dark ground, laid out and not painted yet.
-pub struct Plate {
+pub struct TextBox {
     /// What it covers, in points.
     pub frame: Rect,
     lines: Vec<(Pos2, Arc<Galley>, Color32)>,
     bar: Option<(Rect, f32, Color32)>,
 }
 
-impl Plate {
-    /// A plate whose `anchor` is at `at`; lines longer than `widest` are wrapped.
-    pub fn lay(painter: &Painter, at: Pos2, anchor: Align2, widest: f32, lines: &[(&str, f32, Color32)]) -> Plate {
+impl TextBox {
+    /// A text box whose `anchor` is at `at`; lines longer than `widest` are wrapped.
+    pub fn lay(painter: &Painter, at: Pos2, anchor: Align2, widest: f32, lines: &[(&str, f32, Color32)]) -> TextBox {
         let galleys = lines.iter().map(|&(words, size, colour)| {
             (painter.layout(words.to_owned(), FontId::proportional(size), colour, widest - 2.0 * PAD.x), colour)
         });
@@ -83,14 +83,14 @@ impl Plate {
             top += galley.size().y;
             (place, galley, colour)
         });
-        Plate { frame, lines: lines.collect(), bar: None }
+        TextBox { frame, lines: lines.collect(), bar: None }
     }
 
     /// Higher by [`BAR_ROOM`], with a thin bar below the words, `share` of which is filled.
-    pub fn over_bar(self, share: f32, colour: Color32) -> Plate {
+    pub fn over_bar(self, share: f32, colour: Color32) -> TextBox {
         let place = Rect::from_min_size(self.frame.left_bottom() + vec2(PAD.x, 0.0), vec2(self.frame.width() - 2.0 * PAD.x, BAR));
         let frame = Rect::from_min_max(self.frame.min, pos2(self.frame.right(), place.bottom() + PAD.y));
-        Plate { frame, bar: Some((place, share, colour)), ..self }
+        TextBox { frame, bar: Some((place, share, colour)), ..self }
     }
 
     /// Paints it.
@@ -140,7 +140,7 @@ pub(in crate::play) mod tests {
     fn a_long_line_is_wrapped() {
         let words = "a word and one more ".repeat(60);
         on_canvas([900.0, 620.0], |painter, rect| {
-            let lay = |widest| Plate::lay(painter, rect.center(), Align2::CENTER_CENTER, widest, &[(&words, 14.0, TEXT)]).frame;
+            let lay = |widest| TextBox::lay(painter, rect.center(), Align2::CENTER_CENTER, widest, &[(&words, 14.0, TEXT)]).frame;
             assert!(lay(f32::INFINITY).width() > rect.width());
             let wrapped = lay(860.0);
             assert!(wrapped.width() <= 860.0 && rect.contains_rect(wrapped), "{wrapped}");

@@ -1,6 +1,6 @@
-//! Development: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
+//! Post-processing: bloom, exposure and tone curve as they are written in Rust; outlines of bodies without steps.
 
-use lensrunner::judge::picture::develop::{Development, develop};
+use lensrunner::judge::picture::post_process::{PostProcess, post_process};
 use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::renderer::Renderer;
 use lensrunner::render::settings::Settings;
@@ -28,15 +28,15 @@ fn linear(encoded: u8) -> f64 {
 
 /// Of the same linear light, at a size that is no multiple of the levels' steps. What remains are steps of 8 bits and halves of 11 bits.
 #[test]
-fn pictures_are_developed_as_in_rust() {
+fn pictures_are_finished_as_in_rust() {
     let size = [250, 139];
     for bloom in [0.0, 0.25, 1.0] {
         let settings = Settings { bloom, smooth: false, ..Settings::default() };
         let drawn = picture("ring", size, &settings);
         let light: Vec<[f32; 3]> = drawn.linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
-        let how = Development { bloom, key: settings.exposure_key, exposure_range: settings.exposure_range };
+        let how = PostProcess { bloom, key: settings.exposure_key, exposure_range: settings.exposure_range };
         let mut wide = 0;
-        for (shader, rust) in drawn.developed.chunks_exact(4).zip(develop(&light, size, &how).chunks_exact(3)) {
+        for (shader, rust) in drawn.display.chunks_exact(4).zip(post_process(&light, size, &how).chunks_exact(3)) {
             let off = (0..3).map(|k| shader[k].abs_diff(rust[k])).max().unwrap_or_default();
             assert!(off <= 3, "bloom {bloom}: {shader:?} in the shader, {rust:?} in Rust");
             wide += usize::from(off > 1);
@@ -51,7 +51,7 @@ fn the_lens_spreads_light_and_makes_none() {
     let mean = |bloom| {
         let settings = Settings { bloom, smooth: false, exposure_range: [0.02, 0.02], ..Settings::default() };
         let drawn = picture("ring", [320, 180], &settings);
-        drawn.developed.chunks_exact(4).map(|p| linear(p[1])).sum::<f64>() / (320.0 * 180.0)
+        drawn.display.chunks_exact(4).map(|p| linear(p[1])).sum::<f64>() / (320.0 * 180.0)
     };
     let (none, much) = (mean(0.0), mean(0.5));
     assert!((much / none - 1.0).abs() < 0.05, "the mean light is {none} without a glow, {much} with one");
@@ -64,7 +64,7 @@ fn outlines_of_bodies_are_smooth() {
     let settings = |smooth| Settings { bloom: 0.0, smooth, exposure_range: [1.0, 1.0], min_width: 0.0, orders: 1, ..Settings::default() };
     let finer = picture("ring", size.map(|side| 4 * side), &settings(false));
     let [plain, smooth] = [false, true].map(|on| picture("ring", size, &settings(on)));
-    let at = |picture: &Picture, column: u32, row: u32| linear(picture.developed[4 * (row * picture.size[0] + column) as usize + 1]);
+    let at = |picture: &Picture, column: u32, row: u32| linear(picture.display[4 * (row * picture.size[0] + column) as usize + 1]);
     let is_body = |column: u32, row: u32| plain.layers[(row * size[0] + column) as usize][0] > 0.0;
     let mut errors = [0.0; 2];
     let mut outline = 0;
@@ -105,7 +105,7 @@ fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     (size, config, renderer, stage, moment)
 }
 
-/// At exposures 4,000 times apart the player's own ship is developed as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
+/// At exposures 4,000 times apart the player's own ship is finished as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
 /// less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
@@ -150,7 +150,7 @@ fn the_own_ship_is_lit_for_the_exposure() {
     assert!(bright / dark < 3.0 * allowed, "{dark} and {bright}, {allowed} times are allowed");
 }
 
-/// A ship that is lit as white as one likes moves the exposure of nothing else: the developed picture beside it stays as it is.
+/// A ship that is lit as white as one likes moves the exposure of nothing else: the finished picture beside it stays as it is.
 #[test]
 fn the_own_ship_is_not_metered() {
     let (size, config, mut renderer, stage, moment) = a_chase();
@@ -163,7 +163,7 @@ fn the_own_ship_is_not_metered() {
     };
     let [dim, white] = [[1e-4, 2e-4], [10.0, 11.0]].map(&mut draw);
     let ship: Vec<usize> = (0..dim.layers.len()).filter(|&k| dim.layers[k][0] == 1.0).collect();
-    let differs = |k: usize| dim.developed[4 * k..4 * k + 3] != white.developed[4 * k..4 * k + 3];
+    let differs = |k: usize| dim.display[4 * k..4 * k + 3] != white.display[4 * k..4 * k + 3];
     assert!(ship.iter().filter(|&&k| differs(k)).count() > 50, "the ship is as light as it was");
     let beside: Vec<usize> = (0..dim.layers.len()).filter(|&k| !lit_ship(&ship, k, size) && differs(k)).collect();
     assert!(beside.is_empty(), "{} pixels beside the ship change", beside.len());

@@ -1,8 +1,8 @@
 // Smooth: outlines of bodies without steps. The picture for the eye is blurred along its edges, as FXAA does it (Lottes 2009); light is not, for an edge
 // beside a bright one would stay a step. Where no body is within a pixel nothing changes: stars and lines of light have their own ways. It is drawn over the
-// developed picture in tiles, of those alone that have an outline: on a software driver all pixels would take three times as long as to develop them.
+// finished picture in tiles, of those alone that have an outline: on a software driver all pixels would take three times as long as their tone mapping.
 
-@group(2) @binding(0) var developed: texture_2d<f32>;
+@group(2) @binding(0) var display: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
 @group(2) @binding(2) var depth: texture_depth_2d;
 
@@ -11,7 +11,7 @@ const LEAST_STEP: vec2<f32> = vec2<f32>(0.125, 0.03);
 /// Half the length of the longest blur, in pixels.
 const LONGEST: f32 = 8.0;
 
-/// Pixels along the side of a tile; as in src/render/develop/mod.rs.
+/// Pixels along the side of a tile; as in src/render/post_process/mod.rs.
 const TILE: u32 = 16u;
 /// A tile has an outline if of its depths the nearest is this many times the farthest, or some are nothing's.
 const STEP: f32 = 1.01;
@@ -38,7 +38,7 @@ fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) tile: u32) -> 
 }
 
 fn colour_at(uv: vec2<f32>) -> vec3<f32> {
-    return textureSampleLevel(developed, linear_sampler, uv, 0.0).rgb;
+    return textureSampleLevel(display, linear_sampler, uv, 0.0).rgb;
 }
 
 /// About what the eye makes of light.
@@ -56,8 +56,8 @@ fn beside_a_body(place: vec2<i32>) -> bool {
 @fragment
 fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let place = vec2<i32>(position.xy);
-    let here = textureLoad(developed, place, 0).rgb;
-    let pixel = 1.0 / vec2<f32>(textureDimensions(developed));
+    let here = textureLoad(display, place, 0).rgb;
+    let pixel = 1.0 / vec2<f32>(textureDimensions(display));
     let uv = position.xy * pixel;
     // Each corner is the mean of four pixels.
     let a = lightness(colour_at(uv + pixel * vec2<f32>(-0.5, -0.5)));

@@ -1,10 +1,10 @@
-//! Linear light to a picture for the eye: bloom, exposure, tone curve, as the passes in `shaders/develop/` do it.
+//! Linear light to a picture for the eye: bloom, exposure, tone curve, as the passes in `shaders/post_process/` do it.
 
 use glam::{Vec2, Vec3};
 
-/// How a picture is developed.
+/// How a picture is finished.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Development {
+pub struct PostProcess {
     /// Share of the light that the lens spreads.
     pub bloom: f32,
     /// The light that the metered part of the picture is brought to, of 1 for white.
@@ -62,7 +62,7 @@ impl Canvas {
 }
 
 /// Develops linear light of `size` pixels into sRGB, 3 bytes a pixel.
-pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8> {
+pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Vec<u8> {
     let size = size.map(|side| side as usize);
     let picture = Canvas { size, light: light.iter().map(|&rgb| Vec3::from(rgb)).collect() };
     let mut levels: Vec<Canvas> = Vec::new();
@@ -98,7 +98,7 @@ pub fn develop(light: &[[f32; 3]], size: [u32; 2], how: &Development) -> Vec<u8>
 }
 
 /// What brings the mean light, weighted by itself (what shines is metered, not the black between), to the key.
-fn exposure(level: &Canvas, how: &Development) -> f32 {
+fn exposure(level: &Canvas, how: &PostProcess) -> f32 {
     let mut sum = Vec2::ZERO;
     for rgb in &level.light {
         let light = rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722));
