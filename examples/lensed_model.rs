@@ -1,11 +1,14 @@
 //! A glTF model seen past the hole, in an App of one's own: `cargo run --release --example lensed_model`.
 //!
-//! Three things make a picture: [`RelativisticRenderPlugin`], a [`Stage`] with the scene's models, and each frame a `FrameInput` in [`FrameToDraw`].
+//! Three things make a picture: [`RelativisticRenderPlugin`]; once, a [`Stage`] of the scene, with its models in [`SceneToDraw`]; and each frame a
+//! `FrameInput` in [`FrameToDraw`].
+
+use std::sync::Arc;
 
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 use glam::DVec3;
-use lensrunner::render::plugin::{FrameToDraw, RelativisticRenderPlugin, SharedRenderer};
+use lensrunner::render::plugin::{FrameToDraw, LensingTable, RelativisticRenderPlugin, SceneToDraw};
 use lensrunner::render::shot::surroundings;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::{self, GameConfig};
@@ -14,27 +17,30 @@ fn main() -> AppExit {
     App::new()
         .add_plugins(DefaultPlugins)
         .add_plugins(RelativisticRenderPlugin { surroundings: surroundings() })
-        .add_systems(Startup, |mut commands: Commands| {
-            commands.spawn((Camera2d, Msaa::Off));
-        })
+        .add_systems(Startup, load)
         .add_systems(Update, draw)
         .run()
 }
 
-/// Swings a hovering camera to and fro, so that the model's image opens to a ring and closes again.
-fn draw(world: &mut World, mut stage: Local<Option<Stage>>) {
+/// The scene, ready for frames.
+#[derive(Resource)]
+struct Staged(Stage);
+
+fn load(mut commands: Commands, table: Res<LensingTable>, mut drawn: ResMut<SceneToDraw>) {
     let config = GameConfig::default();
-    // The renderer is there as soon as the graphics device is.
-    let Some(renderer) = world.get_resource::<SharedRenderer>().cloned() else { return };
-    let stage = stage.get_or_insert_with(|| {
-        let scene = scene::load("examples/lensed_model.toml").expect("the example is started in the project's folder");
-        Stage::new(&mut renderer.lock(), &scene, &config)
-    });
-    let mut windows = world.query_filtered::<&Window, With<PrimaryWindow>>();
-    let Some(size) = windows.iter(world).next().map(|window| [window.physical_width(), window.physical_height()]) else { return };
-    let angle = 0.1 * world.resource::<Time>().elapsed_secs_f64().sin();
+    let scene = scene::load("examples/lensed_model.toml").expect("the example is started in the project's folder");
+    let (stage, upload) = Stage::prepare(&table.0, &scene, scene.assemble(&config), &config, None);
+    drawn.0 = Some(Arc::new(upload));
+    commands.insert_resource(Staged(stage));
+    commands.spawn((Camera2d, Msaa::Off));
+}
+
+/// Swings a hovering camera to and fro, so that the model's image opens to a ring and closes again.
+fn draw(staged: Res<Staged>, time: Res<Time>, windows: Query<&Window, With<PrimaryWindow>>, mut frame: ResMut<FrameToDraw>) {
+    let Some(window) = windows.iter().next() else { return };
+    let angle = 0.1 * time.elapsed_secs_f64().sin();
     let position = 12.0 * DVec3::new(angle.sin(), 0.0, angle.cos());
     let camera = static_camera(position, -position, DVec3::Y, 50f64.to_radians());
-    let frame = stage.frame(camera, size, 0.0, &[], None, &settings(&config));
-    world.resource_mut::<FrameToDraw>().0 = Some(frame);
+    let size = [window.physical_width(), window.physical_height()];
+    frame.0 = Some(staged.0.frame(camera, size, 0.0, &[], None, &settings(&GameConfig::default())));
 }

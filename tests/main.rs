@@ -20,9 +20,9 @@ mod render_aurora_chords;
 #[cfg(feature = "game")]
 mod render_aurora_ground;
 #[cfg(feature = "game")]
-mod render_aurora_pictures;
+mod render_aurora_history;
 #[cfg(feature = "game")]
-mod render_aurora_rows;
+mod render_aurora_pictures;
 #[cfg(feature = "game")]
 mod render_aurora_sight;
 #[cfg(feature = "game")]

@@ -19,7 +19,7 @@ fn ball(bench: &Bench, position: DVec3, settings: &Settings) -> Vec<Placed> {
     let (camera, object) = (camera(), bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 1.0, 1));
     let slice = Slice::new(bench.renderer.table(), camera.radius());
     let pixel = camera.field_of_view / f64::from(bench.renderer.size()[0]);
-    place(&View { camera: &camera, slice: &slice, pixel, aspect: None, settings }, 0.0, &object, settings.orders)
+    instances_of(&View { camera: &camera, slice: &slice, pixel, aspect: None, settings }, 0.0, &object, settings.orders)
 }
 
 /// How many pixels show the ball, and how many of its triangles were left out.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use lensrunner::lensing::Slice;
 use lensrunner::render::disk::Disk;
-use lensrunner::render::disk::rows::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
+use lensrunner::render::disk::circles::{AZIMUTHS, Look, SeenCircle, azimuth, pixel_angle, radii};
 use lensrunner::render::disk::view::DiskView;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::shaders::Pass;

@@ -60,7 +60,7 @@ impl Bench {
 
     pub fn place(&self, camera: &Observer, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
-        place(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
+        instances_of(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
     }
 
     /// The model's vertices as the GPU sees them, instance by instance.

@@ -66,7 +66,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             id: 1,
             light: Light::default(),
         };
-        for (order, one) in Order::ALL.into_iter().zip(place(&view, 0.0, &held, 2)) {
+        for (order, one) in Order::ALL.into_iter().zip(instances_of(&view, 0.0, &held, 2)) {
             placed.push(one);
             points.extend(prepared.vertices.iter().map(|v| {
                 let body = DVec3::new(f64::from(v.position[0]), f64::from(v.position[1]), f64::from(v.position[2]));

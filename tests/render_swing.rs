@@ -52,7 +52,7 @@ fn placed(jolt: f64, now: f64) -> (History, Instance, f64) {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let instance = place(&view, now, &object, 1)[0].instance;
+    let instance = instances_of(&view, now, &object, 1)[0].instance;
     (history.clone(), instance, now - f64::from(instance.offset[3]))
 }
 
@@ -89,7 +89,7 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
-    let instance = place(&view, 0.0, &object, 1)[0].instance;
+    let instance = instances_of(&view, 0.0, &object, 1)[0].instance;
     let emission = -f64::from(instance.offset[3]);
     let at = |t: f64| {
         let state = planet.state(t).unwrap();
@@ -129,7 +129,7 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
-    let instance = place(&view, 1.5, &object, 1)[0].instance;
+    let instance = instances_of(&view, 1.5, &object, 1)[0].instance;
     let emission = 1.5 - f64::from(instance.offset[3]);
     assert!((1.3..1.35).contains(&emission), "{emission}");
     let fallen = |t: f64| start.normalize() * (start.length().powf(1.5) - 1.5 * t).powf(2.0 / 3.0);

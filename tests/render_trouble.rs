@@ -158,8 +158,9 @@ fn the_settings_of_geometry_do_what_they_say() {
     let stand_in = bench.renderer.add_model(&shapes::icosphere(20, Material::default()));
     let mut object = bench.object(Motion::Held { position: DVec3::new(9.0, 0.0, 0.0), attitude: DQuat::IDENTITY }, 0.2, 1);
     object.coarse = stand_in;
-    let images =
-        |settings: Settings| place(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3);
+    let images = |settings: Settings| {
+        instances_of(&View { camera: &eye, slice: &slice, pixel: 0.01, aspect: None, settings: &settings }, 0.0, &object, 3)
+    };
     let count = |settings: Settings| images(settings).len();
     // The ball is 2.3 pixels wide in the first order.
     let first = |settings: Settings| images(settings)[0];
@@ -185,7 +186,7 @@ fn rings_of_orders_two_and_three_are_unbroken() {
         let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), 15.0);
         let pixel = 2.0 * (0.5 * eye.field_of_view).tan() / 320.0;
         use lensrunner::render::instances::{View, instances_of};
-        let placed = place(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
+        let placed = instances_of(&View { camera: &eye, slice: &slice, pixel, aspect: None, settings: &settings }, 0.0, &object, 3);
         assert_eq!(placed.len(), 3);
         let picture = bench.renderer.picture(&frame(placed, settings), true).unwrap();
         // Seen on the axis: Φ = 2π or 3π.

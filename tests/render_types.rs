@@ -6,7 +6,7 @@ use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::race::{Electron, Experiment};
 use lensrunner::render::aurora::rooms::CORNERS;
 use lensrunner::render::aurora::{AuroraSettings, BOTH_POLES, Colours, LINEAR, PYRAMID, SHIFTS, Segment};
-use lensrunner::render::disk::rows::AZIMUTHS;
+use lensrunner::render::disk::circles::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex};
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};

@@ -1,6 +1,6 @@
 //! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
 
-use crate::play::player_state::{Flown, GameSet, PlayerState};
+use crate::play::player_state::{Flown, PlayerState};
 use std::time::Duration;
 
 use bevy::prelude::*;
@@ -11,9 +11,11 @@ use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
 use crate::spacetime::matter::gamma;
 
+use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::{Bindings, Hands, MouseTurn};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
+use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
 use crate::play::window::record;
 
@@ -22,13 +24,13 @@ pub struct GamePlugin;
 
 impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
+        schedule::order(app);
         app.init_state::<Screen>()
             .add_message::<MenuAction>()
             .init_resource::<Bindings>()
             .init_resource::<MouseTurn>()
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
-            .configure_sets(Update, (GameSet::Keys, GameSet::Answer).chain())
-            .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_wishes, end_chase, run_time).chain().in_set(GameSet::Answer)))
+            .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
             .add_systems(FixedUpdate, (fly_by_hand, note_pilot).in_set(SimSet::Input));
     }
@@ -57,11 +59,8 @@ fn begin(world: &mut World, screen: Screen) {
 }
 
 /// Keys that switch something.
-#[allow(clippy::too_many_arguments)]
 fn read_keys(
-    bindings: Res<Bindings>,
-    keys: Res<ButtonInput<KeyCode>>,
-    buttons: Res<ButtonInput<MouseButton>>,
+    hands: Hands,
     typing: Option<Res<EguiWantsInput>>,
     screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
@@ -69,56 +68,55 @@ fn read_keys(
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
-    let hands = Hands { bindings: &bindings, keys: &keys, mouse: &buttons };
-    if hands.pushed("toggle_overlay") {
+    if hands.pushed(Action::ToggleOverlay) {
         player.overlay = !player.overlay;
     }
-    if hands.pushed("screenshot") {
+    if hands.pushed(Action::Screenshot) {
         commands.queue(record::screenshot);
     }
     let typing = typing.is_some_and(|typing| typing.wants_keyboard_input());
-    player.looking = !typing && hands.holds("look_at_target");
+    player.looking = !typing && hands.holds(Action::LookAtTarget);
     if typing {
         return;
     }
-    let enter = keys.just_pressed(KeyCode::Enter) || keys.just_pressed(KeyCode::NumpadEnter);
+    let enter = hands.keys.any_just_pressed([KeyCode::Enter, KeyCode::NumpadEnter]);
     match screen.get() {
         Screen::Title if enter => _ = actions.write(MenuAction::Start),
         Screen::Result if enter => _ = actions.write(MenuAction::Start),
         Screen::Paused if enter => _ = actions.write(MenuAction::Pause),
         _ => (),
     }
-    if hands.pushed("pause") {
+    if hands.pushed(Action::Pause) {
         actions.write(if *screen.get() == Screen::Result { MenuAction::Title } else { MenuAction::Pause });
     }
-    if hands.pushed("restart") && *screen.get() != Screen::Title {
+    if hands.pushed(Action::Restart) && *screen.get() != Screen::Title {
         actions.write(MenuAction::Start);
     }
-    if hands.pushed("toggle_camera") {
+    if hands.pushed(Action::ToggleCamera) {
         player.view = player.view.toggled();
         player.follower.reset();
     }
-    if hands.pushed("toggle_hud") {
-        player.bare = !player.bare;
+    if hands.pushed(Action::ToggleHud) {
+        player.hud_off = !player.hud_off;
     }
-    if hands.pushed("toggle_assist") {
+    if hands.pushed(Action::ToggleAssist) {
         player.assist = Some(!player.assisted(&session.config));
     }
-    let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds("look_at_target") || hands.holds("toggle_autopilot");
+    let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds(Action::LookAtTarget) || hands.holds(Action::ToggleAutopilot);
     player.begun |= player.always_autopilot || (begins && *screen.get() == Screen::Playing);
-    if hands.pushed("toggle_autopilot") && *screen.get() == Screen::Playing {
+    if hands.pushed(Action::ToggleAutopilot) && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
         let manual = !player.autopilot;
         commands.queue(move |world: &mut World| set_manual(world, manual));
     }
-    let faster = f64::from(i8::from(hands.pushed("faster")) - i8::from(hands.pushed("slower")));
+    let faster = f64::from(i8::from(hands.pushed(Action::Faster)) - i8::from(hands.pushed(Action::Slower)));
     if faster != 0.0 {
         let pace = session.config.clock.pace * faster.exp2();
         session.config.clock.pace = pace.clamp(0.05, 24.0);
     }
 }
 
-fn answer_wishes(world: &mut World) {
+fn answer_menus(world: &mut World) {
     let actions: Vec<MenuAction> = world.resource_mut::<Messages<MenuAction>>().drain().collect();
     for action in actions {
         if action == MenuAction::Quit {
@@ -177,11 +175,8 @@ fn note_pilot(mut player: ResMut<PlayerState>) {
 type ByHand = (With<Player>, With<Manual>);
 
 /// The player's hands become the ship's controls.
-#[allow(clippy::too_many_arguments)]
 fn fly_by_hand(
-    bindings: Res<Bindings>,
-    keys: Res<ButtonInput<KeyCode>>,
-    buttons: Res<ButtonInput<MouseButton>>,
+    hands: Hands,
     clock: Res<Clock>,
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,
@@ -189,7 +184,7 @@ fn fly_by_hand(
     mut ships: Query<(&ShipMotion, &Engine, &mut Controls), ByHand>,
 ) {
     for (motion, engine, mut controls) in &mut ships {
-        let mut stick = Hands { bindings: &bindings, keys: &keys, mouse: &buttons }.stick();
+        let mut stick = hands.stick();
         let proper_step = clock.step / gamma(motion.0.momentum);
         let mouse = turn.pull(engine.max_rate * proper_step);
         stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);

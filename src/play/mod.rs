@@ -1,7 +1,8 @@
 //! Playing: screens, input, camera, HUD, dev overlay, and the demonstration flight without a display.
 //!
-//! [`game`] is screens, keys and time, [`window`] adds window and picture; [`demonstration`] flies it to files. Between them they share [`session`] (what is played), [`camera`]
-//! and [`camera::seen`] (where the image of a ship appears).
+//! Each feature is a plugin: [`game`] (screens, keys, time), [`picture`] (camera and frame), [`hud`], [`menus`], [`overlay`], [`window`] (which adds them all
+//! to an app); [`schedule`] says in which order they run. [`demonstration`] flies the chase to files without a window. They share [`session`] (what is
+//! played), [`player_state`] (how the player plays) and [`camera`].
 
 pub mod camera;
 pub mod demonstration;
@@ -10,7 +11,9 @@ pub mod hud;
 pub mod input;
 pub mod menus;
 pub mod overlay;
+pub mod picture;
 pub mod player_state;
+pub mod schedule;
 pub mod session;
 pub mod window;
 

@@ -1,4 +1,4 @@
-//! The player at the controls, and the order of the systems that ask and answer.
+//! The player at the controls.
 
 use crate::play::camera::{Follower, View};
 use crate::play::input::gaze::Gaze;
@@ -13,7 +13,7 @@ pub struct PlayerState {
     /// From where one looks.
     pub view: View,
     /// The HUD is off.
-    pub bare: bool,
+    pub hud_off: bool,
     /// The dev overlay is on.
     pub overlay: bool,
     /// The flight assist as the player switched it in this chase; None: as it is configured.
@@ -50,13 +50,4 @@ impl PlayerState {
     pub fn assisted(&self, config: &GameConfig) -> bool {
         self.assist.unwrap_or(config.assist.enabled)
     }
-}
-
-/// The order of what the game does in a frame.
-#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum GameSet {
-    /// Keys are read.
-    Keys,
-    /// Menu actions are answered: screens change, chases begin.
-    Answer,
 }

@@ -15,14 +15,14 @@ use crate::render::disk::{Disk, DiskPasses};
 use crate::render::frame::{FrameInput, blackbody_table, uniform};
 use crate::render::geometry::Geometry;
 use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, layout, storage};
-use crate::render::gpu::readback::{self, Picture, PictureError};
+use crate::render::gpu::readback::{self, DeferredCopy, Picture, PictureError};
 use crate::render::gpu::shaders::Worldlines;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::method::Method;
 use crate::render::method::tables::Tables;
-use crate::render::models::{ModelRange, Models};
+use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
@@ -38,6 +38,15 @@ pub struct Surroundings {
     pub stars: Vec<Star>,
     /// The Milky Way.
     pub milky_way: crate::render::sky::Panorama,
+}
+
+/// What the renderer needs of a scene before it can draw frames of it: data of the processor alone.
+#[derive(Clone, Debug, Default)]
+pub struct SceneUpload {
+    /// All models, where their [`ModelRange`]s say.
+    pub models: ModelSet,
+    /// The disk, if the scene has one.
+    pub disk: Option<Disk>,
 }
 
 /// All passes and their buffers.
@@ -66,13 +75,17 @@ pub struct Renderer {
     background: Background,
     stars: Stars,
     aurora: Aurora,
-    post_process: ToneMap,
+    post_process: PostProcess,
     targets: Targets,
     /// The output has no size.
     hidden: bool,
     /// The frame has bodies whose outlines are to be smooth.
     smooth: bool,
     timing: Timing,
+    /// Whether counters are brought back after each frame.
+    counting: bool,
+    /// The counters of geometry and disk of an earlier frame.
+    counted: [DeferredCopy; 2],
 }
 
 impl Renderer {
@@ -122,6 +135,8 @@ impl Renderer {
             targets,
             hidden: size.contains(&0),
             smooth: false,
+            counting: false,
+            counted: Default::default(),
         }
     }
 
@@ -146,10 +161,11 @@ impl Renderer {
         self.models.add(&self.gpu, model)
     }
 
-    /// Forgets all models.
-    pub fn clear_models(&mut self) {
+    /// Draws the models and the disk of this scene from now on, and nothing of another.
+    pub fn upload(&mut self, scene: &SceneUpload) {
         self.geometry.models_changed();
-        self.models.clear();
+        self.models.upload(&self.gpu, scene.models.clone());
+        self.set_disk(scene.disk.clone());
     }
 
     /// Draws this disk from now on, or none.
@@ -171,7 +187,7 @@ impl Renderer {
     pub fn disk_counters(&self) -> Result<Option<DiskCounters>, PictureError> {
         let Some(disk) = self.disk() else { return Ok(None) };
         let bytes = readback::buffer(&self.gpu, disk.arcs().counters())?;
-        Ok(Some(bytemuck::pod_read_unaligned(&bytes[..size_of::<DiskCounters>()])))
+        Ok(Some(first_of(&bytes)))
     }
 
     /// The size of the output, in pixels.
@@ -254,6 +270,7 @@ impl Renderer {
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
         self.timing.begin();
+        self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by what the frame before was exposed for, and stars that could not be seen then are left out.
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
@@ -330,6 +347,12 @@ impl Renderer {
         draw_disk(disk, 1..=left, &mut self.timing, encoder, group, &self.targets);
         draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
         self.post_process.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
+        if self.counting {
+            self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
+            if let Some(disk) = disk {
+                self.counted[1].record(&self.gpu.device, encoder, disk.arcs().counters());
+            }
+        }
         self.timing.end(encoder);
     }
 
@@ -388,7 +411,19 @@ impl Renderer {
     /// What the stages of geometry counted in the last frame.
     pub fn counters(&self) -> Result<Counters, PictureError> {
         let bytes = readback::buffer(&self.gpu, self.geometry.counters())?;
-        Ok(*bytemuck::from_bytes(&bytes[..size_of::<Counters>()]))
+        Ok(first_of(&bytes))
+    }
+
+    /// Brings counters back after each frame to come, for [`latest_counters`](Renderer::latest_counters), or no longer.
+    pub fn set_counting(&mut self, counting: bool) {
+        self.counting = counting;
+    }
+
+    /// What geometry and disk counted in an earlier frame, where that has come back; nothing waits for it.
+    pub fn latest_counters(&mut self) -> (Option<Counters>, Option<DiskCounters>) {
+        let has_disk = self.disk().is_some();
+        let [geometry, disk] = &mut self.counted;
+        (geometry.latest().map(first_of), disk.latest().filter(|_| has_disk).map(first_of))
     }
 
     /// Strokes of the aurora in the last frame, by level of its pyramid, all images together; None if none was prepared.
@@ -419,6 +454,11 @@ impl Renderer {
     pub fn timing(&mut self) -> &mut Timing {
         &mut self.timing
     }
+}
+
+/// The structure that a buffer begins with.
+fn first_of<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> T {
+    bytemuck::pod_read_unaligned(&bytes[..size_of::<T>()])
 }
 
 fn frame_bindings(

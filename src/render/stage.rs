@@ -21,8 +21,9 @@ use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
 use crate::render::instances::{Motion, Object, Placed, View, instances_of};
 use crate::render::method::Method;
-use crate::render::models::ModelRange;
 use crate::render::models::coarse::coarse;
+use crate::render::models::{ModelRange, ModelSet};
+use crate::render::renderer::SceneUpload;
 use crate::render::settings::Settings;
 
 /// A scene's objects, ready to be placed.
@@ -62,14 +63,26 @@ impl Stage {
 
     /// The same with models made elsewhere; `mark` changes each before it is uploaded, those too that stand in for finer ones.
     pub fn of(renderer: &mut Renderer, scene: &Scene, assembly: Assembly, config: &GameConfig, mark: Option<fn(&Model) -> Model>) -> Stage {
-        renderer.clear_models();
-        renderer.set_disk(scene.disk(config).map(|disk| Disk::new(disk, config)));
+        let (stage, upload) = Stage::prepare(&renderer.table().clone(), scene, assembly, config, mark);
+        renderer.upload(&upload);
+        stage
+    }
+
+    /// The stage, and what is to be uploaded before a frame of it is drawn: for where there is no renderer at hand. As [`of`](Stage::of).
+    pub fn prepare(
+        table: &Arc<Table>,
+        scene: &Scene,
+        assembly: Assembly,
+        config: &GameConfig,
+        mark: Option<fn(&Model) -> Model>,
+    ) -> (Stage, SceneUpload) {
         for warning in &assembly.warnings {
             bevy::log::warn!("{warning}");
         }
+        let mut models = ModelSet::default();
         let mut add = |model: &Model| match mark {
-            Some(mark) => renderer.add_model(&mark(model)),
-            None => renderer.add_model(model),
+            Some(mark) => models.add(&mark(model)),
+            None => models.add(model),
         };
         let mut ranges: Vec<Fineness> = Vec::new();
         for model in &assembly.models {
@@ -89,11 +102,13 @@ impl Stage {
             let range = ranges[object.model].clone();
             (object, range)
         });
-        let disk = scene.disk(config).map(|disk| [disk.inner, disk.outer]);
-        Stage {
+        let disk = scene.disk(config);
+        let upload = SceneUpload { models, disk: disk.clone().map(|disk| Disk::new(disk, config)) };
+        let disk = disk.map(|disk| [disk.inner, disk.outer]);
+        let stage = Stage {
             objects: objects.collect(),
             reaches,
-            table: renderer.table().clone(),
+            table: table.clone(),
             camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
             ambient: config.render.ambient as f32,
@@ -102,7 +117,8 @@ impl Stage {
             planet: scene.planet,
             disk,
             show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)))),
-        }
+        };
+        (stage, upload)
     }
 
     /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came before.

@@ -74,15 +74,9 @@ pub fn said(verdict: &Verdict, limits: &Limits, faults: &[String]) -> &'static s
 
 /// In a row: the contestant's picture, the judge's, and from black over red and yellow to white the ꟻLIP of each pixel (white: 1) and its
 /// displacement (white: 1.5 pixels). Both pictures are finished alike, by themselves. Gives size and sRGB bytes.
-pub fn side_by_side(
-    judge: &Picture,
-    frame: &Frame,
-    difference: &[f32],
-    displaced: &[f32],
-    post_process: &PostProcess,
-) -> ([u32; 2], Vec<u8>) {
+pub fn side_by_side(judge: &Picture, frame: &Frame, difference: &[f32], displaced: &[f32], how: &PostProcess) -> ([u32; 2], Vec<u8>) {
     let [width, height] = judge.size;
-    let pictures = [post_process(&frame.light, frame.size, post_process), post_process(&judge.light, judge.size, post_process)];
+    let pictures = [post_process(&frame.light, frame.size, how), post_process(&judge.light, judge.size, how)];
     let map: Vec<u8> = difference.iter().flat_map(|d| heat(*d)).collect();
     let moved: Vec<u8> = displaced.iter().flat_map(|d| heat(d / 1.5)).collect();
     let row = 3 * width as usize;

@@ -6,7 +6,7 @@ use wide::f32x8;
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::batch::{self, LANES};
 use crate::lensing::single::{LensCamera, camera};
-use crate::lensing::source_point::place;
+use crate::lensing::source_point::source_point;
 use crate::lensing::{Table, paper};
 use crate::spacetime::light::{Branch, Order};
 

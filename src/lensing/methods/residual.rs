@@ -7,7 +7,7 @@ use super::slice::{in_range, seen};
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::lookup::{LensRay, OLD, YOUNG, lookup_with, swept};
 use crate::lensing::single::{LensCamera, camera};
-use crate::lensing::source_point::place;
+use crate::lensing::source_point::source_point;
 use crate::lensing::{Table, grid, spline};
 use crate::spacetime::light::{Branch, Order};
 

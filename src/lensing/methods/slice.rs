@@ -5,7 +5,7 @@ use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear, swept};
 use crate::lensing::single::LensCamera;
 use crate::lensing::slice::Cut;
-use crate::lensing::source_point::place;
+use crate::lensing::source_point::source_point;
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
 

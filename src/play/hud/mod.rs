@@ -8,10 +8,9 @@ pub mod paint;
 pub mod panel;
 
 use bevy::prelude::*;
-use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
-use crate::render::plugin::SharedRenderer;
 use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
@@ -19,9 +18,11 @@ use crate::play::camera::View;
 use crate::play::hud::instruments::{Countdown, Instruments, Scale, hold_words};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox, text};
-use crate::play::hud::panel::{Panel, Staged, loaded};
+use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::Screen;
+use crate::play::picture::Staged;
 use crate::play::player_state::PlayerState;
+use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
 use markers::arc;
 
@@ -32,28 +33,35 @@ const BETWEEN: f32 = 6.0;
 /// What comes down from the upper edge ends above this, in points.
 const BELOW_DIALS: f32 = 122.0;
 
+/// Dials, markers and messages. Needs [`PicturePlugin`](crate::play::picture::PicturePlugin).
+pub struct HudPlugin;
+
+impl Plugin for HudPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Panel>()
+            .init_resource::<Notice>()
+            .add_systems(Update, panel::read_panel.in_set(GameSet::Instruments).run_if(resource_exists::<Staged>))
+            .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Hud));
+    }
+}
+
 /// Draws the HUD.
-#[allow(clippy::too_many_arguments)]
-pub fn draw(
+fn draw(
     mut contexts: EguiContexts,
-    screen: Res<State<Screen>>,
-    session: Res<Session>,
-    player: Res<PlayerState>,
+    (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
+    (chase, rules): (Option<Res<Chase>>, Res<ChaseRules>),
     panel: Res<Panel>,
-    chase: Option<Res<Chase>>,
-    rules: Res<ChaseRules>,
-    notice: Res<Notice>,
-    real: Res<Time<Real>>,
-    (staged, renderer): (Option<Res<Staged>>, Option<Res<SharedRenderer>>),
+    (notice, real): (Res<Notice>, Res<Time<Real>>),
+    staged: Option<Res<Staged>>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
     lay_in(context, &painter);
-    if !loaded(staged, renderer) {
+    if staged.is_none() {
         text(&painter, rect.center() + vec2(0.2 * rect.width(), 0.0), Align2::CENTER_CENTER, "loading the scene…", 18.0, TEXT);
     }
-    let shown = shows(*screen.get(), player.bare);
+    let shown = shows(*screen.get(), player.hud_off);
     if let Some(words) = left_out(&session.config) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
         TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
@@ -93,8 +101,8 @@ pub fn draw(
 }
 
 /// Whether dials and markers are shown: in play alone, since menus lie on them.
-fn shows(screen: Screen, bare: bool) -> bool {
-    screen == Screen::Playing && !bare
+fn shows(screen: Screen, hud_off: bool) -> bool {
+    screen == Screen::Playing && !hud_off
 }
 
 /// A line for the player, wrapped where it is wider than the screen.

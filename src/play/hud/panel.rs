@@ -1,14 +1,17 @@
 //! What the HUD and the menus show of the frame that is drawn.
 
-use crate::play::camera::seen::Apparition;
-use crate::play::hud::instruments::Instruments;
-use crate::render::plugin::SharedRenderer;
-use crate::render::stage::Stage;
 use bevy::prelude::*;
 
-/// The scene's models on the renderer.
-#[derive(Resource, Debug)]
-pub struct Staged(pub Stage);
+use crate::play::camera::seen::{Apparition, apparition, true_direction};
+use crate::play::camera::state_of;
+use crate::play::hud::instruments::Instruments;
+use crate::play::picture::CurrentShot;
+use crate::play::picture::now::Now;
+use crate::play::picture::sight::Shot;
+use crate::play::player_state::PlayerState;
+use crate::spacetime::frames::relative_momentum;
+use crate::spacetime::light::Order;
+use crate::spacetime::orbit::static_momentum;
 
 /// What the HUD shows of this frame.
 #[derive(Resource, Clone, Debug, Default)]
@@ -31,7 +34,24 @@ pub struct Panel {
     pub aside: bool,
 }
 
-/// Whether there is nothing more to load.
-pub(in crate::play) fn loaded(staged: Option<Res<Staged>>, renderer: Option<Res<SharedRenderer>>) -> bool {
-    staged.is_some() || renderer.is_none()
+/// Reads the numbers of the frame that is drawn.
+pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerState>, mut panel: ResMut<Panel>) {
+    let (Some(Shot { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
+    let time = now.time();
+    let state = state_of(&history.at(time));
+    let target = now.target().map(|(_, history)| history);
+    let there = target.map(|history| state_of(&history.at(time)));
+    let thrust = engine.limit(&controls.0).thrust.length();
+    let resting = static_momentum(state.position).unwrap_or_default();
+    let moving = -relative_momentum(state.momentum, resting);
+    *panel = Panel {
+        instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), there.as_ref())),
+        images: [0, 1].map(|order| target.and_then(|history| apparition(&camera, time, history, Order::ALL[order]))),
+        truth: there.and_then(|there| true_direction(&camera, there.position)),
+        hole: camera.position.try_normalize().map(|out| camera.seen_direction(-out)),
+        decided: now.chase.as_ref().and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
+        heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
+        field_of_view: now.session.config.video.fov.to_radians(),
+        aside: player.gaze.aside(),
+    };
 }

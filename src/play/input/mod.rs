@@ -1,10 +1,13 @@
 //! From keys and mouse to the stick: bindings by name from `game.toml`, and what they mean.
 
+pub mod action;
 pub mod gaze;
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
 
+use crate::play::input::action::Action;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Value};
 use crate::sim::assist::Stick;
@@ -21,23 +24,24 @@ pub enum Button {
 /// The share of full thrust that the keys give without boost.
 pub const CRUISE: f64 = 0.6;
 
-/// Which button does what: the keys of `[controls]` with the button bound to each, if any.
+/// Which button does what: the button bound to each [`Action`], if any.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
-pub struct Bindings(Vec<(&'static str, Option<Button>)>);
+pub struct Bindings([Option<Button>; Action::ALL.len()]);
 
 impl Bindings {
     /// The bindings of a configuration.
     pub fn of(config: &GameConfig) -> Bindings {
-        let controls = config::settings().iter().filter(|setting| setting.section == "controls");
-        let bound = controls.filter_map(|setting| match setting.get(config) {
-            Value::Word(name) => Some((setting.key, button(&name))),
-            _ => None,
-        });
-        Bindings(bound.collect())
+        Bindings(Action::ALL.map(|action| {
+            let setting = config::settings().iter().find(|setting| setting.section == "controls" && setting.key == action.key())?;
+            match setting.get(config) {
+                Value::Word(name) => button(&name),
+                _ => None,
+            }
+        }))
     }
 
-    fn find(&self, action: &str) -> Option<Button> {
-        self.0.iter().find(|(name, _)| *name == action).and_then(|(_, button)| *button)
+    fn find(&self, action: Action) -> Option<Button> {
+        self.0[action as usize]
     }
 }
 
@@ -153,18 +157,19 @@ const KEYS: [KeyCode; 92] = {
 };
 
 /// The state of all buttons, through the bindings.
-pub struct Hands<'a> {
+#[derive(SystemParam)]
+pub struct Hands<'w> {
     /// Which does what.
-    pub bindings: &'a Bindings,
+    pub bindings: Res<'w, Bindings>,
     /// The keyboard.
-    pub keys: &'a ButtonInput<KeyCode>,
+    pub keys: Res<'w, ButtonInput<KeyCode>>,
     /// The mouse.
-    pub mouse: &'a ButtonInput<MouseButton>,
+    pub mouse: Res<'w, ButtonInput<MouseButton>>,
 }
 
 impl Hands<'_> {
-    /// Whether the button for `action` (a key of `[controls]`) is held.
-    pub fn holds(&self, action: &str) -> bool {
+    /// Whether the button for `action` is held.
+    pub fn holds(&self, action: Action) -> bool {
         match self.bindings.find(action) {
             Some(Button::Key(key)) => self.keys.pressed(key),
             Some(Button::Mouse(button)) => self.mouse.pressed(button),
@@ -173,7 +178,7 @@ impl Hands<'_> {
     }
 
     /// Whether it went down in this frame.
-    pub fn pushed(&self, action: &str) -> bool {
+    pub fn pushed(&self, action: Action) -> bool {
         match self.bindings.find(action) {
             Some(Button::Key(key)) => self.keys.just_pressed(key),
             Some(Button::Mouse(button)) => self.mouse.just_pressed(button),
@@ -183,15 +188,19 @@ impl Hands<'_> {
 
     /// The stick, as the keys have it.
     pub fn stick(&self) -> Stick {
-        let axis = |plus: &str, minus: &str| f64::from(u8::from(self.holds(plus))) - f64::from(u8::from(self.holds(minus)));
-        let strength = if self.holds("boost") { 1.0 } else { CRUISE };
+        let axis = |plus: Action, minus: Action| f64::from(u8::from(self.holds(plus))) - f64::from(u8::from(self.holds(minus)));
+        let strength = if self.holds(Action::Boost) { 1.0 } else { CRUISE };
         Stick {
             thrust: DVec3::new(
-                axis("thrust_right", "thrust_left"),
-                axis("thrust_up", "thrust_down"),
-                axis("thrust_back", "thrust_forward"),
+                axis(Action::ThrustRight, Action::ThrustLeft),
+                axis(Action::ThrustUp, Action::ThrustDown),
+                axis(Action::ThrustBack, Action::ThrustForward),
             ) * strength,
-            turn: DVec3::new(axis("pitch_up", "pitch_down"), axis("yaw_left", "yaw_right"), axis("roll_left", "roll_right")),
+            turn: DVec3::new(
+                axis(Action::PitchUp, Action::PitchDown),
+                axis(Action::YawLeft, Action::YawRight),
+                axis(Action::RollLeft, Action::RollRight),
+            ),
         }
     }
 }
@@ -228,16 +237,28 @@ mod tests {
     use super::*;
     use crate::scene::config::is_key;
 
-    fn hands<'a>(bindings: &'a Bindings, keys: &'a ButtonInput<KeyCode>, mouse: &'a ButtonInput<MouseButton>) -> Hands<'a> {
-        Hands { bindings, keys, mouse }
+    /// What `ask` says of these keys and mouse buttons held down since this frame.
+    fn with<T: 'static>(
+        config: &GameConfig,
+        keys: &[KeyCode],
+        mouse: &[MouseButton],
+        ask: impl Fn(&Hands) -> T + Send + Sync + 'static,
+    ) -> T {
+        let mut world = World::new();
+        world.insert_resource(Bindings::of(config));
+        let (mut held, mut clicked) = (ButtonInput::default(), ButtonInput::default());
+        keys.iter().for_each(|&key| held.press(key));
+        mouse.iter().for_each(|&button| clicked.press(button));
+        world.insert_resource(held);
+        world.insert_resource(clicked);
+        world.run_system_cached_with(move |_: In<()>, hands: Hands| ask(&hands), ()).expect("all resources are there")
     }
 
     #[test]
     fn every_default_key_is_known() {
         let bindings = Bindings::of(&GameConfig::default());
-        assert!(bindings.0.len() >= 20);
-        for (action, button) in &bindings.0 {
-            assert!(button.is_some(), "{action}");
+        for action in Action::ALL {
+            assert!(bindings.find(action).is_some(), "{}", action.key());
         }
     }
 
@@ -254,27 +275,20 @@ mod tests {
 
     #[test]
     fn keys_move_the_stick_along_body_axes() {
-        let bindings = Bindings::of(&GameConfig::default());
-        let (mut keys, mouse) = (ButtonInput::default(), ButtonInput::default());
-        keys.press(KeyCode::KeyW);
-        keys.press(KeyCode::ArrowLeft);
-        let stick = hands(&bindings, &keys, &mouse).stick();
-        assert_eq!(stick.thrust, DVec3::new(0.0, 0.0, -CRUISE));
-        assert_eq!(stick.turn, DVec3::Y);
-        keys.press(KeyCode::ShiftLeft);
-        assert_eq!(hands(&bindings, &keys, &mouse).stick().thrust.z, -1.0);
-        keys.press(KeyCode::KeyS);
-        assert_eq!(hands(&bindings, &keys, &mouse).stick().thrust.z, 0.0);
+        let config = GameConfig::default();
+        let stick = |keys: &[KeyCode]| with(&config, keys, &[], Hands::stick);
+        let turned = stick(&[KeyCode::KeyW, KeyCode::ArrowLeft]);
+        assert_eq!(turned.thrust, DVec3::new(0.0, 0.0, -CRUISE));
+        assert_eq!(turned.turn, DVec3::Y);
+        assert_eq!(stick(&[KeyCode::KeyW, KeyCode::ShiftLeft]).thrust.z, -1.0);
+        assert_eq!(stick(&[KeyCode::KeyW, KeyCode::KeyS]).thrust.z, 0.0);
     }
 
     #[test]
     fn a_bound_mouse_button_thrusts() {
         let mut config = GameConfig::default();
         config.controls.thrust_forward = "MouseLeft".into();
-        let bindings = Bindings::of(&config);
-        let (keys, mut mouse) = (ButtonInput::default(), ButtonInput::default());
-        mouse.press(MouseButton::Left);
-        assert!(hands(&bindings, &keys, &mouse).pushed("thrust_forward"));
+        assert!(with(&config, &[], &[MouseButton::Left], |hands| hands.pushed(Action::ThrustForward)));
     }
 
     #[test]

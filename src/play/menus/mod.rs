@@ -3,24 +3,35 @@
 pub mod screens;
 
 use bevy::prelude::*;
-use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
-use crate::sim::{Chase, Outcome};
+use crate::sim::{Chase, Clock, Outcome};
 
 use crate::play::hud::instruments::Scale;
+use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{OWN, SEEN, SHADE, TRUE};
 use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::{MenuAction, Screen};
 use crate::play::player_state::{Flown, PlayerState};
+use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
 
 const PALE: Color32 = Color32::from_rgb(226, 234, 242);
 const FAINT: Color32 = Color32::from_rgb(150, 166, 182);
 const WARM: Color32 = Color32::from_rgb(255, 190, 110);
 
+/// The cards of the screens, and what a chase begins with. Needs [`HudPlugin`](crate::play::hud::HudPlugin).
+pub struct MenusPlugin;
+
+impl Plugin for MenusPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_systems(Update, welcome.in_set(GameSet::Window)).add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Menus));
+    }
+}
+
 /// Draws the menu of the screen.
-pub fn draw(
+fn draw(
     mut contexts: EguiContexts,
     screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
@@ -120,8 +131,36 @@ fn together(words: &str) -> String {
     words.replace(' ', "\u{a0}")
 }
 
+/// Says the goal when a chase begins, and on the first flight what to begin with: until the player has, or has had time to read it.
+fn welcome(
+    session: Res<Session>,
+    screen: Res<State<Screen>>,
+    clock: Res<Clock>,
+    real: Res<Time<Real>>,
+    mut player: ResMut<PlayerState>,
+    mut notice: ResMut<Notice>,
+) {
+    /// How long the goal is shown after the beginning, in r_s/c of T.
+    const SHOWN: f64 = 12.0;
+    /// How long the hint is shown, in seconds of wall time in play.
+    const HINTED: f64 = 30.0;
+    if *screen.get() != Screen::Playing {
+        return;
+    }
+    if !player.begun {
+        player.hinted += real.delta_secs_f64();
+        player.begun = player.hinted > HINTED;
+    }
+    let goal = (clock.time < SHOWN || !player.begun).then(|| goal(&session));
+    let hint = (!player.begun).then(|| hint(&session));
+    let words: Vec<String> = goal.into_iter().chain(hint).collect();
+    if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
+        *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
+    }
+}
+
 /// What the chase is about, in a sentence.
-pub fn goal(session: &Session) -> String {
+fn goal(session: &Session) -> String {
     let rules = session.scene.rules(&session.config);
     let scale = Scale::of(session.config.hole.mass_solar);
     let within = together(&format!("{} r_s", rules.capture_radius));
@@ -131,14 +170,14 @@ pub fn goal(session: &Session) -> String {
 }
 
 /// What r_s is, in a sentence.
-pub fn measure(session: &Session) -> String {
+fn measure(session: &Session) -> String {
     let scale = Scale::of(session.config.hole.mass_solar);
     let [radius, light] = [scale.kilometres(1.0), scale.span(1.0)].map(|words| together(&words));
     format!("r_s is the hole's radius, {radius}; light goes as far in r_s/c, {light}.")
 }
 
 /// What to begin with, for the first flight.
-pub fn hint(session: &Session) -> String {
+fn hint(session: &Session) -> String {
     let keys = &session.config.controls;
     let [thrust, look, pilot] = [&keys.thrust_forward, &keys.look_at_target, &keys.toggle_autopilot].map(|name| key(name));
     let [thrust, look, pilot] =
@@ -249,7 +288,7 @@ fn headline(outcome: Outcome) -> (&'static str, Color32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::play::window::INTERFACE;
+    use crate::play::window::interface::INTERFACE;
 
     #[test]
     fn the_result_says_when_the_autopilot_flew() {

@@ -6,17 +6,16 @@ use std::time::{Duration, SystemTime};
 
 use bevy::prelude::*;
 
-use crate::render::plugin::SharedRenderer;
-use crate::render::stage::Stage;
 use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::ship::Ai;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
-use crate::play::hud::panel::Staged;
 use crate::play::input::Bindings;
-use crate::play::player_state::{GameSet, PlayerState};
+use crate::play::picture::{self, Staged};
+use crate::play::player_state::PlayerState;
+use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 
 /// Time between two looks at the file.
@@ -27,7 +26,7 @@ pub struct LivePlugin;
 
 impl Plugin for LivePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Notice>().add_systems(Update, (reload, apply).chain().before(GameSet::Keys));
+        app.init_resource::<Notice>().add_systems(Update, (reload, apply).chain().in_set(GameSet::Configure));
     }
 }
 
@@ -80,7 +79,7 @@ fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> Game
 }
 
 /// Whether the models and the disk of the scene are to be made again.
-fn restage(before: &GameConfig, now: &GameConfig) -> bool {
+fn changes_models(before: &GameConfig, now: &GameConfig) -> bool {
     if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
         return true;
     }
@@ -112,15 +111,12 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     {
         player.assist = None;
     }
-    if before.as_ref().is_some_and(|before| restage(before, config))
-        && let Some(renderer) = world.get_resource::<SharedRenderer>().cloned()
-    {
-        let stage = Stage::new(&mut renderer.lock(), &session.scene, config).watched();
-        world.insert_resource(Staged(stage));
-    } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora)
-        && let Some(staged) = world.get_resource::<Staged>()
-    {
-        staged.0.change_aurora(&config.aurora);
+    if let Some(staged) = world.get_resource::<Staged>() {
+        if before.as_ref().is_some_and(|before| changes_models(before, config)) {
+            picture::restage(world);
+        } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora) {
+            staged.0.change_aurora(&config.aurora);
+        }
     }
     *before = Some(session.config);
     debug_assert!(world.get_resource::<Clock>().is_some());

@@ -5,21 +5,20 @@ pub mod live;
 use std::collections::VecDeque;
 
 use bevy::prelude::*;
-use bevy_egui::EguiContexts;
 use bevy_egui::egui::{self, ComboBox, DragValue, RichText, Slider, TextEdit, Ui};
+use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
-use crate::render::disk::types::DiskCounters;
-use crate::render::gpu::types::Counters;
-use crate::render::plugin::SharedRenderer;
+use crate::render::plugin::RenderStatistics;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Allowed, Setting, Value};
 
 use crate::play::player_state::PlayerState;
+use crate::play::schedule::PaintSet;
 use crate::play::session::Session;
 
 /// Frames over which mean and worst are taken.
 const WINDOW: usize = 240;
-/// Wall time between two looks at the counters, in seconds: reading them waits for the GPU.
+/// Wall time between two looks at the counters, in seconds: faster, nobody could read them.
 const COUNTER_PERIOD: f64 = 0.5;
 
 /// Durations of the last frames, in milliseconds.
@@ -42,37 +41,41 @@ impl FrameTimes {
     }
 }
 
+/// The dev overlay, and changes of the configuration. Needs [`HudPlugin`](crate::play::hud::HudPlugin).
+pub struct OverlayPlugin;
+
+impl Plugin for OverlayPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins(live::LivePlugin).add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay));
+    }
+}
+
 /// Draws the overlay where it is on.
-#[allow(clippy::too_many_arguments)]
-pub fn draw(
+fn draw(
     mut contexts: EguiContexts,
     player: Res<PlayerState>,
     mut session: ResMut<Session>,
-    renderer: Option<Res<SharedRenderer>>,
+    mut statistics: ResMut<RenderStatistics>,
     real: Res<Time<Real>>,
     mut times: Local<FrameTimes>,
-    mut counted: Local<(f64, Option<Counters>, Option<DiskCounters>)>,
+    mut shown: Local<(f64, RenderStatistics)>,
 ) -> Result {
     times.push(real.delta_secs_f64() * 1e3);
+    statistics.counting = player.overlay;
     if !player.overlay {
         return Ok(());
     }
     let context = contexts.ctx_mut()?;
-    let mut passes = Vec::new();
-    if let Some(renderer) = &renderer {
-        let mut renderer = renderer.lock();
-        passes = renderer.timing().latest().to_vec();
-        if real.elapsed_secs_f64() >= counted.0 {
-            let disk = renderer.disk_counters().ok().flatten().filter(|counters| counters.arcs > 0);
-            *counted = (real.elapsed_secs_f64() + COUNTER_PERIOD, renderer.counters().ok(), disk);
-        }
+    if real.elapsed_secs_f64() >= shown.0 {
+        *shown = (real.elapsed_secs_f64() + COUNTER_PERIOD, statistics.clone());
     }
-    let (_, counters, disk) = *counted;
+    let RenderStatistics { counters, disk, .. } = shown.1;
+    let disk = disk.filter(|counters| counters.arcs > 0);
     let mut config = session.config.clone();
     egui::Window::new("Lensrunner").default_pos([16.0, 180.0]).default_width(430.0).default_height(480.0).vscroll(true).show(
         context,
         |ui| {
-            costs(ui, &times, &passes);
+            costs(ui, &times, &statistics.passes);
             counts(ui, counters.map(|c| (c.complaint(), c.to_string())));
             if let Some(disk) = disk {
                 counts(ui, Some((disk.complaint(), disk.to_string())));

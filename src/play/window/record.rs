@@ -9,7 +9,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use crate::play::demonstration::write_png;
 use crate::play::hud::notice::Notice;
-use crate::play::hud::panel::loaded;
+use crate::play::picture::Staged;
 
 /// Writes frames, and closes the window after so many.
 pub struct RecordPlugin {
@@ -42,7 +42,7 @@ impl Plugin for RecordPlugin {
         app.insert_resource(Recording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
             .insert_resource(News { sender, receiver: Mutex::new(receiver) })
             .add_systems(Update, tell)
-            .add_systems(Last, record.run_if(loaded));
+            .add_systems(Last, record.run_if(resource_exists::<Staged>));
     }
 }
 

@@ -18,11 +18,11 @@ pub mod shift;
 pub mod sight;
 pub mod veil;
 
+pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD, planet_history};
 pub use colours::Colours;
 pub use levels::PYRAMID;
 pub use pass::Aurora;
 pub use shift::SHIFTS;
-pub use show::{AuroraAnimation, AuroraFrame, RAYS_PERIOD, planet_history};
 
 use bytemuck::{Pod, Zeroable};
 

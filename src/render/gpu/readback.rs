@@ -96,6 +96,63 @@ fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
     Ok(bytes)
 }
 
+/// Brings a small buffer back some frames late and never makes the processor wait: the copy is recorded with a frame, mapped once that frame has been
+/// submitted, and read when the device is done with it.
+#[derive(Debug, Default)]
+pub struct DeferredCopy {
+    copy: Option<wgpu::Buffer>,
+    /// A copy has been recorded and not been mapped.
+    recorded: bool,
+    /// Tells when the mapping that is on its way is done, and whether it went well.
+    waiting: Option<std::sync::mpsc::Receiver<bool>>,
+    latest: Option<Vec<u8>>,
+}
+
+impl DeferredCopy {
+    /// A new frame begins: all that was recorded has been submitted.
+    pub fn begin(&mut self) {
+        let Some(copy) = self.copy.as_ref().filter(|_| self.recorded) else { return };
+        let (send, receive) = std::sync::mpsc::channel();
+        copy.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+            // Nobody waits any more if the renderer is gone.
+            let _ = send.send(result.is_ok());
+        });
+        (self.recorded, self.waiting) = (false, Some(receive));
+    }
+
+    /// Records a copy of `source` at the end of a frame, unless an earlier one is still on its way.
+    pub fn record(&mut self, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, source: &wgpu::Buffer) {
+        if self.recorded || self.waiting.is_some() {
+            return;
+        }
+        if self.copy.as_ref().is_none_or(|copy| copy.size() != source.size()) {
+            self.copy = Some(device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("deferred copy"),
+                size: source.size(),
+                usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                mapped_at_creation: false,
+            }));
+        }
+        if let Some(copy) = &self.copy {
+            encoder.copy_buffer_to_buffer(source, 0, copy, 0, source.size());
+            self.recorded = true;
+        }
+    }
+
+    /// What came back last; None before anything has.
+    pub fn latest(&mut self) -> Option<&[u8]> {
+        let arrived = self.waiting.as_ref().and_then(|waiting| waiting.try_recv().ok());
+        if let (Some(went_well), Some(copy)) = (arrived, &self.copy) {
+            self.waiting = None;
+            if went_well {
+                self.latest = Some(copy.slice(..).get_mapped_range().to_vec());
+                copy.unmap();
+            }
+        }
+        self.latest.as_deref()
+    }
+}
+
 /// A picture on the processor.
 #[derive(Clone, Debug)]
 pub struct Picture {

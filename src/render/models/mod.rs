@@ -150,14 +150,65 @@ impl Ord for Total {
     }
 }
 
-/// The shared buffers of all models.
-#[derive(Debug)]
-pub struct Models {
+/// Models made ready for the GPU, in shared arrays: data of the processor alone, so that it can be made where there is no device.
+#[derive(Clone, Debug, Default)]
+pub struct ModelSet {
     vertices: Vec<ModelVertex>,
     edges: Vec<[u32; 4]>,
     triangles: Vec<ModelTriangle>,
     materials: Vec<Material>,
     images: Vec<Arc<Image>>,
+}
+
+impl ModelSet {
+    /// Adds a model and says where it lies.
+    pub fn add(&mut self, model: &Model) -> ModelRange {
+        let prepared = Prepared::new(model);
+        let range = ModelRange {
+            vertices: [self.vertices.len() as u32, prepared.vertices.len() as u32],
+            edges: [self.edges.len() as u32, prepared.edges.len() as u32],
+            triangles: [self.triangles.len() as u32, prepared.triangles.len() as u32],
+            material: self.materials.len() as u32,
+        };
+        self.vertices.extend(prepared.vertices);
+        self.edges.extend(prepared.edges);
+        self.triangles.extend(prepared.triangles);
+        for material in &model.materials {
+            let layer = material.texture.as_ref().and_then(|image| self.layer(image));
+            let [r, g, b] = material.emissive;
+            self.materials.push(Material {
+                base: material.base_colour,
+                emissive: [r, g, b, material.roughness],
+                surface: [
+                    material.metallic,
+                    layer.map_or(-1.0, |layer| layer as f32),
+                    material.temperature,
+                    f32::from(u8::from(material.drive)),
+                ],
+            });
+        }
+        range
+    }
+
+    /// The layer of the texture array for an image. None when the array is full: the surface is then plain.
+    fn layer(&mut self, image: &Arc<Image>) -> Option<usize> {
+        if let Some(known) = self.images.iter().position(|other| Arc::ptr_eq(other, image)) {
+            return Some(known);
+        }
+        if self.images.len() >= TEXTURE_LAYERS as usize {
+            bevy::log::warn!("a scene can have {TEXTURE_LAYERS} different images; one more is left out");
+            return None;
+        }
+        self.images.push(image.clone());
+        Some(self.images.len() - 1)
+    }
+}
+
+/// The buffers and the texture array of all models.
+#[derive(Debug)]
+pub struct Models {
+    /// What they hold.
+    set: ModelSet,
     /// All vertices.
     pub vertex_buffer: Growing,
     /// All edges.
@@ -185,11 +236,7 @@ impl Models {
             view_formats: &[],
         });
         Models {
-            vertices: Vec::new(),
-            edges: Vec::new(),
-            triangles: Vec::new(),
-            materials: Vec::new(),
-            images: Vec::new(),
+            set: ModelSet::default(),
             vertex_buffer: Growing::new(device, "model vertices", storage),
             edge_buffer: Growing::new(device, "model edges", storage),
             triangle_buffer: Growing::new(device, "model triangles", storage),
@@ -198,60 +245,32 @@ impl Models {
         }
     }
 
-    /// Forgets every model, for a new scene.
-    pub fn clear(&mut self) {
-        self.vertices.clear();
-        self.edges.clear();
-        self.triangles.clear();
-        self.materials.clear();
-        self.images.clear();
+    /// Uploads these models instead of all others. Buffers may be replaced: bind groups must be made after this.
+    pub fn upload(&mut self, gpu: &Gpu, set: ModelSet) {
+        for (layer, image) in (0u32..).zip(&set.images) {
+            let uploaded = self.set.images.get(layer as usize).is_some_and(|other| Arc::ptr_eq(other, image));
+            if !uploaded {
+                self.write_image(gpu, image, layer);
+            }
+        }
+        self.vertex_buffer.write(gpu, &set.vertices);
+        self.edge_buffer.write(gpu, &set.edges);
+        self.triangle_buffer.write(gpu, &set.triangles);
+        self.material_buffer.write(gpu, &set.materials);
+        self.set = set;
     }
 
-    /// Adds a model and says where it lies. Buffers may be replaced: bind groups must be made after the last model.
+    /// Adds a model and says where it lies; as [`upload`](Models::upload).
     pub fn add(&mut self, gpu: &Gpu, model: &Model) -> ModelRange {
-        let prepared = Prepared::new(model);
-        let range = ModelRange {
-            vertices: [self.vertices.len() as u32, prepared.vertices.len() as u32],
-            edges: [self.edges.len() as u32, prepared.edges.len() as u32],
-            triangles: [self.triangles.len() as u32, prepared.triangles.len() as u32],
-            material: self.materials.len() as u32,
-        };
-        self.vertices.extend(prepared.vertices);
-        self.edges.extend(prepared.edges);
-        self.triangles.extend(prepared.triangles);
-        for material in &model.materials {
-            let layer = material.texture.as_ref().and_then(|image| self.layer(gpu, image));
-            let [r, g, b] = material.emissive;
-            self.materials.push(Material {
-                base: material.base_colour,
-                emissive: [r, g, b, material.roughness],
-                surface: [
-                    material.metallic,
-                    layer.map_or(-1.0, |layer| layer as f32),
-                    material.temperature,
-                    f32::from(u8::from(material.drive)),
-                ],
-            });
-        }
-        self.vertex_buffer.write(gpu, &self.vertices);
-        self.edge_buffer.write(gpu, &self.edges);
-        self.triangle_buffer.write(gpu, &self.triangles);
-        self.material_buffer.write(gpu, &self.materials);
+        let mut set = self.set.clone();
+        let range = set.add(model);
+        self.upload(gpu, set);
         range
     }
 
-    /// The layer of an image, uploaded with its mip chain the first time. None when the array is full: the surface is then plain.
-    fn layer(&mut self, gpu: &Gpu, image: &Arc<Image>) -> Option<u32> {
-        if let Some(known) = self.images.iter().position(|other| Arc::ptr_eq(other, image)) {
-            return Some(known as u32);
-        }
-        let layer = self.images.len() as u32;
-        if layer >= TEXTURE_LAYERS {
-            bevy::log::warn!("a scene can have {TEXTURE_LAYERS} different images; one more is left out");
-            return None;
-        }
-        self.images.push(image.clone());
-        let mut level = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone())?;
+    /// Writes an image with its mip chain into a layer of the texture array.
+    fn write_image(&self, gpu: &Gpu, image: &Image, layer: u32) {
+        let Some(mut level) = image::RgbaImage::from_raw(image.width, image.height, image.rgba.clone()) else { return };
         for mip in 0..=TEXTURE_SIZE.ilog2() {
             let size = TEXTURE_SIZE >> mip;
             if level.width() != size || level.height() != size {
@@ -269,6 +288,5 @@ impl Models {
                 wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
             );
         }
-        Some(layer)
     }
 }

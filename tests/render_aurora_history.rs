@@ -1,7 +1,7 @@
 //! The aurora's history on the GPU: a ring of rows of which a step writes one, and the place between nodes in both languages.
 
 use glam::DVec2;
-use lensrunner::render::aurora::rows::{ROW, ROWS, Rows};
+use lensrunner::render::aurora::node_history::{NodeHistory, ROW, ROWS};
 use lensrunner::render::aurora::{AuroraSettings, Segment};
 use lensrunner::render::gpu::layout;
 use lensrunner::render::gpu::shaders::Pass;
@@ -29,7 +29,7 @@ fn nodes(row: u32) -> impl Iterator<Item = Node> {
 
 #[test]
 fn a_step_writes_one_row() {
-    let mut rows = Rows::still(nodes(0));
+    let mut rows = NodeHistory::still(nodes(0));
     for step in 1..=300 {
         let before = rows.clone();
         rows.push(nodes(step));
@@ -38,7 +38,7 @@ fn a_step_writes_one_row() {
         // What was the newest is the one before it now, and so on, back to where there was nothing.
         assert!((1..ROWS).all(|k| rows.ago(k) == before.ago(k - 1)));
     }
-    assert_eq!(rows.changed(&Rows::default()).count(), ROWS);
+    assert_eq!(rows.changed(&NodeHistory::default()).count(), ROWS);
     // A watched aurora: a frame makes two rows at most.
     let mut renderer = renderer_under(&default_surroundings(), [96, 54]);
     let (scene, config) = (scene::load("aurora-orbit").unwrap(), GameConfig::default());
@@ -47,14 +47,14 @@ fn a_step_writes_one_row() {
         let frame = stage.frame(stage.camera(time, &[]), [96, 54], time, &[], None, &settings(&config));
         frame.aurora.unwrap().rows
     };
-    let frames: Vec<Rows> = (0..12).map(|k| history(0.05 * f64::from(k))).collect();
+    let frames: Vec<NodeHistory> = (0..12).map(|k| history(0.05 * f64::from(k))).collect();
     assert!(frames.windows(2).all(|pair| pair[1].changed(&pair[0]).count() <= 2));
     assert!(frames[11].changed(&frames[0]).count() >= 2);
 }
 
 #[test]
 fn the_ring_of_rows_is_read_the_same_in_both_languages() {
-    let mut rows = Rows::still(nodes(0));
+    let mut rows = NodeHistory::still(nodes(0));
     let uniform_buffer = layout::buffer(&GPU.device, "aurora", size_of::<AuroraSettings>() as u64, wgpu::BufferUsages::UNIFORM);
     for pushed in [0, 1, 50, 130] {
         (0..pushed).for_each(|step| rows.push(nodes(1000 * pushed + step)));

@@ -1,0 +1,137 @@
+//! The picture of the chase: the scene on the renderer, the camera of each frame, and the frame itself.
+
+pub mod now;
+pub mod sight;
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+use bevy::window::PrimaryWindow;
+
+use crate::play::camera::{View, state_of};
+use crate::play::menus::screens::Screen;
+use crate::play::player_state::PlayerState;
+use crate::play::schedule::GameSet;
+use crate::play::session::Session;
+use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
+use crate::render::settings::Settings;
+use crate::render::stage::{Stage, settings};
+use now::Now;
+use sight::{Shot, Sight, is_cut};
+
+/// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin) and
+/// [`GamePlugin`](crate::play::game::GamePlugin).
+pub struct PicturePlugin;
+
+impl Plugin for PicturePlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<CurrentShot>()
+            .add_systems(Update, load_scene.run_if(not(resource_exists::<Staged>)).before(GameSet::Picture))
+            .add_systems(Update, (point_camera, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<Staged>));
+    }
+}
+
+/// The scene, ready for frames.
+#[derive(Resource, Debug)]
+pub struct Staged(pub Stage);
+
+/// The camera of this frame; None as long as there is nothing to show: no chase has begun, or the window has no area, as a minimised one.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+pub struct CurrentShot(pub Option<Shot>);
+
+/// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.
+const BEFORE: u32 = 4;
+
+fn load_scene(world: &mut World, mut frames: Local<u32>) {
+    *frames += 1;
+    if *frames > BEFORE {
+        restage(world);
+    }
+}
+
+/// Makes models and disk of the session's scene anew.
+pub fn restage(world: &mut World) {
+    let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
+    let (scene, config) = (&session.scene, &session.config);
+    let (stage, upload) = Stage::prepare(&table.0, scene, scene.assemble(config), config, None);
+    world.insert_resource(Staged(stage.watched()));
+    world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
+    // A frame of the scene before names models that are no longer there.
+    world.insert_resource(FrameToDraw(None));
+}
+
+/// How fast the title's camera goes round, in rad a second.
+const TITLE_TURN: f64 = 0.02;
+
+/// Chooses the camera: on the player's ship as it turns and looks, or where the screen wants it.
+fn point_camera(
+    now: Now,
+    real: Res<Time<Real>>,
+    screen: Res<State<Screen>>,
+    windows: Query<&Window, With<PrimaryWindow>>,
+    mut player: ResMut<PlayerState>,
+    mut shot: ResMut<CurrentShot>,
+) {
+    shot.0 = None;
+    let Some((history, ..)) = now.own() else { return };
+    if area(&windows).is_none() {
+        return;
+    }
+    let video = &now.session.config.video;
+    let (time, seconds, field_of_view) = (now.time(), real.delta_secs_f64(), video.fov.to_radians());
+    let me = now.session.player();
+    let state = state_of(&history.at(time));
+    let sight = sight(&now, *screen.get());
+    // All of the player's state goes on, whatever is shown.
+    let rigid = player.view == View::Cockpit || video.reduced_motion;
+    let attitude = player.follower.follow(state.attitude, seconds, rigid);
+    let sought = now.target().filter(|_| player.looking && sight == Sight::Own);
+    let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.length(me), attitude, time, target));
+    let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
+    shot.0 = Some(match (sight, now.target()) {
+        (Sight::Own, _) => Shot::own(me, &state, player.view, attitude, now.length(me), field_of_view),
+        (Sight::Caught, Some((caught, history))) => {
+            Shot::caught((caught, history, now.length(caught)), state.position, time, field_of_view)
+        }
+        _ => {
+            let turn = if video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
+            Shot::afar(state.position, turn, field_of_view)
+        }
+    });
+}
+
+/// Makes the frame to draw.
+fn make_frame(
+    now: Now,
+    (staged, shot, statistics): (Res<Staged>, Res<CurrentShot>, Res<RenderStatistics>),
+    real: Res<Time<Real>>,
+    screen: Res<State<Screen>>,
+    windows: Query<&Window, With<PrimaryWindow>>,
+    mut frame: ResMut<FrameToDraw>,
+    mut last: Local<Option<(Sight, f64)>>,
+) {
+    let (Some(size), Some(shot)) = (area(&windows), shot.0) else { return };
+    let config = &now.session.config;
+    // Times of an earlier frame will do.
+    staged.0.ration_aurora(&statistics.passes);
+    let mut settings = settings(config);
+    if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
+        // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship should be.
+        settings.fill = Settings::default().fill;
+    } else {
+        settings.adaptation = (1.0 - (-config.render.exposure_speed * real.delta_secs_f64()).exp2()) as f32;
+    }
+    settings.own_ship = shot.lit;
+    settings.engines = Some([config.ship.thrust, config.enemy.thrust]);
+    frame.0 = Some(staged.0.frame(shot.camera, size, now.time(), &now.histories(), shot.hidden, &settings));
+}
+
+/// What the screen shows of the chase.
+fn sight(now: &Now, screen: Screen) -> Sight {
+    Sight::of(screen, now.chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome))
+}
+
+/// Width and height of the window in pixels, if it has an area: a minimised one has none.
+fn area(windows: &Query<&Window, With<PrimaryWindow>>) -> Option<[u32; 2]> {
+    windows.iter().map(|window| window.physical_size().to_array()).find(|size| size[0] > 0 && size[1] > 0)
+}
