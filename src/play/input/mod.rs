@@ -276,7 +276,7 @@ mod tests {
     #[test]
     fn keys_move_the_stick_along_body_axes() {
         let config = GameConfig::default();
-        let stick = |keys: &[KeyCode]| with(&config, keys, &[], Hands::stick);
+        let stick = |keys: &[KeyCode]| with(&config, keys, &[], |hands| hands.stick());
         let turned = stick(&[KeyCode::KeyW, KeyCode::ArrowLeft]);
         assert_eq!(turned.thrust, DVec3::new(0.0, 0.0, -CRUISE));
         assert_eq!(turned.turn, DVec3::Y);
