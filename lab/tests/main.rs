@@ -31,7 +31,7 @@ mod verdicts;
 #[path = "../../tests/gpu.rs"]
 mod gpu;
 #[allow(dead_code, reason = "the tests of the game use the rest")]
-#[path = "../../tests/render_support.rs"]
+#[path = "../../tests/render/support.rs"]
 mod render_support;
 #[allow(dead_code, reason = "the tests of the game use the rest")]
 #[path = "../../tests/support.rs"]

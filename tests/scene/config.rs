@@ -4,7 +4,7 @@ use std::path::Path;
 
 use lensrunner::scene::config::{Allowed, GameConfig, Value, load, parse, setting, settings, template};
 
-const COMMITTED: &str = include_str!("../game.toml");
+const COMMITTED: &str = include_str!("../../game.toml");
 
 #[test]
 fn the_committed_file_says_every_value_with_its_unit_and_range() {

@@ -203,7 +203,7 @@ fn a_camera_without_momentum_is_at_rest() {
 /// Every example of docs/scenes.md is a scene.
 #[test]
 fn the_documented_examples_are_scenes() {
-    let text = include_str!("../docs/scenes.md");
+    let text = include_str!("../../docs/scenes.md");
     let examples: Vec<&str> = text.split("```toml").skip(1).filter_map(|rest| rest.split("```").next()).collect();
     assert!(examples.len() >= 5);
     for example in examples {

@@ -6,7 +6,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{self, GameConfig, Model, Scene};
 
-use crate::render_support::{default_surroundings, renderer_under};
+use crate::render::support::{default_surroundings, renderer_under};
 use crate::support::Folder;
 
 const SIZE: [u32; 2] = [240, 240];

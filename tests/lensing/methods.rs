@@ -7,7 +7,7 @@ use lensrunner::lensing::{LensRay, Scheme, Slice, Table, closed, lookup, score, 
 use lensrunner::spacetime::light::{self, Branch, Order};
 use rand::SeedableRng;
 
-use crate::lensing_stability::{QUARTER_PIXEL, angle, finite, seen};
+use crate::lensing::stability::{QUARTER_PIXEL, angle, finite, seen};
 use crate::support::table;
 
 /// A method of the shader: its name and its answer for a place in an order.

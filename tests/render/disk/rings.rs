@@ -14,8 +14,8 @@ use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::PATTERN_HEIGHT;
 use lensrunner::spacetime::light::Order;
 
-use crate::render_disk::exact;
-use crate::render_support::{a_disk, camera, default_surroundings, renderer, settings};
+use crate::render::disk::arcs::exact;
+use crate::render::support::{a_disk, camera, default_surroundings, renderer, settings};
 use crate::twin::run;
 
 /// The azimuths at which bends are told are the same in both languages, the first of them and the last too.

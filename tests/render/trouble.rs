@@ -12,7 +12,7 @@ use lensrunner::scene::{Material, shapes};
 use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light;
 
-use crate::render_lookup::{Bench, bench};
+use crate::render::lookup::{Bench, bench};
 
 fn camera() -> Observer {
     static_camera(DVec3::new(0.0, 0.0, 15.0), DVec3::NEG_Z, DVec3::Y, 60f64.to_radians())

@@ -9,7 +9,7 @@ use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::{self, GameConfig, Scene};
 
 use crate::gpu::GPU;
-use crate::render_support::{aurora_alone, default_surroundings, renderer_under, total};
+use crate::render::support::{aurora_alone, default_surroundings, renderer_under, total};
 
 /// Greens of a picture that stand out from red and blue.
 fn green(picture: &readback::Picture) -> f32 {

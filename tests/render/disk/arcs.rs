@@ -16,7 +16,7 @@ use lensrunner::scene::disk::{Gas, shares, slant};
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::gpu::GPU;
-use crate::render_support::{a_disk, camera, renderer, settings};
+use crate::render::support::{a_disk, camera, renderer, settings};
 use crate::twin::run;
 
 /// Seen vertices of the grid, with their circle, azimuth and order; and the indices of all triangles.

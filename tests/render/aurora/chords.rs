@@ -22,7 +22,7 @@ use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::gamma;
 
 use crate::gpu::GPU;
-use crate::render_pictures::exact;
+use crate::render::pictures::exact;
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Chords that are short enough for every bend.

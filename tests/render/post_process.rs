@@ -10,7 +10,7 @@ use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
 
 use crate::gpu::GPU;
-use crate::render_support::surroundings;
+use crate::render::support::surroundings;
 
 /// A scene at T = 0, with its layers.
 fn picture(name: &str, size: [u32; 2], settings: &Settings) -> Picture {

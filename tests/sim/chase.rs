@@ -15,7 +15,7 @@ use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipM
 use lensrunner::spacetime::matter::{ShipState, energy, step};
 use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 
-use crate::sim_simulate::run;
+use crate::sim::simulate::run;
 
 /// Hunter and quarry 7 r_s apart, given by plain numbers: every operation from here on is + − × ÷ √, so the hash holds on any machine.
 const CHASE: &str = r#"

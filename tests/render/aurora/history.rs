@@ -12,7 +12,7 @@ use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::{self, GameConfig};
 
 use crate::gpu::GPU;
-use crate::render_support::{default_surroundings, renderer_under};
+use crate::render::support::{default_surroundings, renderer_under};
 use crate::twin::{run, run_with};
 
 /// Nodes of a row of the tests.

@@ -6,7 +6,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render_support::{aurora_alone, default_surroundings, renderer_under};
+use crate::render::support::{aurora_alone, default_surroundings, renderer_under};
 
 /// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells frames apart: times
 /// waver by a thousandth.

@@ -10,7 +10,7 @@ use lensrunner::spacetime::light::Order;
 use proptest::prelude::*;
 use rand::SeedableRng;
 
-use crate::lensing_integrator as judge;
+use crate::lensing::integrator as judge;
 use crate::support::table;
 
 /// The angle in radians between the looked-up and the true direction, and the error of the delay over its allowance.

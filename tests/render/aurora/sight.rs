@@ -12,7 +12,7 @@ use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
-use crate::render_support::surroundings;
+use crate::render::support::surroundings;
 
 const SIZE: [u32; 2] = [160, 90];
 

@@ -13,7 +13,7 @@ use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light::{self, Branch, Order};
 
 use crate::gpu::GPU;
-use crate::render_support::{renderer, settings};
+use crate::render::support::{renderer, settings};
 
 /// A scene's picture with its layers.
 fn picture(name: &str, size: [u32; 2]) -> (Picture, Observer) {
@@ -226,7 +226,7 @@ fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
 #[test]
 fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     let size = [160, 90];
-    let mut renderer = crate::render_support::renderer_under(&lensrunner::render::shot::surroundings(), size);
+    let mut renderer = crate::render::support::renderer_under(&lensrunner::render::shot::surroundings(), size);
     let config = GameConfig::default();
     let disk = || lensrunner::render::disk::Disk::new(config.disk.clone(), &config);
     let mut light = |ahead: DVec3, with: bool| {

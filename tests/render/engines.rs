@@ -7,7 +7,7 @@ use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::{Command, History};
 use lensrunner::spacetime::matter::step;
 
-use crate::render_support::renderer;
+use crate::render::support::renderer;
 
 /// The player's ship from behind, after T = 2 under a share of full thrust until `until`: its light in all, and whether nozzles follow the engines.
 fn light(share: f64, until: f64, follows: bool) -> f64 {

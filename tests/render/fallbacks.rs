@@ -24,7 +24,7 @@ fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> 
 fn without_optional_features_the_picture_is_the_same() {
     let plain = Gpu::headless_with(wgpu::Features::empty()).unwrap();
     let size = [256, 144];
-    let surroundings = crate::render_support::surroundings();
+    let surroundings = crate::render::support::surroundings();
     for (name, allowed, light_allowed) in [("aurora-orbit", 0.02, 0.015), ("aurora-below", 0.02, 0.015), ("disk-80", 1e-3, 1e-3)] {
         let [got, want] = [&plain, &GPU].map(|gpu| drawn(gpu, &surroundings, name, size));
         assert!(plain.watch.complaint().is_none(), "{name}: {:?}", plain.watch.complaint());

@@ -13,7 +13,7 @@ use lensrunner::spacetime::matter::{ShipState, gamma, step};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
-use crate::render_lookup::bench;
+use crate::render::lookup::bench;
 use crate::twin::run;
 
 const REACH: f64 = 0.125;

@@ -16,8 +16,8 @@ use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, velocity};
 
 use crate::gpu::GPU;
-use crate::render_pictures::exact;
-use crate::render_support::renderer;
+use crate::render::pictures::exact;
+use crate::render::support::renderer;
 use crate::twin::run_with;
 
 /// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets there.

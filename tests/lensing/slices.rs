@@ -108,8 +108,8 @@ fn the_shader_is_valid() {
          const SEES_INSIDE: bool = true;\n\
          fn lens_texel(index: u32) -> vec4<f32> {{ return slice[index]; }}\n\
          @compute @workgroup_size(1) fn main() {{ let ray = lens_lookup(1.0, 2.0, 1u); out[0] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.slope); }}",
-        include_str!("../shaders/functions/lensing.wgsl"),
-        include_str!("../shaders/functions/residuals.wgsl")
+        include_str!("../../shaders/functions/lensing.wgsl"),
+        include_str!("../../shaders/functions/residuals.wgsl")
     );
     let module = naga::front::wgsl::parse_str(&source).unwrap_or_else(|wrong| panic!("{}", wrong.emit_to_string(&source)));
     naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::empty()).validate(&module).expect("valid");
@@ -119,18 +119,18 @@ fn the_shader_is_valid() {
 #[test]
 fn the_shader_has_every_function_of_its_twin() {
     macro_rules! shaders {
-        ($($name:literal),*) => { concat!($(include_str!(concat!("../shaders/functions/", $name, ".wgsl"))),*) };
+        ($($name:literal),*) => { concat!($(include_str!(concat!("../../shaders/functions/", $name, ".wgsl"))),*) };
     }
     let lensing = shaders!("lensing", "residuals");
     let others = shaders!("orbit", "shooting", "exact", "integrate", "refine", "closed", "static_ray");
     for (twin, shader) in [
-        (include_str!("../src/lensing/elementary.rs"), lensing),
-        (include_str!("../src/lensing/formulas.rs"), lensing),
-        (include_str!("../src/lensing/inside.rs"), lensing),
-        (include_str!("../src/lensing/lookup.rs"), lensing),
-        (include_str!("../src/lensing/orbit.rs"), others),
-        (include_str!("../src/lensing/shooting.rs"), others),
-        (include_str!("../src/lensing/closed.rs"), others),
+        (include_str!("../../src/lensing/elementary.rs"), lensing),
+        (include_str!("../../src/lensing/formulas.rs"), lensing),
+        (include_str!("../../src/lensing/inside.rs"), lensing),
+        (include_str!("../../src/lensing/lookup.rs"), lensing),
+        (include_str!("../../src/lensing/orbit.rs"), others),
+        (include_str!("../../src/lensing/shooting.rs"), others),
+        (include_str!("../../src/lensing/closed.rs"), others),
     ] {
         // The shader has one `fire` and one `tilt`, of the method's own; `residuals` in other formats too.
         let own = |name: &str| {

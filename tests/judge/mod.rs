@@ -1,0 +1,7 @@
+//! Tests of `src/judge/`.
+
+mod oracles;
+mod outwards;
+mod picture;
+mod trace;
+mod world;

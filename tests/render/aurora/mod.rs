@@ -1,0 +1,7 @@
+//! Tests of `src/render/aurora/`.
+
+mod chords;
+mod ground;
+mod history;
+mod pictures;
+mod sight;

@@ -1,0 +1,4 @@
+//! Tests of `src/render/disk/`.
+
+mod arcs;
+mod rings;

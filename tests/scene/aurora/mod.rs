@@ -1,0 +1,7 @@
+//! Tests of `src/scene/aurora/`.
+
+mod curtains;
+mod ground;
+mod heights;
+mod lines;
+mod nodes;

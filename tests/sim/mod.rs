@@ -1,0 +1,5 @@
+//! Tests of `src/sim/`.
+
+mod chase;
+mod history;
+mod simulate;

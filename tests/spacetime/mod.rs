@@ -1,0 +1,5 @@
+//! Tests of `src/spacetime/`.
+
+mod light;
+mod light_against_judge;
+mod matter;
