@@ -4,7 +4,7 @@
 //! u'' = (3/2)u² − u. One product makes each Taylor coefficient, and a step of order 16 covers about a radian: a ray takes a handful. Packets
 //! of four rays go side by side through the same instructions (crate `wide`), each with steps of its own; a packet lives as long as one of its rays does.
 //!
-//! The general judge ([`super::picture`]) integrates other equations with other steps; a test holds the two together.
+//! The general judge ([`lensrunner::judge::picture`]) integrates other equations with other steps; a test holds the two together.
 
 use glam::DVec3;
 use wide::f64x4;
