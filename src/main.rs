@@ -162,7 +162,7 @@ struct ProjectArgs {
 /// axis, at the horizon and the photon sphere; friendly ones are spread evenly. The game draws with tables/default.lut.
 #[derive(Args)]
 struct BakeArgs {
-    /// Size of the table, 5 to 128: nodes along each axis for paper 1's schemes, along Φ for the scheme residual (L and r take fewer).
+    /// Size of the table, 5 to 128: nodes along each axis for the schemes of Yamashita 2012, along Φ for the scheme residual (L and r take fewer).
     #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
     nodes: u8,
     /// What is stored.
@@ -180,9 +180,9 @@ struct BakeArgs {
 enum SchemeArg {
     /// Residuals against closed forms, as splines: the one the game draws with.
     Residual,
-    /// Paper 1, the meshes of its equations 3 to 7.
+    /// Yamashita 2012, the meshes of its equations 3 to 7.
     Paper,
-    /// Paper 1, uniform meshes.
+    /// Yamashita 2012, uniform meshes.
     PaperUniform,
 }
 

@@ -55,7 +55,7 @@ pub struct ChartProjectionArgs {
     methods: Vec<String>,
 }
 
-/// The experiment of paper 3: auroras by the particle method and by screen walks, time against error, from four views.
+/// The experiment of Sekiguchi et al.: auroras by the particle method and by screen walks, time against error, from four views.
 #[derive(Args)]
 pub struct ChartAuroraArgs {
     #[command(flatten)]
@@ -87,7 +87,7 @@ pub struct ChartTraceArgs {
     pixels: u32,
 }
 
-/// Tracers of straight rays on one thread: ours, paper 4's, the crates obvhs and bvh, and Embree in a build with the feature embree.
+/// Tracers of straight rays on one thread: ours, those of Sei 2008, the crates obvhs and bvh, and Embree in a build with the feature embree.
 #[derive(Args)]
 pub struct ChartBvhArgs {
     #[command(flatten)]

@@ -115,7 +115,7 @@ fn a_perfect_picture_passes_and_its_faults_are_measured() {
 
 #[test]
 fn dropped_triangles_are_holes() {
-    // Paper 1's remedy: triangles that the axis meets are left out.
+    // The remedy of Yamashita 2012: triangles that the axis meets are left out.
     let case = scene(&BALL.replace("4.0, 0.0, -12.0", "1.0, 0.0, -12.0"));
     let judge = trace(&case);
     let mut broken = Frame::of(&judge, &case);

@@ -117,7 +117,7 @@ fn the_flat_method_goes_straight() {
     }
 }
 
-/// Paper 1's fetch in the shader against that of the chart, which is written for the processor.
+/// The fetch of Yamashita 2012 in the shader against that of the chart, which is written for the processor.
 #[test]
 fn paper_ones_fetch_is_the_same_on_both() {
     use lensrunner::lensing::methods::{Paper, Projector, Query};

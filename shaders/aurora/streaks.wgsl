@@ -14,7 +14,7 @@ struct AuroraSettings {
     heights: vec4<f32>,
 };
 
-/// The paper's walk: linear on the screen.
+/// The walk of Sekiguchi et al.: linear on the screen.
 const AURORA_LINEAR: u32 = 1u;
 /// Every second streak comes down in the south.
 const AURORA_BOTH_POLES: u32 = 2u;

@@ -1,5 +1,5 @@
 // Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through parts of its light; between the
-// ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Paper 3 steps linearly on the
+// ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Sekiguchi et al. step linearly on the
 // screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
 /// Variance that a pixel itself has, and the least that a stroke may have: light must not depend on where in its pixel a point is.
@@ -219,7 +219,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         if (high.w * low.w == 0.0) | (a.apparent.w * b.apparent.w == 0.0) {
             continue;
         }
-        // Linear on the screen between top and foot, if paper 3's way is asked for.
+        // Linear on the screen between top and foot, if the way of Sekiguchi et al. is asked for.
         let t = (range.x - height - vec2<f32>(half_km, -half_km)) / (range.x - range.y);
         let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
         high = vec4<f32>(select(high.xy, screen.xy * -high.z, is_linear), high.zw);

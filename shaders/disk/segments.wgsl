@@ -1,4 +1,4 @@
-// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (paper 2, section 3) says into how
+// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (Yamashita 2025, section 3) says into how
 // many segments it is cut; both arcs that share the circle take the same points, so no gap opens. A halving divides δ by four, and n segments by n²: the paper
 // halves until δ is small enough, here it is the least n, for which triangles are fewer by a quarter.
 

@@ -1,4 +1,4 @@
-// Where the points of a ring are that turns round the hole in the plane z = 0 (paper 2, section 2.1): in place of geometry/swing.wgsl.
+// Where the points of a ring are that turns round the hole in the plane z = 0 (Yamashita 2025, section 2.1): in place of geometry/swing.wgsl.
 // Of its instance, `spin` is: x, y: radii of the rims of the disk that are this ring's, or −1; z: dφ/dT; w: azimuth at T₀ of what is at 0 in the model.
 
 /// Where the body point is, from the hole, `s` after T₀.

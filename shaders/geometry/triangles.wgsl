@@ -117,7 +117,7 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, slots: vec3<u32>, of
         && most < -(TURNED_AWAY + spread);
 }
 
-/// Paper 1: a triangle larger than this times its size without the hole is not drawn.
+/// Yamashita 2012: a triangle larger than this times its size without the hole is not drawn.
 const LARGEST_AREA_RATIO: f32 = 9.0;
 
 /// S/S′: the area of a triangle on the screen over the area that it has there without the hole. Where a corner is behind the camera, 0.

@@ -1,11 +1,11 @@
-// Methods "paper1-…": the tables of Yamashita (2012) as its author used them. ψ in the static frame, linear between nodes on the meshes of its
+// Methods "paper1-…": the tables of Yamashita 2012 as its author used them. ψ in the static frame, linear between nodes on the meshes of its
 // equations 3 to 7, one table for points nearer than the camera and one for those beyond; triangles are drawn as they are, and dropped where
 // the hole makes them more than nine times as large (its section 4.3). Outside the horizon and for two orders only.
 
 /// Triangles are filtered by area instead of being cut at the axis and subdivided.
 const METHOD_FILTERS: bool = true;
 
-/// Place on a mesh of n nodes, F[A, a, b] of the paper's section 4.2: node and fraction.
+/// Place on a mesh of n nodes, F[A, a, b] of section 4.2 there: node and fraction.
 fn paper_cell(mesh: vec4<f32>, x: f32, n: f32) -> vec2<f32> {
     let share = (x - mesh.y) / max(mesh.z - mesh.y, 1e-30);
     var z = share;

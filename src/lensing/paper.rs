@@ -1,4 +1,4 @@
-//! Paper 1's method, as its author had it: ψ in the static frame in four tables (inside and outside r = L, primary and
+//! The method of Yamashita 2012, as its author had it: ψ in the static frame in four tables (inside and outside r = L, primary and
 //! secondary), trilinear, on uniform meshes (its table 2) or on the meshes of its equations 3 to 7 (its table 3).
 //!
 //! Yamashita, "GPU-based real time computer graphics in a black hole space-time" (2012). The delay is stored beside ψ, which the

@@ -1,9 +1,9 @@
-//! What a table after paper 1 holds, and of which range.
+//! What a table after Yamashita 2012 holds, and of which range.
 
-/// ε of the paper's table 1: r starts at 1 + ε, L at 1 + 2ε (r_s).
+/// ε of table 1 of Yamashita 2012: r starts at 1 + ε, L at 1 + 2ε (r_s).
 const EPSILON: f64 = 0.005;
 
-/// r_max of the paper's table 1, in r_s; L ends at half of it.
+/// r_max of table 1 of Yamashita 2012, in r_s; L ends at half of it.
 const LARGEST_R: f64 = 1e4;
 
 /// The ranges of L, r and φ.

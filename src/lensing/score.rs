@@ -68,7 +68,7 @@ pub struct Spread {
 /// The errors of one order.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Score {
-    /// The angle between the directions, in degrees: in the rain frame, for paper 1's tables in the static frame as stored.
+    /// The angle between the directions, in degrees: in the rain frame, for the tables of Yamashita 2012 in the static frame as stored.
     pub angle: Spread,
     /// The error of the delay in r_s/c outside r = 1.05.
     pub delay: Spread,

@@ -21,9 +21,9 @@ const MOST_NODES: u32 = 4096;
 pub enum Scheme {
     /// Residuals against closed forms, as B-spline coefficients: the default.
     Residual,
-    /// Paper 1, the meshes of equations 3 to 7.
+    /// Yamashita 2012, the meshes of equations 3 to 7.
     Paper,
-    /// Paper 1, uniform meshes.
+    /// Yamashita 2012, uniform meshes.
     PaperUniform,
 }
 

@@ -193,7 +193,7 @@ config! {
     /// The aurora of a planet.
     aurora: AuroraConfig {
         enabled: bool = true, Switch, "", "the aurora is simulated and drawn";
-        walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in paper 3";
+        walk: String = "exact", Choice(&["exact", "linear"]), "", "between projected ends: exact, or linear on the screen as in Sekiguchi et al.";
         streaks: u32 = 24_000u32, integer(64, 200_000), "streaks", "most streaks drawn; fewer when the aurora is small on the screen";
         parts: u32 = 8u32, integer(4, 48), "parts", "parts in which the light along a streak is drawn";
         share: f64 = 0.33, number(0.02, 1.0), "", "most of a frame's time that it takes in the window: streaks become fewer and wider";

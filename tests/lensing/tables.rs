@@ -246,7 +246,7 @@ fn a_damaged_file_is_named_and_never_used() {
     assert_eq!(Table::load(&path, Scheme::PaperUniform).unwrap(), first);
 }
 
-/// The paper's equations 3 to 6 at both ends of the range of L and in the middle, worked out by hand.
+/// Equations 3 to 6 of Yamashita 2012 at both ends of the range of L and in the middle, worked out by hand.
 #[test]
 fn paper_ones_meshes_are_its_own() {
     let [low, high] = [lensrunner::lensing::paper_format::RANGES[0], lensrunner::lensing::paper_format::RANGES[1]];
@@ -263,7 +263,7 @@ fn paper_ones_meshes_are_its_own() {
     }
 }
 
-/// Paper 1's meshes do at small size what its table 3 says of 32³: a few degrees at worst over its own points, and the uniform
+/// The meshes of Yamashita 2012 do at small size what its table 3 says of 32³: a few degrees at worst over its own points, and the uniform
 /// meshes of its table 2 fail.
 #[test]
 fn paper_ones_meshes_beat_its_uniform_ones() {

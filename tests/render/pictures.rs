@@ -38,7 +38,7 @@ pub fn exact(camera: &Observer, point: DVec3, order: Order) -> Option<DVec3> {
     Some(camera.seen_direction(n * psi.cos() + side * psi.sin()))
 }
 
-/// Every vertex of `parade`, in both orders, within half a pixel of its exact place at 1280 × 720 (paper 1, figure 9).
+/// Every vertex of `parade`, in both orders, within half a pixel of its exact place at 1280 × 720 (Yamashita 2012, figure 9).
 #[test]
 fn vertices_of_the_parade_land_where_they_are_seen() {
     let size = [1280, 720];

@@ -1,4 +1,4 @@
-//! The chart `aurora`: time against the number of electrons (the paper's figure 5), and error against time, for each view.
+//! The chart `aurora`: time against the number of electrons (figure 5 of Sekiguchi et al.), and error against time, for each view.
 
 use crate::say::say;
 use std::path::PathBuf;

@@ -1,4 +1,4 @@
-//! The experiment of paper 3 (its figure 5): ten auroras, numbers of electrons and radii of splats swept, seen from the side, from below and
+//! The experiment of Sekiguchi et al. (figure 5): ten auroras, numbers of electrons and radii of splats swept, seen from the side, from below and
 //! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
 
 use std::hint::black_box;
@@ -62,7 +62,7 @@ impl View {
 pub enum Splats {
     /// An exponential for every pixel.
     Exponential,
-    /// The paper's tabulated Gaussian.
+    /// The tabulated Gaussian of Sekiguchi et al.
     Table,
     /// Through the layers of a [`Pyramid`].
     Pyramid,
@@ -85,7 +85,7 @@ const fn variant(name: &'static str, method: Method, threads: bool, splats: Spla
     Variant { name, method, threads, splats }
 }
 
-/// The ways on the CPU. The first is the paper's own baseline: one thread, no table.
+/// The ways on the CPU. The first is the baseline of Sekiguchi et al.: one thread, no table.
 pub const VARIANTS: [Variant; 12] = [
     variant("particles-no-table", Method::Particles, false, Splats::Exponential),
     variant("particles", Method::Particles, false, Splats::Table),
@@ -104,7 +104,7 @@ pub const VARIANTS: [Variant; 12] = [
 /// What is tabulated once for all pictures, and memory for the next.
 #[derive(Debug, Default)]
 pub struct Tables {
-    /// The paper's.
+    /// That of Sekiguchi et al.
     pub gaussian: Gaussian,
     /// The pyramid's.
     pub shares: Shares,

@@ -1,4 +1,4 @@
-//! The aurora's walks side by side (paper 3): the 3-D particle method, the paper's linear screen walk, the exact screen walk, and the exact
+//! The aurora's walks side by side (Sekiguchi et al.): the 3-D particle method, their linear screen walk, the exact screen walk, and the exact
 //! line integral as their judge. All draw the same electrons with the same random numbers.
 //!
 //! The patch of sky they draw is flat: x east, y north, z up, km, the ground at z = 0; the field is straight and inclined. [`sheet`] says

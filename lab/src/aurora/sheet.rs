@@ -126,7 +126,7 @@ pub fn field_direction() -> DVec3 {
 }
 
 impl Sheet {
-    /// Ten different auroras, as the paper's experiment has: quiet arcs, folds, curls and several curtains.
+    /// Ten different auroras, as the experiment of Sekiguchi et al. has: quiet arcs, folds, curls and several curtains.
     pub fn ten() -> Vec<Sheet> {
         (0..10).map(Sheet::numbered).collect()
     }

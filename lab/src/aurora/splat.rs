@@ -21,7 +21,7 @@ pub const MOST_SIGMA: f32 = 40.0;
 /// Entries of the tabulated Gaussian per standard deviation.
 const ENTRIES: usize = 128;
 
-/// The Gaussian of paper 3 (equation 6) by distance in standard deviations, without its constant.
+/// The Gaussian of Sekiguchi et al. (equation 6) by distance in standard deviations, without its constant.
 #[derive(Clone, Debug)]
 pub struct Gaussian(Vec<f32>);
 

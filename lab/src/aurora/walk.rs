@@ -16,11 +16,11 @@ use lensrunner::scene::aurora::random::hash;
 /// How luminous points are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Every collision happens in space and is projected from there: the method of Kojima and others (2012) that the paper compares with.
+    /// Every collision happens in space and is projected from there: the method of Kojima et al. 2012 that Sekiguchi et al. compare with.
     Particles,
     /// The same with the fall tabulated, as the walks on the screen have it: what is left between the two is the walk's own share.
     Tabled,
-    /// The paper's walk: end points are projected, everything between is linear on the screen.
+    /// The walk of Sekiguchi et al.: end points are projected, everything between is linear on the screen.
     Linear,
     /// Ends of chords are projected; the parameter in space is walked, homogeneous coordinates are interpolated.
     Exact,
@@ -168,7 +168,7 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Equations 3 to 5 of the paper: equal parts of the fall are equal parts of the screen distance; radius and depth likewise.
+    /// Equations 3 to 5 of Sekiguchi et al.: equal parts of the fall are equal parts of the screen distance; radius and depth likewise.
     #[inline(always)]
     fn linear(&self, streak: &Streak, steps: &Collisions, out: &mut Points) {
         let eye = self.eye;

@@ -162,7 +162,7 @@ fn packets<'a>(wide: &'a Wide, frames: Vec<(Vec<Ray>, Vec<usize>)>) -> Box<dyn F
     })
 }
 
-/// Wald's packets and paper 4's.
+/// The packets of Wald et al. 2007 and those of Sei 2008.
 fn paper<'a>(job: &'a Job, built: &'a Built, rays: &[Ray], size: usize, splits: u32) -> Box<dyn FnMut() -> usize + 'a> {
     let (pixels, starts) = order::squares(job.size, size);
     let directions: Vec<[f32; 3]> = pixels.iter().map(|&i| rays[i as usize].direction).collect();

@@ -1,4 +1,4 @@
-//! The picture: paper 4's figures again, and who is faster.
+//! The picture: the figures of Sei 2008 again, and who is faster.
 
 use super::super::chart::{Provenance, Sheet};
 use super::super::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Series};

@@ -1,4 +1,4 @@
-//! The chart `bvh`: tracers of straight rays on paper 4's scenes, all in one process and on one thread.
+//! The chart `bvh`: tracers of straight rays on the scenes of Sei 2008, all in one process and on one thread.
 
 mod check;
 mod contest;

@@ -11,7 +11,7 @@ use crate::straight::scenes::bunny::PlyError;
 pub struct BvhRequest {
     /// Where it goes.
     pub output: Output,
-    /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, which is not of paper 4.
+    /// Names of scenes: balls4A, balls4B, balls4C, tree10, castle, bunny; and needles, which is not of Sei 2008.
     pub scenes: Vec<String>,
     /// Width and height in pixels.
     pub size: [usize; 2],
@@ -53,5 +53,5 @@ impl ChartError {
 /// Every scene: those, and one that trees of boxes hold badly.
 pub const ALL: [&str; 7] = [SCENES[0], SCENES[1], SCENES[2], SCENES[3], SCENES[4], SCENES[5], "needles"];
 
-/// Every scene of paper 4, in its order.
+/// Every scene of Sei 2008, in its order.
 pub const SCENES: [&str; 6] = ["bunny", "castle", "tree10", "balls4A", "balls4B", "balls4C"];

@@ -1,4 +1,4 @@
-//! The chart `disk`: paper 2's two tables with the error of the picture beside each time, and speed against error.
+//! The chart `disk`: the two tables of Yamashita 2025 with the error of the picture beside each time, and speed against error.
 //!
 //! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
 //! for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the instruments know no renderer.

@@ -99,7 +99,7 @@ pub(super) const REFERENCE: &str = "arcs 4200";
 /// T of all frames but the chase's, in r_s/c.
 pub(super) const TIME: f64 = 100.0;
 
-/// All ways, in the order of paper 2's tables, then arcs at other budgets.
+/// All ways, in the order of the tables of Yamashita 2025, then arcs at other budgets.
 pub fn contestants(config: &GameConfig) -> Vec<Contestant> {
     let with = |name: String, family, change: &dyn Fn(&mut GameConfig)| {
         let mut config = config.clone();

@@ -1,4 +1,4 @@
-//! The scripted chase of paper 2's table 2: one flight through all situations, the same for every row.
+//! The scripted chase of table 2 of Yamashita 2025: one flight through all situations, the same for every row.
 
 use glam::DVec3;
 use lensrunner::spacetime::Observer;

@@ -169,7 +169,7 @@ fn significant(value: f64) -> f64 {
 /// What the game draws with.
 const RECOMMENDED: &str = "table";
 
-/// Whether a method's name is left out: of paper 1's tables only the largest of each kind are named, so that names do not cover each other.
+/// Whether a method's name is left out: of the tables of Yamashita 2012 only the largest of each kind are named, so that names do not cover each other.
 fn nameless(name: &str) -> bool {
     name.starts_with("paper1-") && !["paper1-128", "paper1-uniform-128"].contains(&name)
 }

@@ -1,5 +1,5 @@
 //! The chart `projection`: every method of projection on the same points, error against time per lookup and against memory; where each
-//! fails; and paper 1's tables 2 and 3 with its own sampling.
+//! fails; and tables 2 and 3 of Yamashita 2012 with its own sampling.
 
 mod adapter;
 mod draw;

@@ -1,4 +1,4 @@
-//! Paper 1's tables 2 and 3: its own meshes, its own rule for points, errors of ψ in the static frame.
+//! Tables 2 and 3 of Yamashita 2012: its own meshes, its own rule for points, errors of ψ in the static frame.
 //!
 //! The paper says: about 300,000 "various" (r, φ, L), none nearer to the camera than 0.01 √L, and gives the largest error and the standard
 //! deviation for the inside and outside tables of each order. It does not say how the points are distributed, so three ways are tried.

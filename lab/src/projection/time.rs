@@ -36,7 +36,7 @@ pub struct Timed {
     pub frame_microseconds: f64,
 }
 
-/// Adversarial points that every method has an answer for: paper 1's ranges.
+/// Adversarial points that every method has an answer for: the ranges of Yamashita 2012.
 pub fn frames(seed: u64) -> Vec<TimedFrame> {
     let mut rng = SmallRng::seed_from_u64(seed ^ 0x5eed);
     let drawn: Vec<_> = (0..FRAMES * POINTS * 40).map(|_| row(&mut rng)).collect();

@@ -1,8 +1,8 @@
-//! Straight rays through trees of boxes: paper 4 (Sei 2008), reproduced and beaten. The trees themselves are the judge's (`lensrunner::judge::bvh`).
+//! Straight rays through trees of boxes: Sei 2008, reproduced and beaten. The trees themselves are the judge's (`lensrunner::judge::bvh`).
 //!
 //! - [`ray`], [`triangle`]: straight rays, and one of them against one triangle.
 //! - [`single`]: a ray through the binary tree, the plain method.
-//! - [`packet`]: packets from one eye through it: Wald's, and paper 4's that split.
+//! - [`packet`]: packets from one eye through it: those of Wald et al. 2007, and those of Sei 2008 that split.
 //! - [`wide`]: the tree of eight, ray by ray, and in packets of any size that split as they descend (`sweep` takes a first look at a packet, `wide_packet`
 //!   splits it, `wide_eye` and `wide_group` end with what is left: 64 rays from one eye, sixteen of any kind).
 //! - [`scenes`]: what they are measured on.

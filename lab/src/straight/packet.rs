@@ -1,4 +1,4 @@
-//! Packets of rays from one eye through the binary tree, after Wald, Boulos and Shirley 2007 and after paper 4: chapter 3.4 without a split,
+//! Packets of rays from one eye through the binary tree, after Wald et al. 2007 and after Sei 2008: chapter 3.4 without a split,
 //! chapter 4 with one split in four at each node, section 4.4 with two (in sixteen); more are allowed.
 
 use super::bounds::Bounds;
@@ -20,7 +20,7 @@ pub struct EyePackets {
 
 impl Mesh {
     /// The nearest triangle that each ray of a packet meets; the same bits as [`Mesh::closest`]. `splits` is how often a packet may be split in four at
-    /// one node: 0 for Wald's packets, 1 and 2 for paper 4's. Planes are made anew here: the eye may move from call to call.
+    /// one node: 0 for the packets of Wald et al. 2007, 1 and 2 for those of Sei 2008. Planes are made anew here: the eye may move from call to call.
     ///
     /// # Panics
     /// When the lengths of directions and hits differ, or with more than [`MOST_SPLITS`].
@@ -64,7 +64,7 @@ impl Parts {
 }
 
 impl Descent<'_> {
-    /// Paper 4, figures 3.10 and 4.7: takes a bundle into a node. Rays before `first` have missed an ancestor of it.
+    /// Sei 2008, figures 3.10 and 4.7: takes a bundle into a node. Rays before `first` have missed an ancestor of it.
     fn enter(&mut self, node: usize, bundle: usize, first: usize) {
         let bounds = self.mesh.tree.nodes[node].bounds;
         let this = &self.bundles[bundle];

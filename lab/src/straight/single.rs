@@ -25,7 +25,7 @@ pub struct Work {
 }
 
 impl Mesh {
-    /// Builds the tree of paper 4. Triangles with a corner that is not finite are left out: no ray meets them.
+    /// Builds the tree of Sei 2008. Triangles with a corner that is not finite are left out: no ray meets them.
     pub fn new(triangles: &[[[f32; 3]; 3]], settings: &Settings) -> Mesh {
         let boxes: Vec<Bounds<f32>> = triangles.iter().map(bounds).collect();
         let tree = build(&boxes, settings);

@@ -1,4 +1,4 @@
-//! The tree of packets: squares of rays, each with the two planes that cut it in four (paper 4, section 4.2).
+//! The tree of packets: squares of rays, each with the two planes that cut it in four (Sei 2008, section 4.2).
 
 use glam::Vec3;
 
@@ -37,7 +37,7 @@ impl Side {
 }
 
 impl Plane {
-    /// Paper 4, section 4.2.2: of the box's corners only the farthest along the normal and the one opposite are looked at.
+    /// Sei 2008, section 4.2.2: of the box's corners only the farthest along the normal and the one opposite are looked at.
     #[inline]
     pub fn side(&self, bounds: &Bounds<f32>, eye: [f32; 3], wide: f32) -> Side {
         if !self.parts {
@@ -135,7 +135,7 @@ fn bundle(packet: &EyePacket, rays: &[Ready], first: usize, end: usize) -> Bundl
     Bundle { first, end, parts: 0, planes: [none; 2], eye: packet.eye, inverse, wide_eye: shifts }
 }
 
-/// N_h = V_up × D_p and N_v = V_right × D_p, D_p the mean direction (paper 4, section 4.2.1), turned to the right and downwards.
+/// N_h = V_up × D_p and N_v = V_right × D_p, D_p the mean direction (Sei 2008, section 4.2.1), turned to the right and downwards.
 fn planes(packet: &EyePacket, first: usize, quarter: usize) -> [Plane; 2] {
     let direction = |i: usize| Vec3::from(packet.directions[first + i]);
     let mean: Vec3 = (0..4 * quarter).map(direction).sum();

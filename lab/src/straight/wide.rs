@@ -68,7 +68,7 @@ pub struct Wide {
     pub(super) instructions: Instructions,
 }
 
-/// What the heuristic weighs for this tree: paper 4's 2 : 1 also measured best here, with leaves that fill a block at most.
+/// What the heuristic weighs for this tree: the 2 : 1 of Sei 2008 also measured best here, with leaves that fill a block at most.
 pub const SETTINGS: Settings = Settings { costs: Costs { node: 2.0, primitive: 1.0 }, max_leaf: 8 };
 
 impl Wide {

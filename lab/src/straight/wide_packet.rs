@@ -1,6 +1,6 @@
 //! Packets of any size through the wide tree, split as they descend.
 //!
-//! Paper 4 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes that its
+//! Sei 2008 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes that its
 //! hull reaches, each opened for as long as that throws away more children than it keeps. Then the packet is split, and each part sifts the list with
 //! its own, narrower hull. What is left at the end is sixteen rays, or 64 from one eye, and the few small nodes in front of them, nearest first. The nodes
 //! above are opened once for all rays, whatever the size of the packet, and no node is opened for rays that cannot reach it.

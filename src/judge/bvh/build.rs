@@ -1,4 +1,4 @@
-//! The builder: top down, every plane of every axis tried, the cheapest by the surface area heuristic taken (paper 4, section 3.3).
+//! The builder: top down, every plane of every axis tried, the cheapest by the surface area heuristic taken (Sei 2008, section 3.3).
 //!
 //! It sees boxes only, so it serves triangles, arcs of the disk and swept boxes alike.
 //!

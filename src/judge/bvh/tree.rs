@@ -62,7 +62,7 @@ impl<T: Scalar> Tree<T> {
         }
     }
 
-    /// The expected cost of a random ray that meets the root, by the surface area heuristic (paper 4, equation 3.1 over the whole tree).
+    /// The expected cost of a random ray that meets the root, by the surface area heuristic (Sei 2008, equation 3.1 over the whole tree).
     pub fn cost(&self, costs: Costs) -> f64 {
         let Some(root) = self.nodes.first() else { return 0.0 };
         let total: f64 = self
@@ -87,7 +87,7 @@ pub struct Costs {
 }
 
 impl Default for Costs {
-    /// 2 : 1 (paper 4, section 3.3, after Reshetov et al. 2005).
+    /// 2 : 1 (Sei 2008, section 3.3, after Reshetov et al. 2005).
     fn default() -> Costs {
         Costs { node: 2.0, primitive: 1.0 }
     }

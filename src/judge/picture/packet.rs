@@ -1,4 +1,4 @@
-//! Packets of neighbouring geodesics through one scene: paper 4's idea along curves.
+//! Packets of neighbouring geodesics through one scene: the idea of Sei 2008 along curves.
 //!
 //! The rays of a packet take their steps together, [`LANES`] at a time. A sheaf, the chord in their middle with the room that they need around it, goes
 //! down the tree once for all of them; where it meets something its quarters are asked, and so on down to single rays, which do what a ray alone

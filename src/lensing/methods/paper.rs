@@ -1,4 +1,4 @@
-//! Paper 1's tables as a game would fetch from them: what depends on the camera's radius alone computed once a frame, one logarithm for
+//! The tables of Yamashita 2012 as a game would fetch from them: what depends on the camera's radius alone computed once a frame, one logarithm for
 //! each of r and φ, eight corners, all in f32.
 
 use wide::f32x8;
@@ -10,7 +10,7 @@ use crate::lensing::source_point::source_point;
 use crate::lensing::{Table, paper};
 use crate::spacetime::light::{Branch, Order};
 
-/// Paper 1's four tables.
+/// The four tables of Yamashita 2012.
 pub struct Paper(pub Table);
 
 /// The inverse of a mesh: z = ln(1 + k (x − first))/A, or k (x − first) where it is uniform; then in cells.
@@ -165,7 +165,7 @@ impl Projector for PaperBatch {
     }
 }
 
-/// Whether the tables of paper 1 reach so far.
+/// Whether the tables of Yamashita 2012 reach so far.
 fn answers(query: Query, order: Order) -> bool {
     let [l_low, l_high, r_low, r_high, ..] = crate::lensing::paper_format::RANGES;
     order.number() <= 2 && (l_low..=l_high).contains(&query.camera) && (r_low..=r_high).contains(&query.r)

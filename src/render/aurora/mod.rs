@@ -1,8 +1,8 @@
-//! The aurora: its light on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (paper 3), strokes are added up
+//! The aurora: its light on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (Sekiguchi et al.), strokes are added up
 //! line by line, and the spectrum becomes a colour at the end.
 //!
 //! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
-//! experiment of paper 3 for the chart.
+//! experiment of Sekiguchi et al. for the chart.
 
 mod animation;
 mod chords;
@@ -47,7 +47,7 @@ pub struct Segment {
     pub light: [f32; 4],
 }
 
-/// The walk of the paper; as in shaders/aurora/streaks.wgsl.
+/// The walk of Sekiguchi et al.; as in shaders/aurora/streaks.wgsl.
 pub const LINEAR: u32 = 1;
 /// Every second streak in the south; as in shaders/aurora/streaks.wgsl.
 pub const BOTH_POLES: u32 = 2;

@@ -1,4 +1,4 @@
-//! The experiment of paper 3 on the GPU: the particle method in space and the exact walk on the screen, then the same splats for both. By
+//! The experiment of Sekiguchi et al. on the GPU: the particle method in space and the exact walk on the screen, then the same splats for both. By
 //! itself, for the chart `aurora`: it draws the experiment's scenes and not the game's.
 
 use std::time::Instant;

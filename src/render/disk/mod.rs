@@ -1,7 +1,7 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
 //! [`view`] says in f64 what a frame needs to know (which circles, seen from where, which generations of streaks); [`arcs`] runs the stages of
-//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of paper 2; [`textures`] holds the pattern of the gas.
+//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of Yamashita 2025; [`textures`] holds the pattern of the gas.
 
 pub mod arcs;
 pub mod bench;

@@ -1,4 +1,4 @@
-//! The disk of polygons: triangles through the stages of geometry, as any other model. As rings that turn with the gas they are those of paper 2;
+//! The disk of polygons: triangles through the stages of geometry, as any other model. As rings that turn with the gas they are those of Yamashita 2025;
 //! at rest they are places that gas flows through, as arcs are.
 
 use crate::spacetime::Observer;

@@ -35,7 +35,7 @@ pub enum Method {
         /// Steps a shot.
         steps: u32,
     },
-    /// Paper 1's tables and its filter of triangles.
+    /// The tables of Yamashita 2012 and its filter of triangles.
     Paper1 {
         /// Nodes along each axis.
         nodes: u32,

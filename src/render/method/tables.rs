@@ -14,7 +14,7 @@ enum Kind {
     Full,
     /// The same in half precision.
     Rounded,
-    /// Paper 1's.
+    /// The tables of Yamashita 2012.
     Paper { nodes: u32, uniform: bool },
 }
 

@@ -1,4 +1,4 @@
-//! Where electrons come down: points along a cubic Bézier curve with a sine laid over it, in the plane across the field (paper 3, 2.2).
+//! Where electrons come down: points along a cubic Bézier curve with a sine laid over it, in the plane across the field (Sekiguchi et al., 2.2).
 
 use glam::DVec2;
 

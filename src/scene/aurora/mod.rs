@@ -1,6 +1,6 @@
 //! The aurora's physics, in f64 and without graphics: where electrons come down, how deep they get, and what light they leave.
 //!
-//! Paper 3 (Sekiguchi, Fujisawa and Mikawa, *Fast Simulation and Rendering of Aurora Using Screen Space*) with measured air and cross
+//! The method of Sekiguchi et al. (*Fast Simulation and Rendering of Aurora Using Screen Space*) with measured air and cross
 //! sections in place of tuned radii. The way of an electron, file by file: [`curve`] (seeds along a Bézier curve with a sine in the plane
 //! across the field; a [`chain`] is several of them) → [`motion`] (charge → [`poisson`], and [`near`] what is finer → electric field → drift in that plane) → [`dipole`] (the field line down) →
 //! [`fall`] (collisions by the density of the [`air`]) → [`lines`] (photons by line, height and delay; their colours). [`deposition`] is

@@ -1,4 +1,4 @@
-//! The motion of the curtains in the plane across the field: charge → potential → electric field → drift (paper 3, 2.4).
+//! The motion of the curtains in the plane across the field: charge → potential → electric field → drift (Sekiguchi et al., 2.4).
 //!
 //! The electrons that come down charge the sheet negatively. Each node carries the charge of its share of the curve, as a Gaussian as thick as the sheet.
 //! What is far is solved on a grid: charges laid out cloud in cell, −∇²V = ρ/ε₀ with V = 0 on the edge of the square ([`Poisson`]), E = −∇V by central

@@ -1,4 +1,4 @@
-//! The disk as triangles (paper 2, section 2.1), for the chart: rings of equal sectors that turn with the gas, or one annulus at rest.
+//! The disk as triangles (Yamashita 2025, section 2.1), for the chart: rings of equal sectors that turn with the gas, or one annulus at rest.
 
 use std::f64::consts::{PI, TAU};
 

@@ -1,4 +1,4 @@
-//! The disk as point sprites (paper 2, section 2.2), for the chart: small spots, ring by ring.
+//! The disk as point sprites (Yamashita 2025, section 2.2), for the chart: small spots, ring by ring.
 
 use std::f64::consts::{PI, TAU};
 

@@ -42,7 +42,7 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let shines = green(&picture);
     assert!(shines > 1.0, "{shines}");
 
-    // The paper's walk draws something else, little as it is from orbit; switched off, there is none.
+    // The walk of Sekiguchi et al. draws something else, little as it is from orbit; switched off, there is none.
     config.aurora.walk = "linear".into();
     let linear = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
     let linear = renderer.picture(&linear, false).unwrap();

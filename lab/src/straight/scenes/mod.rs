@@ -1,4 +1,4 @@
-//! The scenes of paper 4 as bare triangles, for measuring tracers of straight rays: two of Haines' Standard Procedural Databases, a castle, a bunny.
+//! The scenes of Sei 2008 as bare triangles, for measuring tracers of straight rays: two of Haines' Standard Procedural Databases, a castle, a bunny.
 //!
 //! Lengths in each scene's own unit; +Z is up.
 
@@ -55,7 +55,7 @@ impl View {
 /// A scene and where it is seen from.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The name in charts, as in paper 4.
+    /// The name in charts, as in Sei 2008.
     pub name: &'static str,
     /// What is there.
     pub triangles: Vec<Triangle>,

@@ -1,4 +1,4 @@
-//! Long thin triangles in all directions, which no boxes hold well: what a builder and a traversal make of the worst. Not of paper 4.
+//! Long thin triangles in all directions, which no boxes hold well: what a builder and a traversal make of the worst. Not of Sei 2008.
 
 use glam::DVec3;
 use rand::rngs::StdRng;

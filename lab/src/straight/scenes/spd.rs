@@ -9,7 +9,7 @@ use super::{Triangle, View, rounded};
 /// Cells along the edge of one of a sphere's six faces, and quads of a cone in a quarter turn (OUTPUT_RESOLUTION).
 const RESOLUTION: usize = 3;
 
-/// Paper 4's balls4A; B stands half as far, C four times as far.
+/// balls4A of Sei 2008; B stands half as far, C four times as far.
 pub const BALLS_VIEW: View = View::new([2.1, 1.3, 1.7], [0.0; 3]);
 
 /// The view of `tree`.
