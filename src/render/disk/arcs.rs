@@ -11,9 +11,9 @@ use crate::render::gpu::shaders::Pass;
 use crate::render::disk::types::{self, DiskCounters, DiskVertex};
 use crate::render::disk::view::DiskView;
 
-/// Room for vertices that halving makes.
+/// Room for the vertices of segments.
 const EXTRA: u32 = 250_000;
-/// Room for indices of orders 1, 2 and 3, and of what of order 1 lies beyond a close look.
+/// Room for indices of orders 1, 2 and 3, and of the part of order 1 that is far from a close camera.
 const INDICES: [u32; 4] = [1_500_000, 600_000, 600_000, 1_500_000];
 /// Number of the last of these lists.
 const BEYOND: u64 = 3;
@@ -102,7 +102,7 @@ impl ArcPass {
         }
     }
 
-    /// Uploads what the frame needs; fills in where in the buffers things are. `frame` holds it for the shaders.
+    /// Uploads what the frame needs and fills in the places in its buffers. `frame` is the uniform buffer of the shaders.
     pub fn prepare(&mut self, gpu: &Gpu, view: &mut DiskView, frame: &wgpu::Buffer) {
         let [columns, arcs, rows, rings] = view.frame.sizes;
         let grid = columns * rows;
@@ -156,7 +156,7 @@ impl ArcPass {
         pass.dispatch_workgroups(1, 1, 1);
     }
 
-    /// The stages whose size the first ones decide.
+    /// The stages whose number of threads the first ones decide.
     pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
         let Some((group, _)) = &self.groups else { return };
         pass.set_bind_group(1, group, &[]);
@@ -197,12 +197,12 @@ impl ArcPass {
         &self.counters
     }
 
-    /// Seen vertices: rows of the grid, then what halving made.
+    /// Seen vertices: the grid of circles and cuts, then those of segments.
     pub fn seen(&self) -> &wgpu::Buffer {
         &self.seen.buffer
     }
 
-    /// Where the indices of each list of triangles begin: orders 1 to 3, and what of order 1 lies beyond a close look.
+    /// Where the indices of each list of triangles begin: orders 1 to 3, and the part of order 1 that is far from a close camera.
     pub fn lists() -> [u32; 4] {
         std::array::from_fn(|list| INDICES[..list].iter().sum())
     }

@@ -1,4 +1,5 @@
-//! Which circles of the disk an image order draws, and how the gas goes from one to the next: as parabolas over the way that is seen.
+//! The circles of the disk that are drawn in an image order. Between two neighbouring circles the gas is taken as a parabola over the seen
+//! width of the ring between them.
 
 use crate::spacetime::Observer;
 use std::f64::consts::{PI, TAU};
@@ -11,53 +12,58 @@ use crate::render::disk::Disk;
 use crate::scene::disk::radial::LAST_ORBIT;
 use crate::scene::disk::{LEAST_COSINE, PATTERN_HEIGHT};
 
-/// How far off what goes as a parabola between two circles may be; rings are drawn together as long as it is off by no more.
+/// The largest errors that the parabola between two circles may have. Two neighbouring rings are drawn as one as long as every error is
+/// below its limit.
 #[derive(Clone, Copy, Debug)]
 pub struct Within {
-    /// The place in the gas across the orbit, in pixels.
+    /// Error of the place in the pattern across the orbit, in pixels.
     across: f64,
-    /// And along it, where streaks are ten times as long. By how much falling gas is ahead goes straight.
+    /// Error of the place along the orbit, in pixels; streaks are ten times as long there. The lag of falling gas is linear over a ring,
+    /// not a parabola.
     along: f64,
-    /// The logarithm of light is a parabola, and the optical depth: the light that comes of both, over that of the ring that is brightest at the
+    /// Error of the light that results from the parabolas of ln light and of optical depth, over the light of the brightest ring at the
     /// same azimuth.
     light: f64,
-    /// And what is stopped of light from behind.
+    /// Error of the share of light from behind that is stopped.
     stopped: f64,
 }
 
-/// From far, and in orders 2 and 3 from everywhere: narrower rings bring their images no nearer to the exact ones from close by either, for they are pressed
-/// together across the orbit.
+/// For a far camera, and for orders 2 and 3 from everywhere. Narrower rings make images of order 2 and 3 no more exact from near either,
+/// because these images are compressed across the orbit.
 pub const FROM_FAR: Within = Within { across: 0.15, along: 4.0, light: 0.005, stopped: 0.015 };
-/// In order 1 where a ring may fill the picture. Shear turns streaks: in the 80 r_s/c that one lives, at 6.5 r_s, to one across the orbit for five along it.
-/// There a pixel along the orbit moves a streak a fifth of one aside, no more than twice what it may be off across; with four of them, one ring beside the camera held
-/// a fifth of the whole picture's error. Light off by half as much was hardly better, and by twice as much 3 % worse.
+/// For order 1, where one ring may fill the picture. Shear turns streaks: in the 80 r_s/c that a streak lives, at 6.5 r_s, it comes to lie
+/// across the orbit by one part in five of its length. Then an error of a pixel along the orbit moves the streak aside by a fifth of a
+/// pixel, twice `across`. With four pixels, one ring beside the camera had a fifth of the error of the whole picture. Half of this limit on
+/// light was hardly better; twice as much made the error 3 % larger.
 pub const FROM_NEAR: Within = Within { across: 0.1, along: 1.0, light: 0.001, stopped: 0.005 };
 
-/// From one circle of the falling gas to the next that there is to choose from, in √r_s of the root of the way from the last orbit: what is straight between
-/// the first two misses the lag by 0.02 rad.
+/// Step of √(distance from the last stable orbit) between the circles on offer in the falling gas, in √r_s. With it a linear lag is off by
+/// 0.02 rad between the first two circles.
 const FALL_STEP: f64 = 0.05;
-/// From one circle to the next that there is to choose from it is no farther than this, over the radius and in r_s, whichever is more: over wider rings, as a disk of few arcs
-/// has, gas is no parabola.
+/// Circles on offer are no farther apart than the larger of these two: this share of the radius, and this many r_s. Over wider rings, as a
+/// disk of few arcs has, gas is no parabola.
 const WIDEST: [f64; 2] = [0.1, 0.25];
-/// Circles nearer to one another than this, in r_s, are one.
+/// Circles closer together than this, in r_s, count as one.
 const LEAST_RING: f64 = 1e-3;
-/// Azimuths at which all this is tried and told, on one side, for both sides are alike but in their light; as in shaders/disk/place.wgsl.
+/// Number of azimuths on one side of the camera's direction at which errors are tested and parabolas are given. Both sides are alike except
+/// for the light. As in shaders/disk/place.wgsl.
 pub const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
-/// Light of gas as dark as this, in its logarithm, is none.
+/// ln light below this counts as no light.
 const LEAST_LOG_LIGHT: f64 = -690.0;
 /// Gas of an optical depth below this stops nothing and sends out nothing.
 const LEAST_DEPTH: f64 = 1e-9;
-/// Light in the middle of a ring is at most this far from the straight line, in its logarithm: the colours go with the slopes of Planck's law at the circles, which
-/// is good for no more.
+/// Largest deviation of ln light in the middle of a ring from the straight line. Colours follow the slopes of Planck's law at the two
+/// circles, which holds no farther.
 const MOST_BENT: f64 = 0.7;
-/// The middle of a ring is seen no nearer to either circle than this share of its width: else the parabola goes beyond what its circles have.
+/// If the middle of a ring is seen nearer to one of its circles than this share of the ring's width, no parabola is used: it would go
+/// beyond the values on the circles.
 const LEAST_SHARE: f64 = 0.3;
 
-/// The radii to choose from, ascending, in r_s: the arcs' circles, where they are few more of them, and from near more in the falling gas. By how much its pattern is ahead grows as
-/// the root of the way from the last orbit, which the straight line between two arcs' circles missed by up to a tenth of a radian; and at that orbit the
-/// pattern has a kink.
+/// The radii on offer, ascending, in r_s: the circles of the arcs; more between them where these are few; and from near more in the falling
+/// gas. There the lag of the pattern grows as the root of the distance from the last stable orbit, so a straight line between two circles
+/// of the arcs would be off by up to 0.1 rad. At that orbit the pattern has a kink.
 pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
     let mut radii = disk.arcs.circles.clone();
     let [start, _] = disk.gas.extent();
@@ -78,25 +84,25 @@ pub fn radii(disk: &Disk, close: bool) -> Vec<f64> {
     radii[..1].iter().copied().chain(radii.windows(2).flat_map(between)).collect()
 }
 
-/// The rows of an order.
+/// The circles that are drawn in one image order.
 #[derive(Clone, Debug)]
 pub struct Circles {
     /// Their radii, ascending, in r_s.
     pub radii: Vec<f64>,
-    /// Pairs of them with gas between.
+    /// Pairs of indices into `radii` with gas between the two circles.
     pub pairs: Vec<[u32; 2]>,
-    /// For the ring from each of them to the next, by azimuth, what its middle has beyond the straight line; of the last row nothing.
+    /// For the ring from each circle to the next, by azimuth: how far its middle deviates from the straight line. Zero for the last circle.
     pub bends: Vec<[Bend; AZIMUTHS]>,
 }
 
 impl Circles {
-    /// All of these circles, with what lies between two of them straight.
+    /// All of these circles, with straight lines between them.
     pub fn straight(radii: Vec<f64>, pairs: Vec<[u32; 2]>) -> Circles {
         Circles { bends: vec![[Bend::default(); AZIMUTHS]; radii.len()], radii, pairs }
     }
 }
 
-/// An order as the camera sees it.
+/// One image order as the camera sees it.
 #[derive(Clone, Copy, Debug)]
 pub struct Look<'a> {
     /// The disk that is seen.
@@ -114,15 +120,15 @@ pub struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// Of the circles there are to choose from as few as will do.
+    /// The fewest of the circles on offer that keep all errors `within` their limits.
     ///
-    /// `own` says how much of its own each shows, by azimuth: of a thin image less than all.
+    /// `own`, by azimuth, is the share of a circle's own gas that the image shows; the rest is the mean gas of a thin image.
     pub fn rows(&self, seen: &[SeenCircle], own: &[f64; AZIMUTHS], within: Within) -> Circles {
         let brightest =
             std::array::from_fn(|k| [0, 1].map(|side| seen.iter().map(|circle| circle.shining(k, side)).fold(1e-300, f64::max)));
         let smooth = |a: usize, b: usize| {
             let ring = [&seen[a], &seen[(a + b) / 2], &seen[b]];
-            // Middle and quarters.
+            // The middle and the quarters of the common ring.
             [(1, 2), (1, 4), (3, 4)].into_iter().all(|(k, n)| {
                 let i = (a * (n - k) + b * k) / n;
                 i == a || i == b || self.is_on(ring, &seen[i], own, &brightest, within)
@@ -138,7 +144,7 @@ impl Look<'_> {
         let bend = |pair: &[usize]| {
             let [a, b] = [&seen[pair[0]], &seen[pair[1]]];
             let between = (pair[0] + pair[1]) / 2;
-            // Two neighbours among the circles have none in the middle.
+            // Two neighbouring circles on offer have none in their middle: it is made.
             let new = (between == pair[0]).then(|| self.circle(0.5 * (a.radius + b.radius)));
             let middle = new.as_ref().unwrap_or(&seen[between]);
             std::array::from_fn(|k| Bend::of([a, middle, b], k).unwrap_or_default())
@@ -149,8 +155,8 @@ impl Look<'_> {
         Circles { radii: chosen.into_iter().map(|k| seen[k].radius).collect(), pairs, bends }
     }
 
-    /// Whether the circle `here` looks as it should in the `ring` of an inner circle, one in the middle and an outer; the light that may be missing is an absolute
-    /// one here.
+    /// Whether the parabola through `ring` (an inner circle, one in the middle, an outer one) is right at the circle `here`, within the
+    /// limits. `brightest` is the light of the brightest circle by azimuth and side, to which the error of light is relative.
     fn is_on(
         &self,
         ring: [&SeenCircle; 3],
@@ -167,15 +173,15 @@ impl Look<'_> {
             let Some(bend) = Bend::of(ring, k).filter(|_| t > 0.0 && t < 1.0) else { return false };
             let straight = |from: f64, to: f64| from + t * (to - from);
             let middle = 4.0 * t * (1.0 - t);
-            // Pixels for each r_s across the ring, and along it.
+            // Pixels per r_s across the ring, and along it.
             let wide = a.angle_to(b, k) / pixel;
             let across = wide / (b.radius - a.radius);
-            // Of what is narrower than a pixel a pixel shows only so much, and of a thin image only this circle's own.
+            // A ring narrower than a pixel contributes only its width; in a thin image only this circle's own share counts.
             let shown = own[k] * wide.min(1.0);
             let length = here.places[k].length();
             let along = here.radius / length / pixel;
             let aside = here.pattern * PATTERN_HEIGHT * (straight(a.height, b.height) + middle * bend.height - here.height).abs();
-            // Gas is ahead by as much, and turned on as light shows it whose path is as much off.
+            // Error of the azimuth of the gas: of its lag, and of the angle that it turns in the time by which the light path is off.
             let path = straight(a.places[k].length(), b.places[k].length()) - length;
             let ahead = (straight(a.lag, b.lag) - here.lag).abs() + here.rate * path.abs();
             if aside * across >= within.across || ahead * along * wide.min(1.0) >= within.along {
@@ -213,7 +219,7 @@ impl Look<'_> {
             let (along, across) = (r * cosine * level, r * reach);
             let ray = lens_lookup_at(self.slice, (along - l) as f32, across as f32, along as f32, self.order);
             let [cos_psi, sin_psi] = [ray.cos_psi, ray.sin_psi].map(f64::from);
-            // On either side; as shaders/disk/place.wgsl has it, with what of the vectors' products is nothing left out.
+            // On both sides. As in shaders/disk/place.wgsl, without the products of vectors that vanish.
             log_light[k] = [1.0, -1.0].map(|side| {
                 let look = n * cos_psi + (sideways * (side * sine) - upwards * (n.z * cosine)) * (turn * sin_psi / reach);
                 let observed = (gamma(camera.momentum.length_squared()) + camera.momentum.dot(look)) * f64::from(ray.frequency);
@@ -243,19 +249,21 @@ impl Look<'_> {
     }
 }
 
-/// By how much a ring's middle is beyond the straight line between its circles. Where the share t of the ring's width is seen, 4t(1 − t) times that is added.
+/// How far the middle of a ring deviates from the straight line between its circles. At the share t of the ring's seen width, 4t(1 − t)
+/// times this is added to the line.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Bend {
     /// Height in the pattern.
     height: f64,
-    /// The logarithm of light, over itself with its sign turned; where the azimuth is positive and where it is negative.
+    /// ln light: −(deviation)/(line), on the side of positive azimuth and on that of negative azimuth.
     light: [f64; 2],
-    /// Optical depth, over that of the line.
+    /// Optical depth: deviation over the line's value.
     depth: f64,
 }
 
 impl Bend {
-    /// Of the ring between two circles at an azimuth, through what the one in the middle has; None where that is not seen between them.
+    /// The deviation of the ring between `a` and `b` at an azimuth, so that the parabola goes through `middle`. None where the middle is
+    /// not seen between them.
     fn of([a, middle, b]: [&SeenCircle; 3], azimuth: usize) -> Option<Bend> {
         let t = middle.share(a, b, azimuth);
         if !(t > LEAST_SHARE && t < 1.0 - LEAST_SHARE) {
@@ -272,7 +280,7 @@ impl Bend {
             }),
             depth: {
                 let line = straight(a.depth, b.depth);
-                // Where there is as good as no gas nothing is bent.
+                // Without gas nothing deviates.
                 if line > LEAST_DEPTH { (middle.depth / line - 1.0) * weight } else { 0.0 }
             },
         })
@@ -284,13 +292,13 @@ impl Bend {
     }
 }
 
-/// The azimuths that are tried, from the camera's, in rad: closest where the disk comes closest to the camera.
+/// Azimuth number `k`, in rad from the camera's. They are closest together where the disk comes closest to the camera.
 pub fn azimuth(k: usize) -> f64 {
     let share = (k as f64 + 0.5) / AZIMUTHS as f64;
     PI * share * share
 }
 
-/// A circle as an order shows it.
+/// A circle of the disk as one image order shows it.
 pub struct SeenCircle {
     /// In r_s.
     pub radius: f64,
@@ -301,7 +309,7 @@ pub struct SeenCircle {
     /// The radius that its pattern comes from, and its height in the pattern.
     pattern: f64,
     height: f64,
-    /// The logarithm of the light of gas that lets nothing through, as it is seen at each azimuth and at the same on the other side.
+    /// ln of the seen light of opaque gas, by azimuth, on both sides of the camera's direction.
     pub log_light: [[f64; 2]; AZIMUTHS],
     /// That light itself.
     light: [[f64; 2]; AZIMUTHS],
@@ -310,12 +318,12 @@ pub struct SeenCircle {
     stopped: [f64; 2],
     /// For each azimuth the place, direction times light path, in the half plane that holds the ray: outward and across.
     pub places: [DVec2; AZIMUTHS],
-    /// And its angle there from outward, in rad.
+    /// Angle of that place from outward, in rad.
     angles: [f64; AZIMUTHS],
 }
 
 impl SeenCircle {
-    /// Its light at an azimuth on one side, seen face on.
+    /// Its light at an azimuth on one side, seen face on, with the optical depth as opacity up to 1.
     fn shining(&self, azimuth: usize, side: usize) -> f64 {
         self.light[azimuth][side] * self.depth.min(1.0)
     }
@@ -326,7 +334,8 @@ impl SeenCircle {
         angle.min(TAU - angle)
     }
 
-    /// The share of the way from `a` to `b`, which are drawn straight, at which this circle is seen. Where there is no ray it is not a number.
+    /// The share of the way from circle `a` to circle `b`, drawn as a straight line, at which this circle is seen. NaN where there is no
+    /// ray.
     fn share(&self, a: &SeenCircle, b: &SeenCircle, azimuth: usize) -> f64 {
         let [here, start, end] = [self, a, b].map(|circle| circle.places[azimuth]);
         let (before, after) = (here.perp_dot(start), here.perp_dot(end));
@@ -339,7 +348,7 @@ pub fn pixel_angle(camera: &Observer, width: u32) -> f64 {
     2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1))
 }
 
-/// Optical depths along a ray over those straight through: seen face on, and from where the camera is.
+/// Optical depth along a ray over that straight through the disk: for a ray face on, and for one from this camera's height.
 fn slants(camera: &Observer) -> [f64; 2] {
     let height = camera.position.z.abs() / camera.radius();
     [1.0, 1.0 / height.max(LEAST_COSINE)]

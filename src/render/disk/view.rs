@@ -1,4 +1,4 @@
-//! What a frame needs to know of the disk, in f64: its axes as the camera sees them, the circles to draw in each order, the streaks' generations.
+//! The disk of one frame, computed in f64: its axes as the camera sees them, the circles to draw in each order, the generations of streaks.
 
 use crate::spacetime::Observer;
 use std::f64::consts::{PI, TAU};
@@ -17,22 +17,23 @@ use crate::render::disk::types::{Circle, DiskFrame};
 
 /// Least |sine| of the camera's height over the plane. In the plane itself the disk is seen edge on and its image has no width.
 const LEAST_HEIGHT: f64 = 1e-5;
-/// Sine of the height below which the image of a circle has corners: between a line in the plane and the half ring that light from behind the hole makes of the
-/// rest, over a part of σ of the root of that, as long as a segment or shorter.
+/// Sine of the camera's height over the plane below which the image of a circle has corners: it consists of a line in the plane and of the
+/// half ring that light from behind the hole makes. The corner takes a part of σ of the order of the root of this sine, no more than a
+/// segment.
 const CORNERED: f64 = 0.03;
-/// Half widths in pixels between which a thin image goes over from the mean of all its gas to gas from each of its circles, as
-/// shaders/disk/types.wgsl has it.
+/// Half widths, in pixels, between which an image goes over from the mean gas of a thin image to the gas of each circle. As in
+/// shaders/disk/types.wgsl.
 const MEAN: [f64; 2] = [0.75, 2.0];
-/// Circles whose mean a thin image shows, at each azimuth, as in shaders/disk/place.wgsl.
+/// Number of circles, at each azimuth, over which the mean gas of a thin image is taken. As in shaders/disk/place.wgsl.
 pub const THIN_SAMPLES: usize = 8;
-/// Cuts are left out while the arcs on the outermost circle are shorter than this many pixels: halving finds what is lost.
+/// Cuts are left out while arcs on the outermost circle are shorter than this many pixels; splitting arcs into segments restores the shape.
 const LEAST_ARC: f64 = 128.0;
-/// Nearer to the disk than this, in r_s, the pattern of order 1 is looked up without a grain and the slant in each pixel: from there on a texel of the
-/// pattern from far is hardly larger than a pixel of the default picture.
+/// If the camera is nearer to the disk than this, in r_s, each pixel of order 1 looks the pattern up without a grain and works out the
+/// slant itself. From there on a texel of the far pattern is hardly larger than a pixel of the default picture.
 const CLOSE: f64 = 10.0;
-/// The same for orders 2 and 3, whose images are narrow until the disk is all round: from far they are looked up at more places.
+/// The same for orders 2 and 3. Their images are narrow unless the camera is close to the disk.
 const CLOSE_BEHIND: f64 = 3.0;
-/// Longest light path past the hole, for orders up to 3, over that of light that goes straight, in r_s.
+/// How much longer than a straight one a light path past the hole may be, for orders up to 3, in r_s.
 const DETOUR: f64 = 60.0;
 
 /// The disk as one frame's camera sees it.
@@ -42,16 +43,15 @@ pub struct DiskView {
     pub frame: DiskFrame,
     /// Circles of all orders.
     pub circles: Vec<Circle>,
-    /// Behind them in the same buffer: circles whose mean a thin image shows.
+    /// Behind `circles` in the same buffer: the circles over which the mean gas of thin images is taken.
     pub samples: Vec<Circle>,
     /// σ of the cuts, in rad.
     pub cuts: Vec<f32>,
-    /// Circles on either side of each ring, and its order.
+    /// For each ring: the indices of its two circles, and its image order.
     pub rings: Vec<[u32; 4]>,
-    /// For each row, by azimuth, by how much the middle of the ring that begins there is beyond the straight line between its circles: height in the pattern, light,
-    /// optical depth.
+    /// For each circle, by azimuth: the deviation of the middle of the ring that begins there ([`Bend`]).
     pub bends: Vec<[f32; 4]>,
-    /// Orders up to this one are so near that fine structure is seen; 0 from far.
+    /// Orders up to this one are drawn as from near, with fine structure; 0 from far.
     pub close: u32,
 }
 
@@ -76,7 +76,7 @@ impl DiskView {
         let mut rings = Vec::new();
         let mut bends = Vec::new();
         for order in 1..=3 {
-            // The third is drawn unasked where it is wider than the pixel budget, behind the second.
+            // The third order is drawn, behind the second, even if the settings do not ask for it, where it is wider than the pixel budget.
             let look = Look { disk, camera, slice, order, width, beaming: input.settings.beaming };
             let unasked = order > input.settings.orders;
             if unasked && (order < 3 || input.settings.orders < 2 || widest(&look) < f64::from(input.settings.pixel_error)) {
@@ -115,7 +115,7 @@ impl DiskView {
         let count = circles.len() as u32;
         circles.iter_mut().for_each(|circle: &mut Circle| circle.rows[3] += count);
 
-        // Streaks: time at the camera counted from the first generation that can be seen.
+        // Streaks: the camera's time, counted from the first generation that can be seen.
         let nearest = (l - end).max(0.0);
         let base = ((input.time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
         let [x, y] = disk.gas.offset(base as i64);
@@ -144,8 +144,8 @@ impl DiskView {
     }
 }
 
-/// For each circle of a disk that has gaps between its rings the middle of the gap that it bounds, in r_s: there it lies where the gap is too narrow to be seen. Beyond
-/// the outermost there is no ring to meet, so it goes all the way.
+/// For a disk with gaps between its rings: for each circle the middle of the gap beside it, in r_s. The circle is moved there where the gap
+/// is too narrow to be seen. The outermost circle goes to the edge of the disk.
 fn gap_middles(disk: &Disk) -> Vec<f64> {
     let mut radii = disk.arcs.circles.clone();
     for pair in disk.arcs.rings.windows(2) {
@@ -159,18 +159,19 @@ fn gap_middles(disk: &Disk) -> Vec<f64> {
     radii
 }
 
-/// How much of its own each circle of an image shows: the narrower the whole image, the more one gas stands for all of it.
+/// The share of a circle's own gas that an image shows, by azimuth; the rest is the mean gas of the whole image. 1 for order 1 and for wide
+/// images, 0 for thin ones.
 fn own_shares(camera: &Observer, seen: &[SeenCircle], width: u32, order: u32) -> [f64; AZIMUTHS] {
     let widths = widths(camera, &seen[0], &seen[seen.len() - 1], width);
     widths.map(|width| if order == 1 { 1.0 } else { smoothstep(MEAN[0], MEAN[1], 0.5 * width) })
 }
 
-/// Radii that share the width of an image equally at one of the azimuths.
+/// Radii that divide the seen width of an image into equal parts at one of the azimuths, each in the middle of its part.
 fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
     let mut before = vec![0.0];
     for pair in seen.windows(2) {
         let share = pair[0].angle_to(&pair[1], azimuth);
-        // Where there is no ray nothing is seen. If there is none at all the radii themselves are shared.
+        // Where there is no ray nothing is seen. Without any ray the radii themselves are divided equally.
         let share = if share.is_finite() { share } else { 0.0 } + 1e-12 * (pair[1].radius - pair[0].radius);
         before.push(before[before.len() - 1] + share);
     }
@@ -183,9 +184,10 @@ fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
     })
 }
 
-/// The radius at which light of the third image from radius `r` at one of the azimuths crosses the disk's plane in between, in r_s, half a turn before it would
-/// there: the camera is at radius `l` and the cosine of its height over the plane is `level`. Both ends wind from the photon sphere as the rays do that
-/// wind for ever, u + 1/3 = ((1 − ρ)/(1 + ρ))² with ρ growing by e for each radian (Chandrasekhar 1983, section 20); near it both ways add up.
+/// The radius, in r_s, at which light of the third image crosses the disk's plane on its way, where the second image lies. It left radius
+/// `r` at azimuth number `k` and makes half a turn between the two crossings. The camera is at radius `l`; `level` is the cosine of its
+/// height over the plane. Both ends of the ray wind off the photon sphere like the rays that wind for ever: u + 1/3 = ((1 − ρ)/(1 + ρ))²,
+/// with ρ growing by a factor of e per radian (Chandrasekhar 1983, section 20). Near the photon sphere the two deviations of u add up.
 fn through_second(l: f64, level: f64, k: usize, r: f64) -> f64 {
     let from_photon_sphere = |r: f64, turned: f64| {
         let y = (1.0 / r + 1.0 / 3.0).sqrt();
@@ -205,7 +207,8 @@ fn widest(look: &Look) -> f64 {
 /// The width of the image between two circles at each azimuth, in pixels of the middle of a picture `width` pixels wide.
 fn widths(camera: &Observer, inner: &SeenCircle, outer: &SeenCircle, width: u32) -> [f64; AZIMUTHS] {
     let pixel = pixel_angle(camera, width);
-    // Angles in the camera's frame are those of the rain frame over the frequency there; of the camera's motion the part outward, the same all round.
+    // An angle in the camera's frame is that in the rain frame over the frequency ratio. Of the camera's momentum only the outward part
+    // counts here: it acts alike at all azimuths.
     let gamma = (1.0 + camera.momentum.length_squared()).sqrt();
     let outward = camera.momentum.dot(camera.position) / camera.radius();
     std::array::from_fn(|k| {
@@ -215,7 +218,7 @@ fn widths(camera: &Observer, inner: &SeenCircle, outer: &SeenCircle, width: u32)
     })
 }
 
-/// The cuts between arcs long enough to be told apart.
+/// The cuts to use: so many that arcs are long enough to be told apart.
 fn chosen_cuts(disk: &Disk, camera: &Observer, width: u32) -> Vec<f64> {
     let all = disk.arcs.cuts.len() - 1;
     let [_, end] = disk.gas.extent();
@@ -229,8 +232,9 @@ fn chosen_cuts(disk: &Disk, camera: &Observer, width: u32) -> Vec<f64> {
     (0..=count).map(|k| disk.arcs.cuts[k * all / count]).collect()
 }
 
-/// σ of the cuts, for a camera at the azimuth `origin` and at a height with this sine over the plane. Next to the plane there is a cut at each corner too, where
-/// θ + α is a quarter turn: segments on either side of it are even, as their number is told by the middle of an arc alone.
+/// σ of the cuts, for a camera at azimuth `origin` whose height over the plane has the sine `height`. Close to the plane there is also a
+/// cut at each corner of the image, where θ + α is an odd multiple of a quarter turn: then the segments on both sides of it can be even,
+/// although their number comes from the middle of the arc alone.
 fn sigmas(cuts: &[f64], origin: f64, height: f64) -> Vec<f32> {
     let mut all: Vec<f32> = cuts.iter().map(|azimuth| sigma(azimuth - origin, height) as f32).collect();
     if height < CORNERED {
@@ -242,7 +246,7 @@ fn sigmas(cuts: &[f64], origin: f64, height: f64) -> Vec<f32> {
     all
 }
 
-/// A circle whose gas takes part in the mean of a thin image; light of the third comes `through` this radius of the second.
+/// A circle that counts in the mean gas of a thin image. Light of the third image crosses the second at the radius `through`.
 fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
     let radial = &disk.gas.radial;
     let nearer = through.unwrap_or(r);
