@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 use super::methods::Query;
 use crate::spacetime::light::Branch;
 
-/// LensCamera radii, r_s.
+/// Camera radii, r_s.
 pub const CAMERAS: [f64; 2] = [0.05, 5000.0];
 /// Where a third of them lies: around the horizon and the photon sphere.
 const NEAR: [f64; 2] = [0.95, 1.6];

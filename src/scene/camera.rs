@@ -68,7 +68,7 @@ pub enum Mount {
     Planet {
         /// Place in the axes of the planet's dipole, in its radii.
         place: DVec3,
-        /// SceneCamera axes to the dipole's.
+        /// Camera axes to the dipole's.
         view: DQuat,
         /// The planet.
         planet: Planet,

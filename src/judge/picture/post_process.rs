@@ -61,7 +61,7 @@ impl Canvas {
     }
 }
 
-/// Develops linear light of `size` pixels into sRGB, 3 bytes a pixel.
+/// Turns linear light of `size` pixels into sRGB, 3 bytes a pixel.
 pub fn post_process(light: &[[f32; 3]], size: [u32; 2], how: &PostProcess) -> Vec<u8> {
     let size = size.map(|side| side as usize);
     let picture = Canvas { size, light: light.iter().map(|&rgb| Vec3::from(rgb)).collect() };

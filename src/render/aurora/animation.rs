@@ -1,4 +1,4 @@
-//! What the aurora looks like now: the simulation of its curtains, and how many streaks are drawn where.
+//! The aurora of a scene over time: simulates its curtains and decides for each frame how many streaks are drawn where.
 
 use crate::spacetime::Observer;
 use std::sync::Arc;
@@ -30,36 +30,39 @@ use crate::sim::flight::Command;
 use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};
 
-/// NodeHistory that a frame of a watched aurora makes at most: four steps of the motion, of some milliseconds each where an oval has thousands of nodes.
+/// Rows of nodes that a frame of a watched aurora makes at most. A row takes two steps of the motion, of some milliseconds each where an
+/// oval has thousands of nodes.
 const MOST_ROWS: usize = 2;
-/// Seconds after which the rays' noise is the same again: in them it drifts by whole numbers of times its 512 values (ends.wgsl).
+/// Period of the rays' noise, in s. In it the noise drifts by a whole number of times its 512 values (ends.wgsl).
 pub const RAYS_PERIOD: f64 = 102_400.0;
-/// Distance between nodes of the curtains, km, and how many they are together: curls are seven nodes round at least.
+/// Distance between nodes of the curtains, in km: a curl has at least seven nodes round.
 const NODE_SPACING: f64 = 6.0;
 const NODES: [usize; 2] = [1024, 4096];
-/// About how many parts of curtains are drawn at most: of many nodes, several pairs make one.
+/// Parts of curtains that are drawn at most, about. If there are more pairs of nodes, several make one part.
 const MOST_SEGMENTS: usize = 1024;
-/// How much brighter an oval is at magnetic midnight, which is away from the hole and its disk, and fainter at noon.
+/// By which share an oval is brighter at magnetic midnight, the side away from the hole and its disk, and fainter at noon.
 const MIDNIGHT: f64 = 0.5;
 /// Auroras higher than this above the planet's centre are not drawn, in planet radii.
 const REACH: f64 = 1.0 + HEIGHTS[0] / PLANET_RADIUS;
-/// Narrower images of the whole planet show no aurora, pixels: it would be a twentieth of that. Up to twice as wide it fades in.
+/// An image of the whole planet narrower than this, in pixels, shows no aurora: it would be a twentieth of that wide. Up to twice this
+/// width it fades in.
 const LEAST_PIXELS: f64 = 6.0;
-/// Where the whole planet is narrower on the screen, pixels, its ground is not lit: the light beneath a curtain, some 230 km wide, would be a pixel. Up to twice as wide it fades in.
+/// Where the image of the whole planet is narrower than this, in pixels, its ground is not lit: the light beneath a curtain, some 230 km
+/// wide, would be a pixel. Up to twice this width it fades in.
 const GROUND_PIXELS: f64 = 55.0;
-/// Collisions of 35 eV in kR that an erg cm⁻² s⁻¹ pays for: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
+/// Collisions of 35 eV, as kR, per erg cm⁻² s⁻¹: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
 const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
 /// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
 const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
 /// Distance between two streaks over their standard deviation along the curtain, at most; as in streaks.wgsl.
 const SMOOTH: f64 = 1.6;
-/// Streaks of which one is red, and the others of all other lines; as in streaks.wgsl.
+/// One streak in so many is red; the others have all other lines. As in streaks.wgsl.
 const TURN: u32 = 5;
-/// Streaks wider than this, pixels (one standard deviation), cover one another the more: they become fewer as they become wider, always 1.8 to a standard
-/// deviation of the curtain's length, so that what is filled is bounded by the picture's size.
+/// Streaks with a standard deviation above this, in pixels, overlap more and more. They become fewer as they become wider: always 1.8 per
+/// standard deviation of the curtain's length. So the number of pixels that are filled is bounded by the picture's size.
 const WIDE: f64 = 1.2;
-/// Parts per pixel of a streak's length: what they are blurred by is at least half a pixel; and the fewest of a streak.
+/// Parts of a streak per pixel of its length: the blur is at least half a pixel. Below it: the least number of parts.
 const PARTS_PER_PIXEL: f64 = 1.2;
 const LEAST_PARTS: u32 = 2;
 /// Heights that a streak goes through at most, km.
@@ -67,7 +70,8 @@ const LONGEST: f64 = HEIGHTS[0] - HEIGHTS[1];
 /// Room for strokes: more are not drawn in one order.
 pub const MOST_STROKES: usize = 1 << 20;
 
-/// Where no point is wider (pixels, one standard deviation, as if space were flat), none is put into coarser levels of the pyramid; the walk does so from 1.5 on.
+/// If no point is wider than this (one standard deviation in pixels, as if space were flat), only the finest level of the pyramid is used.
+/// The walk uses coarser levels from 1.5 on.
 const NARROW: f64 = 1.0;
 
 /// What a frame shows of the aurora.
@@ -75,11 +79,11 @@ const NARROW: f64 = 1.0;
 pub struct AuroraFrame {
     /// Counts and numbers for the shaders.
     pub settings: AuroraSettings,
-    /// The planet in each order it is seen in, body axes those of the dipole in km.
+    /// The planet in each order in which it is seen. Body axes are those of the dipole, in km.
     pub instances: Vec<Instance>,
-    /// The part of the screen that each may be on: left, upper, right and lower edge as shares of width and height.
+    /// The part of the screen on which each instance may be: left, upper, right and lower edge as shares of width and height.
     pub parts: Vec<[f64; 4]>,
-    /// Whether each is seen through the accretion disk, by its centre.
+    /// Whether each instance is seen through the accretion disk, told by its centre.
     pub behind: Vec<bool>,
     /// CIE XYZ of a kilorayleigh of each line in each of those orders.
     pub colours: Vec<Colours>,
@@ -89,7 +93,7 @@ pub struct AuroraFrame {
     pub rows: NodeHistory,
     /// [`Quantiles`] of the curtains' electrons.
     pub falls: Arc<Vec<f32>>,
-    /// What is lit by them, if any of it is wide enough to show.
+    /// The light of the curtains on the ground, if the planet is wide enough to show it.
     pub ground: Option<GroundFrame>,
 }
 
@@ -103,17 +107,17 @@ pub struct AuroraAnimation {
     falls: Falls,
     plan: Plan,
     motion: Option<Motion>,
-    /// The curtains' history, and when its newest row was (s).
+    /// The history of the curtains' nodes; below, the time of its newest row in s.
     rows: NodeHistory,
     newest: f64,
     /// Their light on the ground, once it has been asked for.
     ground: Option<Ground>,
-    /// Whether it is watched as it goes: then no frame makes more than [`MOST_ROWS`], and what was missed out of sight is not made up for. Else each
-    /// frame is what its time says, whatever came before.
+    /// Whether the aurora runs in real time. If so, no frame makes more than [`MOST_ROWS`] rows, and time out of sight is skipped. Else
+    /// each frame depends on its time alone.
     watched: bool,
-    /// The part of its streaks that it is drawn with.
+    /// The share of its streaks with which it is drawn.
     ration: Ration,
-    /// Of a watched aurora: how far its time (s) is ahead of what the game's clock says.
+    /// For a watched aurora: how far its time, in s, is ahead of the game's clock.
     offset: f64,
     /// The pace before it was changed, until the next frame.
     old_pace: Option<f64>,
@@ -122,7 +126,8 @@ pub struct AuroraAnimation {
 /// The worldline of a planet about T = `time`, as far back as light may come from, with the axes of its model turned by `turn`.
 pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Option<History> {
     let state = |t: f64| planet.state(t).map(|state| ShipState { attitude: state.attitude * turn, ..state });
-    // Attitudes are interpolated between nodes: a fiftieth of a turn is a straight line to 0.2 %. No more than 400 nodes, however far light comes from.
+    // Attitudes are interpolated between nodes; over a fiftieth of a turn linear motion is off by 0.2 %. At most 400 nodes, however far
+    // back light comes from.
     let step = (planet.day / 50.0).min(2.0).max(back / 400.0);
     let first = time - back;
     let mut history = History::new(first, &state(first)?);
@@ -134,7 +139,7 @@ pub fn planet_history(planet: &Planet, time: f64, back: f64, turn: DQuat) -> Opt
 }
 
 impl AuroraAnimation {
-    /// The aurora of a planet, beside an accretion disk between two radii if there is one; None if it has none.
+    /// The aurora of a planet; `disk` has the radii of the accretion disk beside it, if there is one. None if the planet has no aurora.
     pub fn new(planet: &Planet, disk: Option<[f64; 2]>, config: &AuroraConfig) -> Option<AuroraAnimation> {
         if !config.enabled || planet.aurora == AuroraShape::None {
             return None;
@@ -167,13 +172,13 @@ impl AuroraAnimation {
         })
     }
 
-    /// The same, watched as it goes: no frame takes much longer than another.
+    /// The same in real time: no frame takes much longer than another.
     pub fn watched(mut self) -> AuroraAnimation {
         self.watched = true;
         self
     }
 
-    /// Goes on by other numbers. False if they ask for another aurora, or for none: then nothing has changed.
+    /// Takes up other settings and goes on. Returns false, and changes nothing, if they ask for another aurora or for none.
     pub fn change(&mut self, config: &AuroraConfig) -> bool {
         if !config.enabled || config.seed != self.config.seed {
             return false;
@@ -193,13 +198,14 @@ impl AuroraAnimation {
         true
     }
 
-    /// Follows the times (ms) of all passes of an earlier frame: the aurora takes no more than `share` of them, with fewer and wider streaks if need be.
+    /// Takes the times (ms) of all passes of an earlier frame. The aurora is held to `share` of them, if need be by fewer and wider
+    /// streaks.
     pub fn ration(&mut self, passes: &[(&str, f32)]) {
         self.ration.follow(passes, self.config.share);
     }
 
-    /// What the frame at T = `time` shows; None while the aurora is out of sight or too small to see, and then nothing is simulated. `back` is
-    /// how far back light comes from, in r_s/c.
+    /// The aurora in the frame at T = `time`. None while it is out of sight or too small to see; then nothing is simulated. `back` is how
+    /// far back light comes from, in r_s/c.
     pub fn frame(&mut self, view: &View, time: f64, back: f64, orders: u32) -> Option<AuroraFrame> {
         let history = planet_history(&self.planet, time, back, self.planet.dipole())?;
         let scale = self.planet.radius / PLANET_RADIUS;
@@ -227,7 +233,7 @@ impl AuroraAnimation {
             // Light of higher orders comes round the hole: from there even a near planet is far away.
             let near = distance < 2.0 * object.reach && order.number() == 1;
             let width = if near { pixels } else { extent.width };
-            // It comes and goes by degrees.
+            // It fades in and out.
             let part = (width / LEAST_PIXELS - 1.0).min(1.0);
             if part > 0.0 && sight::may_be_seen(view, time, &history, order, object.reach) {
                 let whole = [0.0, 0.0, 1.0, 1.0];
@@ -260,11 +266,11 @@ impl AuroraAnimation {
             Bend { view, time, history: &history, scale, tops: self.falls.tops, heights: self.falls.ends.map(|ends| ends.map(f64::from)) };
         let chords = bend.chords(&segments, |segment, wait| self.rows.middle_of(segment, wait + ahead), &orders, flags);
         let drawn_out = magnification(view, now.position, self.planet.radius);
-        // As if seen from the side; of a planet far away the whole streak is a pixel or two.
+        // As if seen from the side; on a far planet the whole streak is a pixel or two.
         let length = 0.5 * pixels * LONGEST / PLANET_RADIUS * drawn_out;
         let parts = self.config.parts.min(((PARTS_PER_PIXEL * length).ceil() as u32).max(LEAST_PARTS));
         let room = (streaks as usize * parts as usize).min(MOST_STROKES);
-        // As wide as a point may be seen where the aurora is nearest.
+        // The largest width at which a point may be seen, where the aurora is nearest.
         let nearest = distance - object.reach;
         let spread = segments.iter().map(|segment| spread(segment, poles)).fold(0.0, f64::max);
         let widest = self.config.radius.hypot(spread) * scale / (nearest * view.pixel) * drawn_out;
@@ -337,12 +343,12 @@ impl AuroraAnimation {
         self.newest - now
     }
 
-    /// Their light on the ground, where the widest image of the planet has so many pixels; it comes and goes by degrees.
+    /// Their light on the ground, faded by the width in pixels of the widest image of the planet.
     fn ground(&mut self, midnight: DVec2, ahead: f64, pixels: f64) -> Option<GroundFrame> {
         let part = (pixels / GROUND_PIXELS - 1.0).min(1.0);
         let motion = self.motion.as_ref().filter(|_| part > 0.0)?;
         let ground = self.ground.get_or_insert_with(|| Ground::new(&self.plan.curves, motion, self.falls.glow.clone()));
-        // As the lines' colours are made, at rest: the shift of what is lit is that of the surface.
+        // In the unit of the lines' colours at rest; what is lit is shifted like the surface.
         let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1];
         let both = self.planet.aurora == AuroraShape::Oval;
         let kilo = self.config.flux * self.planet.aurora_flux * KILO_COLLISIONS * unit;
@@ -354,12 +360,13 @@ impl AuroraAnimation {
         let scale = self.planet.radius / PLANET_RADIUS;
         let Some(motion) = &self.motion else { return Vec::new() };
         let row = self.rows.ago(0);
-        // In a row each curve has a node more at either end.
+        // In a row each curve has one more node at either end.
         let curves =
             motion.starts().windows(2).enumerate().map(|(curve, window)| [window[0], window[1] - 1].map(|node| node + 2 * curve + 1));
         let both = self.planet.aurora == AuroraShape::Oval;
         let poles = if both { 2.0 } else { 1.0 };
-        // Length on the screen of each pair of nodes, in pixels, as if space were flat, less where strokes are wide; no nearer than the top of the aurora.
+        // Length on the screen of each pair of nodes, in pixels, as if space were flat; less where strokes are wide. Distances below 100
+        // km, the height of the aurora, count as 100 km.
         let mut weights = vec![0.0; row.len()];
         let mut total = 0.0;
         for [first, last] in curves.clone() {
@@ -375,7 +382,7 @@ impl AuroraAnimation {
         let per_pixel = PER_PIXEL * (pixels / FULL_PIXELS).clamp(0.25, 1.0);
         let wanted =
             (per_pixel * total * magnification(view, centre, self.planet.radius)).min(f64::from(self.config.streaks)) * self.ration.part();
-        // On the small, several pairs of nodes make one.
+        // Where few streaks are wanted, several pairs of nodes make one part.
         let least = if both { 2 * TURN } else { TURN };
         let stride =
             ((f64::from(least) * row.len() as f64 / wanted.max(1.0)).ceil() as usize).max(row.len().div_ceil(MOST_SEGMENTS)).clamp(1, 64);
@@ -404,35 +411,36 @@ impl AuroraAnimation {
         segments
     }
 
-    /// The lines' colours, shifted and beamed as what is seen of the planet is where the settings ask for it, and that part of their brightness.
+    /// The colours of the lines in an image of the planet, Doppler shifted and beamed as the settings say, times `part` of their
+    /// brightness.
     fn colours(&self, view: &View, time: f64, history: &History, order: Order, part: f64) -> Colours {
         let even = || Shift::even(frequency_ratio(view, time, history, order).unwrap_or(1.0).clamp(0.2, 5.0));
         let shift = Shift::new(view, time, history, order, self.planet.radius).unwrap_or_else(even);
         Colours::new(&shift, |g| {
             let [shift, beam] = [view.settings.doppler, view.settings.beaming].map(|on| if on { g.clamp(0.2, 5.0) } else { 1.0 });
-            // In the picture, a kilorayleigh of green at rest has the luminance that game.toml gives it. Shifted lines come with g⁴ of power.
+            // A kilorayleigh of green at rest has the luminance that game.toml gives it. Power goes as g⁴.
             let unit = part * self.config.brightness / kilorayleigh_xyz(1.0)[0][1] * (beam / shift).powi(4);
             kilorayleigh_xyz(shift).map(|[x, y, z]| [(x * unit) as f32, (y * unit) as f32, (z * unit) as f32, 0.0])
         })
     }
 }
 
-/// How far (km, a standard deviation) the light of a part's streaks is spread across the curtain, or along it where they stand far apart; the greater, for
-/// the red ones, which stand farthest. As in streaks.wgsl.
+/// Standard deviation, in km, of the light of a part's streaks across the curtain or, where streaks stand far apart, along it: the larger
+/// of the two, for the red streaks, which stand farthest apart. As in streaks.wgsl.
 fn spread(segment: &Segment, poles: u32) -> f64 {
     let [_, width, length, _] = segment.light.map(f64::from);
     let apart = length * f64::from(TURN * poles) / f64::from(segment.range[2].max(1));
     (width / 12f64.sqrt()).max(apart / SMOOTH)
 }
 
-/// Falls of electrons with the energies that the keys ask for.
+/// Light over height of electrons with the energies that the settings ask for.
 #[derive(Clone, Debug)]
 struct Falls {
     /// As the shaders read them.
     table: Arc<Vec<f32>>,
     /// See [`Quantiles::ends`].
     ends: [[f32; 2]; KINDS],
-    /// The height (km) above which one of [`PARTS`] equal parts of each kind's light is made where the curtain is faintest.
+    /// For each kind, the height (km) above which one of [`PARTS`] equal parts of the light is made.
     tops: [f64; KINDS],
     /// What they light the ground with.
     glow: Glow,
@@ -462,7 +470,7 @@ fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
         return 1.0;
     }
     let einstein = (2.0 * behind / (l * (l + behind))).sqrt();
-    // The planet moves while its light comes: its distance from the axis is not known better than a few radii.
+    // The planet moves while its light travels: its distance from the axis is known to a few radii only.
     let off = ((r * r - behind * behind).max(0.0).sqrt() - 4.0 * radius).max(0.5 * radius) / (l + behind);
     let u = off / einstein;
     (u * u + 2.0) / (u * (u * u + 4.0).sqrt())
@@ -483,7 +491,7 @@ fn frequency_ratio(view: &View, time: f64, history: &History, order: Order) -> O
     }
     let (_, gradient) = light_path(camera, emitted.position, order, Branch::Plus)?;
     let moving = velocity(&ShipState::new(camera.position, camera.momentum));
-    // A millionth of the radius: the light path is good to 1e-12 of it.
+    // A millionth of the radius: the light path is exact to 1e-12 of it.
     let h = 1e-6 * camera.radius();
     let path = |s: f64| {
         light_path(&Observer { position: camera.position + moving * s, ..*camera }, emitted.position, order, Branch::Plus)

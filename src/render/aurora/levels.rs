@@ -82,7 +82,7 @@ fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
     let [width, height] = size.map(|side| side as f32 / (1u32 << level) as f32);
     let scale = [width / whole[0], height / whole[1]];
-    // NodeHistory go down and NDC up.
+    // Rows of pixels count downwards, normalised device coordinates upwards.
     let offset = [(width + 2.0 * margin) / whole[0] - 1.0, 1.0 - (height + 2.0 * margin) / whole[1]];
     [scale[0], scale[1], offset[0], offset[1]]
 }

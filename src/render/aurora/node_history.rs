@@ -8,7 +8,7 @@ use crate::render::aurora::Segment;
 use crate::scene::aurora::curve::between_nodes;
 use crate::scene::aurora::motion::Node;
 
-/// NodeHistory that red light waits in; HISTORY_ROWS in shaders/aurora/streaks.wgsl.
+/// Rows of nodes, one each [`ROW`] seconds, over which red light may be delayed; HISTORY_ROWS in shaders/aurora/streaks.wgsl.
 pub const ROWS: usize = 128;
 /// Seconds between two of them.
 pub const ROW: f64 = 1.0;
