@@ -1,4 +1,5 @@
-//! How many chords a streak needs: doubled until the middle of each lies where its light is seen, bent by the hole and late as it may be.
+//! How many chords a streak needs. The number is doubled until the middle of each chord lies where its light is seen, with bending and
+//! delay.
 
 use glam::{DVec2, DVec3};
 
@@ -12,16 +13,17 @@ use crate::spacetime::light::Order;
 /// Fewest and most chords of a streak that is not red.
 const LEAST: usize = 2;
 const MOST: usize = 16;
-/// Parts of the curtains that are looked at in each image: those nearest to the axis through the hole, where light is bent most, and others evenly.
+/// Parts of the curtains that are tested in each image: those nearest to the axis through the hole, where light is bent most, and others
+/// evenly spread.
 const NEAREST: usize = 6;
 const OTHERS: usize = 16;
-/// Looks for the moment at which the light of a streak left: each time what is missing becomes a third or less.
+/// Steps of the search for the emission time of a streak. Each step reduces the error to a third or less.
 const SEARCH: u32 = 4;
-/// What a middle may be off by: so much of the whole length, of which the luminous one is half, or so many pixels. (1 % and half a pixel of that are what the ends
-/// of the light may be off by.)
+/// Largest error of a chord's middle: this share of the whole length, of which the luminous one is half, or this many pixels, whichever is
+/// more. (The ends of the light may be off by 1 % of the luminous length and half a pixel.)
 const OF_LENGTH: f64 = 0.005;
 const PIXELS: f64 = 0.5;
-/// Most ends of chords in all images together: 48 bytes each, of a buffer of 128 MiB.
+/// Most ends of chords in all images together: 48 bytes each, in a buffer of 128 MiB.
 const MOST_ENDS: usize = 2_000_000;
 
 /// What the chords depend on.
@@ -34,15 +36,15 @@ pub struct Bend<'a, 'b> {
     pub history: &'a History,
     /// r_s in a km of the planet.
     pub scale: f64,
-    /// Of green and of red light, the height (km) above which hardly any is made: chords up there may lie as they like.
+    /// For green and for red light, the height (km) above which hardly any is made: chords up there are not tested.
     pub tops: [f64; 2],
     /// The greatest and the least height (km) of green light and of red: [`crate::scene::aurora::quantiles::Quantiles::ends`].
     pub heights: [[f64; 2]; 2],
 }
 
 impl Bend<'_, '_> {
-    /// Chords for streaks of these parts, in images of these orders. `place` is where the middle of a part was so many seconds before (km, in the plane across the
-    /// field), for light waits in a curtain that moves.
+    /// Number of chords for the streaks of these parts, in images of these orders. `place(part, s)` is where the middle of a part was `s`
+    /// seconds before, in km in the plane across the field: light is delayed in a curtain that moves.
     pub fn chords(&self, segments: &[Segment], place: impl Fn(&Segment, f64) -> DVec2, orders: &[Order], flags: u32) -> u32 {
         let streaks: usize = segments.iter().map(|segment| segment.range[2] as usize).sum();
         let ends = |chords: usize| streaks * (2 * chords + 1) * orders.len();
@@ -74,7 +76,7 @@ impl Bend<'_, '_> {
         chords as u32
     }
 
-    /// Whether the middles of so many chords lie where their light is seen. Nothing is known of what is not seen.
+    /// Whether with so many chords every middle lies where its light is seen. Chords that are not seen count as right.
     fn hold(&self, chords: usize, order: Order, began: f64, streak: impl Fn(Line, f64) -> (DVec2, f64)) -> bool {
         [(Line::Green, chords), (Line::Red, 2 * chords)].into_iter().enumerate().all(|(kind, (line, count))| {
             let [high, low] = self.heights[kind];
@@ -107,7 +109,7 @@ impl Bend<'_, '_> {
         })
     }
 
-    /// Where a place of the aurora is at a time, r_s.
+    /// Position at a time of a point of the aurora, in r_s.
     fn place(&self, time: f64, place: DVec2, pole: f64, height: f64) -> DVec3 {
         let sample = self.history.at(time);
         sample.position + sample.attitude * (on_field_line(place, height) * DVec3::new(1.0, 1.0, pole) * self.scale)

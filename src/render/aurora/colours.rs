@@ -1,4 +1,4 @@
-//! The colours of the lines over an image: a few of them by frequency ratio, and where on the screen which of them holds.
+//! The colours of the spectral lines over an image: at some frequency ratios, and which ratio holds where on the screen.
 
 use crate::render::aurora::shift::SHIFTS;
 use bytemuck::{Pod, Zeroable};
@@ -10,16 +10,17 @@ use crate::render::aurora::shift::Shift;
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Colours {
-    /// Of a kilorayleigh of each line at each ratio, the least first: XYZ or linear sRGB.
+    /// Colour of a kilorayleigh of each line at each ratio, the least ratio first: XYZ or linear sRGB.
     pub lines: [[[f32; 4]; 4]; SHIFTS],
-    /// Steps from the least ratio: in the middle of the screen, by its coordinates right and up (−1 to 1).
+    /// The ratio, in steps from the least one: its value in the middle of the screen, and its change per screen coordinate right and up (−1
+    /// to 1).
     pub steps: [f32; 4],
     /// Width and height of a tile in those coordinates; the pass fills them in.
     pub tile: [f32; 4],
 }
 
 impl Colours {
-    /// Of lines whose colours at a ratio are `of` it.
+    /// From the frequency ratios over the image and a function `of` that gives the lines' colours at a ratio.
     pub fn new(shift: &Shift, of: impl Fn(f64) -> [[f32; 4]; 4]) -> Colours {
         let [least, greatest] = shift.range;
         let ratio = |k: usize| least + (greatest - least) * k as f64 / (SHIFTS - 1) as f64;

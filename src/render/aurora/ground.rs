@@ -1,4 +1,5 @@
-//! The aurora's light on its planet's ground, for a frame: maps of the last two rows of the curtains' history, and how the planet's surface reads them.
+//! The aurora's light on the ground of its planet in a frame: maps for the last two rows of the curtains' history, and what the planet's
+//! surface needs to read them.
 
 use std::sync::Arc;
 
@@ -26,31 +27,32 @@ pub struct GroundLight {
     pub planet: [u32; 4],
 }
 
-/// What a frame's surfaces are told of it.
+/// The light on the ground as the shading of surfaces needs it.
 #[derive(Clone, Debug, Default)]
 pub struct GroundFrame {
-    /// Numbers for the shader; the planet's object id is the stage's to write.
+    /// Numbers for the shader; the stage fills in the planet's object id.
     pub light: GroundLight,
     /// Texels along a side of the map.
     pub size: u32,
-    /// The texels, halves: by the newest row of the history, and by the one before.
+    /// The texels in half precision: the light by the newest row of the history, and by the one before.
     pub texels: Arc<Vec<[u16; 2]>>,
 }
 
-/// What a curtain's brightness comes to on the ground, by the tables of its electrons' fall.
+/// How much light a curtain of a given brightness sends to the ground, from the tables of its electrons' light ([`Quantiles`]).
 #[derive(Clone, Debug)]
 pub struct Glow {
-    /// CIE XYZ of the light of a thousand collisions of 35 eV (10⁹ s⁻¹ cm⁻² of them, a kilorayleigh if each made a photon) where the flux is the mean.
+    /// CIE XYZ of the light of 10⁹ collisions of 35 eV per s and cm² (a kilorayleigh, if each made a photon) at the mean energy flux.
     xyz: [f64; 3],
-    /// By row of the tables, luminance over that where the flux is the mean.
+    /// Luminance by row of the tables, over that at the mean energy flux.
     luminance: [f64; ROWS],
-    /// Height that has as much of the green, blue and crimson light above as below it where the flux is the mean, km. Red, which is higher, is taken with them: at the
-    /// default energy it is a hundredth of the luminance, of the softest electrons most of it.
+    /// Height, in km, with as much of the green, blue and crimson light above as below it, at the mean energy flux. Red light, which is
+    /// higher, is treated as if it came from there too: at the default energy it is a hundredth of the luminance, for the softest electrons
+    /// most of it.
     pub height: f64,
 }
 
 impl Glow {
-    /// By the tables of a spectrum of electrons.
+    /// From the tables of a spectrum of electrons.
     pub fn of(falls: &Quantiles) -> Glow {
         let lines = kilorayleigh_xyz(1.0);
         let xyz = |row: usize| -> [f64; 3] {
@@ -70,34 +72,37 @@ impl Glow {
         }
     }
 
-    /// Luminance of a curtain's light over that where the energy flux is the mean: there is more of it, and it is harder.
+    /// Luminance of a curtain's light at so many times the mean energy flux, over that at the mean: with more flux there is more light, and
+    /// electrons are harder.
     fn brightness(&self, flux: f64) -> f64 {
         let row = row_of(flux);
         let below = row as usize;
         flux * (self.luminance[below] + (row - below as f64) * (self.luminance[below + 1] - self.luminance[below]))
     }
 
-    /// The linear colour of so many thousand collisions a cm² and a second, as shaders/aurora/resolve.wgsl has it: what is outside sRGB is cut off.
+    /// The linear sRGB colour of `kilo` thousand collisions a cm² and second. Colours outside sRGB are cut off, as in
+    /// shaders/aurora/resolve.wgsl.
     fn colour(&self, kilo: f64) -> [f64; 3] {
         xyz_to_rgb(self.xyz.map(|x| kilo * x)).map(|x| x.max(0.0))
     }
 }
 
-/// Row of the tables where the energy flux is so many times its mean; the last but one and more for the last. Twin of `fall_at` in shaders/aurora/streaks.wgsl.
+/// Row of the tables, with fraction, at so many times the mean energy flux; less than the last row by a rounding. Twin of `fall_at` in
+/// shaders/aurora/streaks.wgsl.
 fn row_of(flux: f64) -> f64 {
     let [first, last] = FLUXES.map(f64::sqrt);
     let row = (flux.clamp(FLUXES[0], FLUXES[1]).sqrt() - first) / (last - first) * (ROWS - 1) as f64;
     row.min((ROWS - 1) as f64 - 1e-9)
 }
 
-/// How far midnight may turn before a row's map is made anew, as a part of the whole brightness that it adds: some three degrees.
+/// How far midnight may turn before the map of a row is made anew, as a share of the brightness that it adds: about three degrees.
 const TURNED: f64 = 0.03;
 
-/// A row's map.
+/// The map of a row.
 #[derive(Clone, Debug)]
 struct Kept {
     row: Row,
-    /// Midnight as it was then.
+    /// The midnight for which it was made.
     midnight: DVec2,
     light: Arc<Vec<f32>>,
 }
@@ -114,7 +119,7 @@ impl Kept {
 pub struct Ground {
     glow: Glow,
     map: GroundMap,
-    /// Of each node of a row the area (km²) of the curtain that it stands for.
+    /// For each node of a row the area of curtain that it stands for, in km².
     areas: Vec<f64>,
     /// Maps of the newest row and the one before, and both as texels.
     kept: [Option<Kept>; 2],
@@ -122,12 +127,13 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// Of curtains that move about these curves.
+    /// For curtains that move about these curves.
     pub fn new(curves: &[Curve], motion: &Motion, glow: Glow) -> Ground {
         Ground { map: GroundMap::new(curves, glow.height), areas: areas(curves, motion), glow, kept: [None, None], texels: Arc::default() }
     }
 
-    /// The light of the two newest rows; `midnight` points to magnetic midnight, as long as an oval is brighter there. What was made of a row before is kept.
+    /// Makes the maps of the two newest rows, unless they are there already. `midnight` points to magnetic midnight; its length is by how
+    /// much an oval is brighter there.
     fn follow(&mut self, rows: &NodeHistory, midnight: DVec2) {
         let wanted = [0, 1].map(|ago| rows.row(ago));
         let [Some(newest), Some(before)] = wanted else { return };
@@ -156,8 +162,9 @@ impl Ground {
         }))
     }
 
-    /// What a frame is told: `ahead` is the part of the time between the rows by which the newest is ahead of what is seen, `kilo` the thousands of collisions a cm² and a
-    /// second in a curtain, times what a unit of luminance is in the picture. `dipole` turns the dipole's axes into the model's.
+    /// The light for a frame. `ahead` is how far the newest row is ahead of the time that is seen, as a share of the time between rows.
+    /// `kilo` is the thousands of collisions a cm² and second in a curtain, times the value of a unit of luminance in the picture. `dipole`
+    /// turns the dipole's axes into the model's. `both`: at both poles.
     pub fn frame(&mut self, rows: &NodeHistory, ahead: f64, midnight: DVec2, kilo: f64, dipole: DQuat, both: bool) -> GroundFrame {
         self.follow(rows, midnight);
         let (corner, side) = self.map.square();
@@ -177,8 +184,8 @@ impl Ground {
     }
 }
 
-/// Of each node of a row, as it is drawn, the area (km²) of the curtain that it stands for: its share of the length at rest, half as much at the ends. What a row has beyond
-/// the ends of a curve stands for none.
+/// For each node of a row the area of curtain that it stands for, in km²: its share of the length at rest, half as much at the ends of a
+/// curve. The extra nodes beyond the ends stand for none.
 fn areas(curves: &[Curve], motion: &Motion) -> Vec<f64> {
     let mut areas = Vec::new();
     for ((window, curve), length) in motion.starts().windows(2).zip(curves).zip(motion.lengths()) {

@@ -1,8 +1,9 @@
-//! The pyramid of pictures in which the aurora's light is added up. A wide stroke goes to the level where it is three quarters to one and a half pixels narrow; each level
-//! is enlarged into the next finer one before the strokes of that one are added. Levels but the finest have a texel of margin on each side, so that
-//! enlarging reads no texel outside.
+//! The pyramid of pictures in which the aurora's light is added up. A wide stroke goes to the level where its standard deviation is 0.75 to
+//! 1.5 pixels. Each level is enlarged into the next finer one before the strokes of that one are added. All levels but the finest have a
+//! margin of one texel on each side, so that enlarging reads no texel outside.
 //!
-//! Coarse levels know no depth: only strokes that are before everything in their box go there (shaders/aurora/walk.wgsl), by [`Ranges`].
+//! Coarse levels have no depth test. Only strokes in front of everything in their box go there (shaders/aurora/walk.wgsl); [`Ranges`] tells
+//! that.
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -17,8 +18,9 @@ pub const PYRAMID: u32 = 7;
 /// Texels around each level but the finest.
 const MARGIN: u32 = 1;
 
-/// In what light is added up: full floats where the adapter blends and filters them. Halves have 11 bits; thousands of faint strokes in one of them are rounded one by one, in
-/// the order in which threads appended them, so that the same frame drawn again wavers by some per cent.
+/// The format in which light is added up: 32-bit floats where the adapter can blend and filter them. With 16-bit floats (11 bits) thousands
+/// of faint strokes are rounded one by one, in the order in which threads appended them, so that the same frame drawn again varies by some
+/// per cent.
 pub fn light_format(device: &wgpu::Device) -> wgpu::TextureFormat {
     let full = device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE);
     if full { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
@@ -31,7 +33,7 @@ pub struct Levels {
     pub size: [u32; 2],
     /// The light of each, the finest first.
     pub lights: Vec<wgpu::TextureView>,
-    /// What is enlarged where there is no coarser level: black.
+    /// A black texture that is enlarged where there is no coarser level.
     pub nothing: wgpu::TextureView,
     /// `Level` of draw.wgsl.
     pub places: Vec<wgpu::Buffer>,
@@ -63,20 +65,20 @@ impl Levels {
         Levels { size, lights: lights.collect(), nothing: target(device, "aurora nothing", [1, 1], format).1, places: places.collect() }
     }
 
-    /// The pixels of a level that pixels of the screen (left, top, width, height) lie in, and those beside them.
+    /// The pixels of a level that cover the given pixels of the screen (left, top, width, height), with a margin.
     pub fn part(&self, [left, top, width, height]: [u32; 4], level: u32) -> [u32; 4] {
         if level == 0 {
             return [left, top, width, height];
         }
         let size = whole(self.size, level);
-        // Two to each side: enlarging asks for one, and what it asks for has been enlarged itself.
+        // Two to each side: enlarging reads one, and that one has been enlarged itself.
         let low = [left, top].map(|edge| ((edge >> level) + MARGIN).saturating_sub(2));
         let high = [left + width, top + height].map(|edge| (edge >> level) + MARGIN + 3);
         [low[0], low[1], high[0].min(size[0]) - low[0], high[1].min(size[1]) - low[1]]
     }
 }
 
-/// From NDC of the screen to those of a level with its margin: factors and sums.
+/// From normalised device coordinates of the screen to those of a level with its margin: factors and sums.
 fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     let whole = whole(size, level).map(|side| side as f32);
     let margin = if level == 0 { 0.0 } else { MARGIN as f32 };
@@ -87,7 +89,7 @@ fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     [scale[0], scale[1], offset[0], offset[1]]
 }
 
-/// Sizes of the depth tiles, whose least and greatest depths are known, from 8 × 8 pixels on; as in walk.wgsl.
+/// Number of sizes of depth tiles, for which the least and greatest depth are known; below it the least size, in pixels. As in walk.wgsl.
 const DEPTH_TILES: u32 = 6;
 const LEAST_DEPTH_TILE: u32 = 8;
 
@@ -98,7 +100,7 @@ pub struct Ranges {
     next: wgpu::RenderPipeline,
     layout: wgpu::BindGroupLayout,
     nearest: wgpu::Sampler,
-    /// The depth that the rest is for.
+    /// The depth texture for which the rest was made.
     depth: Option<wgpu::TextureView>,
     all: wgpu::TextureView,
     steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
@@ -118,7 +120,7 @@ impl Ranges {
         Ranges { first: draw("first"), next: draw("next"), layout, nearest, depth: None, all, steps: Vec::new() }
     }
 
-    /// Of this depth of a screen of a size. True if the texture was replaced.
+    /// Takes the depth texture of a screen of a size. True if the texture of ranges was replaced.
     pub fn prepare(&mut self, device: &wgpu::Device, depth: &wgpu::TextureView, size: [u32; 2]) -> bool {
         if self.depth.as_ref() == Some(depth) {
             return false;
@@ -148,7 +150,7 @@ impl Ranges {
         &self.all
     }
 
-    /// Finds them, after all that has depth has been drawn. `frame` is the group of the frame.
+    /// Finds the ranges, after everything with depth has been drawn. `frame` is the bind group of the frame.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
         for (step, (view, group)) in self.steps.iter().enumerate() {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -172,7 +174,7 @@ impl Ranges {
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg32Float;
 
-/// Ranges of a screen of a size, for all sizes of depth tiles; a whole number of the widest.
+/// The texture of ranges for a screen of a size, one mip level per size of depth tiles; its sides are whole numbers of the largest tiles.
 fn texture(device: &wgpu::Device, size: [u32; 2]) -> wgpu::Texture {
     let [width, height] = size.map(|side| side.next_multiple_of(LEAST_DEPTH_TILE << (DEPTH_TILES - 1)) / LEAST_DEPTH_TILE);
     device.create_texture(&wgpu::TextureDescriptor {

@@ -1,5 +1,5 @@
-//! The aurora: its light on the GPU. Chord ends go through the lensing lookup, the rest is a walk on the screen (Sekiguchi et al.), strokes are added up
-//! line by line, and the spectrum becomes a colour at the end.
+//! The aurora on the GPU. The ends of chords go through the lensing lookup; between them streaks are walked on the screen (Sekiguchi et
+//! al.). Strokes are added up per spectral line, and the lines become a colour at the end.
 //!
 //! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
 //! experiment of Sekiguchi et al. for the chart.

@@ -16,10 +16,10 @@ pub const ROW: f64 = 1.0;
 /// Nodes of all curtains at one time, as the shaders read them.
 pub type Row = Arc<Vec<[f32; 4]>>;
 
-/// The rows of a history. One that is cloned has the same rows.
+/// The rows of a history. A clone shares them.
 #[derive(Clone, Debug, Default)]
 pub struct NodeHistory {
-    /// By slot: from the newest on each is older than the one before, round the ring.
+    /// By slot. From the newest on, each row is older than the one before, round the ring.
     slots: Vec<Row>,
     newest: usize,
 }
@@ -30,7 +30,7 @@ impl NodeHistory {
         NodeHistory { slots: vec![row(nodes); ROWS], newest: 0 }
     }
 
-    /// Another row, in place of the oldest.
+    /// Adds a row in place of the oldest.
     pub fn push(&mut self, nodes: impl Iterator<Item = Node>) {
         self.newest = (self.newest + ROWS - 1) % ROWS;
         if let Some(slot) = self.slots.get_mut(self.newest) {
@@ -58,21 +58,21 @@ impl NodeHistory {
         self.slots.get((self.newest + rows) % ROWS).map_or(&[], |row| row)
     }
 
-    /// Slots whose rows are others than in an earlier history.
+    /// Slots with another row than in an earlier history.
     pub fn changed<'a>(&'a self, before: &'a NodeHistory) -> impl Iterator<Item = (usize, &'a Row)> {
         let same = |&(slot, row): &(usize, &Row)| before.slots.get(slot).is_some_and(|old| Arc::ptr_eq(old, row));
         self.slots.iter().enumerate().filter(move |row| !same(row))
     }
 
-    /// Where a node was `age` seconds before the newest row, km in the plane across the field; before the oldest it stays there. Twin: `node_at` in
-    /// shaders/aurora/streaks.wgsl.
+    /// Where a node was `age` seconds before the newest row, in km in the plane across the field; before the oldest row it rests. Twin of
+    /// `node_at` in shaders/aurora/streaks.wgsl.
     pub fn node_at(&self, node: usize, age: f64) -> DVec2 {
         let x = (age / ROW).clamp(0.0, (ROWS - 1) as f64);
         let row = (x as usize).min(ROWS - 2);
         place(self.ago(row), node).lerp(place(self.ago(row + 1), node), x - row as f64)
     }
 
-    /// The place amid a part of a curtain so many seconds before the newest row; twin of `middle_of` in shaders/aurora/streaks.wgsl.
+    /// The middle of a part of a curtain `age` seconds before the newest row; twin of `middle_of` in shaders/aurora/streaks.wgsl.
     pub fn middle_of(&self, segment: &Segment, age: f64) -> DVec2 {
         let [_, first, _, span] = segment.range.map(|number| number as usize);
         let node = first + (span - 1) / 2;

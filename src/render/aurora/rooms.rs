@@ -1,12 +1,13 @@
-//! Where the strokes of an image are kept until they are drawn: by pairs of levels of the pyramid, which share a room. One of a pair fills it from the
-//! beginning and the other from the end, so that it does not matter which of them strokes go to. Coarser pairs have half as much room each.
+//! Where the strokes of an image are stored until they are drawn. Two levels of the pyramid share a room: one fills it from the beginning,
+//! the other from the end, so the split between them need not be known. The next coarser pair has half as much room.
 
 use crate::render::aurora::levels::PYRAMID;
 
-/// Lit tiles, which the screen is divided into, columns and rows: the passes that go over whole pictures leave out those without light. As in lit_tiles.wgsl.
+/// Columns and rows of lit tiles, into which the screen is divided. Passes over whole pictures leave out tiles without light. As in
+/// lit_tiles.wgsl.
 pub const LIT_TILES: [u32; 2] = [32, 16];
-/// Fours of numbers of one image: draw arguments of each level, strokes in each pair of levels, and a bit for each lit tile whether light may be there, first from the
-/// finest level and then from coarser ones.
+/// Vectors of four numbers per image: draw arguments of each level, strokes in each pair of levels, and one bit per lit tile that tells
+/// whether light may be there, first for the finest level and then for coarser ones.
 pub const FOURS: usize = PYRAMID as usize + 1 + 2 * LIT_TILES[1] as usize / 4;
 /// Bytes of them.
 pub const DRAWS_BYTES: u64 = 16 * FOURS as u64;
@@ -24,7 +25,7 @@ pub struct Rooms {
 }
 
 impl Rooms {
-    /// Strokes before the room of a pair of levels of an image: those of all finer pairs.
+    /// Number of strokes in front of the room of a pair of levels: the rooms of all finer pairs.
     fn before(&self, pair: u32) -> u64 {
         2 * self.finest - ((2 * self.finest) >> pair)
     }
@@ -34,7 +35,7 @@ impl Rooms {
         self.before(self.levels.div_ceil(2))
     }
 
-    /// The numbers of some images when there are no strokes as yet.
+    /// These numbers for `images` images without any stroke.
     pub fn empty(&self, images: u32) -> Vec<[u32; 4]> {
         let image = |image: u32| {
             let level = move |level: u32| {

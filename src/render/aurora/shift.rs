@@ -1,4 +1,5 @@
-//! How the lines of one image of the planet are shifted: its rotation makes one side come nearer and the other go away, which on the screen is linear.
+//! The frequency ratio over one image of the planet. The planet rotates: one side comes nearer, the other recedes, so the ratio is nearly
+//! linear over the screen.
 
 use crate::spacetime::Observer;
 use glam::{DMat3, DVec2, DVec3, Vec3Swizzles};
@@ -9,31 +10,32 @@ use crate::sim::history::Sample;
 use crate::spacetime::light::{self, Branch, Order};
 use crate::spacetime::matter::{gamma, momentum_of};
 
-/// Frequency ratios that colours are given at: over the 8 % between the sides of a planet that turns once in 40 r_s/c, straight lines between them are off by
-/// less than a thousandth of green's brightness, and over twice as much, from 0.88 to 1.05, by a quarter of a hundredth. The colour of violet bands,
-/// which come into sight there, changes fastest.
+/// Number of frequency ratios at which colours are given. Over the 8 % between the sides of a planet with a day of 40 r_s/c, linear
+/// interpolation is off by less than a thousandth of green's brightness; over twice as much, from 0.88 to 1.05, by 0.25 %. The violet
+/// bands, which become visible there, change colour fastest.
 pub const SHIFTS: usize = 16;
 
-/// Height of the places that are looked at, in planet radii: 130 km over the Earth.
+/// Distance from the centre of the points that are evaluated, in planet radii: 130 km over the Earth.
 const HEIGHT: f64 = 1.02;
-/// Nearer to the planet's centre than this, in its radii, the camera sees a part of it, and places are looked for by the screen.
+/// If the camera is nearer to the planet's centre than this, in planet radii, it sees only a part of it, and points are chosen on a grid of
+/// the screen.
 const NEAR: f64 = 4.0;
-/// Looks for the moment at which the light of a place left.
+/// Steps of the search for the emission time of a point.
 const SEARCH: u32 = 4;
-/// Where on the screen, of which the edges are 1.
+/// Screen coordinates of that grid, from −1 to 1.
 const ACROSS: [f64; 4] = [-0.9, -0.3, 0.3, 0.9];
-/// Coordinates of the corners of an icosahedron: 0, short and long, and turned round.
+/// Coordinates of the corners of an icosahedron: (0, ±short, ±long) and cyclic permutations.
 const SHORT: f64 = 0.525_731_112_119_133_6;
 const LONG: f64 = 0.850_650_808_352_039_9;
 
-/// ν_observed/ν_emitted over an image, as it goes on the screen.
+/// ν_observed/ν_emitted over an image, as a linear function of screen coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shift {
     /// In the middle of the screen.
     pub middle: f64,
     /// By the coordinates of the screen, each from −1 to 1, right and up.
     pub slope: DVec2,
-    /// The least and the greatest that was found anywhere.
+    /// The least and the greatest ratio that was found at any point.
     pub range: [f64; 2],
 }
 
@@ -43,8 +45,8 @@ impl Shift {
         Shift { middle: g, slope: DVec2::ZERO, range: [g, g] }
     }
 
-    /// Of the image of `order` of a planet of that radius (r_s) with this history, by places all over what is seen of it. None where too little is.
-    /// Where neither colours nor brightness go by it, it is 1 everywhere and not looked for.
+    /// For the image of `order` of a planet with this radius (r_s) and history, fitted to points all over its visible part. None if too few
+    /// are seen. If neither colour nor brightness depend on the ratio, it is 1 everywhere.
     pub fn new(view: &View, time: f64, history: &History, order: Order, radius: f64) -> Option<Shift> {
         if !view.settings.doppler && !view.settings.beaming {
             return Some(Shift::even(1.0));
@@ -61,7 +63,8 @@ impl Shift {
         let seen: Vec<(DVec2, f64)> = places
             .iter()
             .filter_map(|place| {
-                // Where it was when its own light left: each time what is missing becomes a third or less, the part of c at which the planet moves.
+                // The position at the emission time of its own light. Each step reduces the error to the planet's speed over c, a third or
+                // less.
                 let mut emission = began;
                 for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
                     emission = time - Ends::new(view.camera, moving(history, emission, *place * (HEIGHT * radius)).0, order)?.delay;
@@ -83,7 +86,7 @@ impl Shift {
         (self.middle + self.slope.dot(place)).clamp(self.range[0], self.range[1])
     }
 
-    /// What is `SHIFTS` − 1 steps from the least ratio to the greatest: at the middle, by right and by up.
+    /// The ratio in steps, of which `SHIFTS` − 1 lead from the least to the greatest: in the middle, and its change right and up.
     pub(super) fn steps(&self) -> [f64; 3] {
         let step = (self.range[1] - self.range[0]) / (SHIFTS - 1) as f64;
         if step > 0.0 { [self.middle - self.range[0], self.slope.x, self.slope.y].map(|value| value / step) } else { [0.0; 3] }
@@ -94,7 +97,7 @@ impl Shift {
 struct Ends {
     /// Direction in which it is seen, a unit vector.
     look: DVec3,
-    /// Momentum of the photon at the camera and at the place, in one unit.
+    /// Momentum of the photon at the camera and at the point, in the same unit.
     arriving: DVec3,
     leaving: DVec3,
     /// In r_s/c.
@@ -118,25 +121,26 @@ impl Ends {
         Some(Ends { look, arriving: look * -here[0].hypot(here[1]), leaving: m * there[0] + onward * there[1], delay: ray.delay })
     }
 
-    /// ν_observed/ν_emitted for what goes through `position` with that dx/dT.
+    /// ν_observed/ν_emitted for an emitter at `position` with `velocity` dx/dT.
     fn ratio(&self, camera: &Observer, position: DVec3, velocity: DVec3) -> Option<f64> {
-        // Energy of a photon against what has that momentum, per its own.
+        // Frequency of a photon for an observer of momentum `p` per mass.
         let frequency = |p: DVec3, photon: DVec3| gamma(p) * photon.length() - p.dot(photon);
         let ratio = frequency(camera.momentum, self.arriving) / frequency(momentum_of(position, velocity)?, self.leaving);
         (ratio.is_finite() && ratio > 0.0).then_some(ratio)
     }
 }
 
-/// Where a place of the body (body axes, from its centre) is at T and how it moves, r_s and c. That it is contracted changes its place by a hundredth.
+/// Position and velocity at T of a point of the body (body axes, from its centre), in r_s and c. Lorentz contraction, which moves it by a
+/// hundredth, is left out.
 fn moving(history: &History, time: f64, place: DVec3) -> (DVec3, DVec3) {
-    /// Over so much time the turning is a straight line, r_s/c.
+    /// Over this time, in r_s/c, the rotation is linear.
     const STEP: f64 = 0.02;
     let now = history.at(time);
     let turning = [STEP, -STEP].map(|step| history.at(time + step).attitude * place);
     (now.position + now.attitude * place, now.velocity + (turning[0] - turning[1]) / (2.0 * STEP))
 }
 
-/// Coordinates on the screen, from −1 to 1, right and up, of a direction in rain axes; None behind the camera.
+/// Screen coordinates, from −1 to 1, right and up, of a direction in rain axes; None behind the camera.
 fn on_screen(camera: &Observer, look: DVec3, aspect: f64) -> Option<DVec2> {
     let seen = camera.seen_direction(look);
     let wide = (0.5 * camera.field_of_view).tan();
@@ -149,7 +153,8 @@ fn icosahedron() -> Vec<DVec3> {
     signs.iter().flat_map(|&sign| [corner(sign), corner(sign).zxy(), corner(sign).yzx()]).collect()
 }
 
-/// Directions from the planet's centre (body axes) to the places at [`HEIGHT`] that are seen at points of the screen, as if light went straight: from near it does.
+/// Directions from the planet's centre (body axes) to the points at [`HEIGHT`] that are seen at the grid of the screen, along straight
+/// light: from near it is straight enough.
 fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<DVec3> {
     let wide = (0.5 * camera.field_of_view).tan();
     let from = camera.position - planet.position;
@@ -169,7 +174,7 @@ fn on_grid(camera: &Observer, aspect: f64, planet: &Sample, radius: f64) -> Vec<
     points.filter_map(place).collect()
 }
 
-/// The plane through ratios at places on the screen, by least squares.
+/// The linear function that fits the ratios at points on the screen best, by least squares.
 fn fitted(seen: &[(DVec2, f64)]) -> Option<Shift> {
     let count = seen.len() as f64;
     let mean = seen.iter().map(|(_, ratio)| ratio).sum::<f64>() / count;
@@ -185,7 +190,7 @@ fn fitted(seen: &[(DVec2, f64)]) -> Option<Shift> {
         square += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
         right += row * *ratio;
     }
-    // Places on one line, or next to one another: of the plane nothing is known but its height.
+    // If the points lie on one line or close together, only the mean is known.
     let scale = square.y_axis.y.max(square.z_axis.z).max(1e-300);
     let flat = seen.len() < 3 || square.determinant() < 1e-9 * count * scale * scale;
     let plane = if flat { DVec3::new(mean, 0.0, 0.0) } else { square.inverse() * right };

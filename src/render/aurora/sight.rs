@@ -1,4 +1,5 @@
-//! Whether an image of a planet's aurora may be on the screen: a cone about the image of the planet's middle that holds those of places all over the aurora's upper end.
+//! Whether an image of a planet's aurora may be on the screen. The aurora's upper end is a ball round the planet; a cone about the image of
+//! the ball's middle is made that holds the images of points all over the ball.
 
 use std::f64::consts::TAU;
 
@@ -9,24 +10,27 @@ use crate::render::instances::{View, departure};
 use crate::sim::History;
 use crate::spacetime::light::Order;
 
-/// Places that are looked at. Spread evenly, none of the ball's surface is farther than a sixth of a radian from one of them.
+/// Number of points that are evaluated. Evenly spread, they leave no part of the ball's surface farther than a sixth of a radian from one
+/// of them.
 const PLACES: u32 = 256;
-/// Nearer to the middle than this, in radii of the ball, the camera is amid the aurora, or so near that the ball fills half of what there is to see.
+/// If the camera is nearer to the middle than this, in radii of the ball, it is inside the aurora, or so near that the ball fills half of
+/// its view.
 const AMID: f64 = 1.1;
-/// Part by which the cone is wider than what holds those places: the outline of a ball 1.1 radii away lies between them by 5 % of its angular radius, of one far
-/// away by 1.4 % (1 − cos ⅙); twice as much.
+/// Share by which the cone is widened beyond those points. Between them the outline of a ball 1.1 radii away extends by up to 5 % of its
+/// angular radius, of a far one by 1.4 % (1 − cos ⅙). This is twice as much.
 const BETWEEN: f64 = 0.1;
-/// Added to it, radians in the camera's axes: the lookup's error and the width of strokes, some pixels.
+/// Added to the cone, in radians in the camera's frame: the lookup's error and the width of strokes, some pixels.
 const EDGE: f64 = 0.02;
-/// Radii of the ball from the axis through the hole within which an image may go all round it: as it moves by a seventh of what light needs for the ball's
-/// radius, 1.15 would do.
+/// If the ball's middle is nearer to the axis through the hole than this, in radii of the ball, its image may be a whole ring. The planet
+/// moves by a seventh of the radius while light crosses that radius, so 1.15 would be enough.
 const ROUND: f64 = 1.3;
-/// Nearer to the hole than this, in radii of the ball, its images are taken to be anywhere.
+/// If the ball is nearer to the hole than this, in its radii, its images may be anywhere.
 const DEEP: f64 = 3.0;
-/// Looks for the moment at which the light of a place left: each time what is missing becomes a third or less, the part of c at which a planet moves.
+/// Steps of the search for the emission time of a point. Each reduces the error to the planet's speed over c, a third or less.
 const SEARCH: u32 = 5;
 
-/// Whether any of the image of `order` of a ball of radius `reach` (r_s) about what has this history may be on the screen at T = `time`. Errs towards yes.
+/// Whether any part of the image of `order` of a ball may be on the screen at T = `time`. The ball has the radius `reach` (r_s) and moves
+/// with `history`. In doubt the answer is yes.
 pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reach: f64) -> bool {
     let Some((aspect, began)) = view.aspect.zip(departure(view, time, history, order)) else { return true };
     let camera = view.camera;
@@ -37,7 +41,7 @@ pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reac
     }
     let n = camera.position.normalize();
     let off_axis = (middle - n * middle.dot(n)).length();
-    // Before the camera the primary image is a plain one.
+    // In front of the hole the primary image is no ring.
     let is_round = view.settings.method.bends() && off_axis < ROUND * reach && (order.number() > 1 || middle.dot(n) < 0.0);
     let about = if is_round { Some(-n) } else { view.look(middle, order, time - began).map(|(look, _)| look) };
     let Some(about) = about.map(|look| camera.seen_direction(look)) else { return true };
@@ -57,7 +61,7 @@ pub fn may_be_seen(view: &View, time: f64, history: &History, order: Order, reac
         Some(camera.seen_direction(seen?).angle_between(about))
     };
     let widest = places().map(|place| angle(place * reach)).try_fold(0.0, |widest, angle| angle.map(|angle| f64::max(widest, angle)));
-    // Where part of it is not seen, its image ends anywhere.
+    // If a part of the ball is not seen, nothing is known of where its image ends.
     widest.is_none_or(|widest| cone_may_be_seen(camera, about, widest * (1.0 + BETWEEN) + EDGE, aspect))
 }
 

@@ -1,11 +1,12 @@
-//! Which images of a planet are seen through the accretion disk: those are added before the disk is laid over the picture, and dimmed by it.
+//! Which images of a planet are seen through the accretion disk. They are added to the picture before the disk is laid over it, so the disk
+//! dims them.
 
 use crate::spacetime::Observer;
 use glam::DVec3;
 
 use crate::spacetime::light::{self, Branch, Order};
 
-/// Steps of the integration, radians: the radius where light crosses the plane is good to a millionth.
+/// Steps of the integration, in radians: the radius at which light crosses the plane is right to a millionth.
 const STEP: f64 = 0.02;
 
 /// Radii, in r_s, at which light from `position` crosses the plane z = 0 on its way to the camera; `bends` is false in flat space.
@@ -44,7 +45,7 @@ pub fn crossings(camera: &Observer, position: DVec3, order: Order, bends: bool) 
     found
 }
 
-/// Whether the disk between two radii is before the place as it is seen in this order.
+/// Whether the disk between two radii is in front of the position as seen in this order.
 pub fn is_behind(camera: &Observer, position: DVec3, order: Order, bends: bool, [inner, outer]: [f64; 2]) -> bool {
     crossings(camera, position, order, bends).into_iter().any(|radius| (inner..outer).contains(&radius))
 }
