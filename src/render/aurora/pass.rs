@@ -19,19 +19,19 @@ use crate::render::gpu::types::Instance;
 use crate::render::method::Method;
 use crate::scene::blackbody::xyz_to_rgb;
 
-/// Image orders that may show it.
+/// Image orders in which an aurora may be drawn.
 const ORDERS: usize = 3;
 /// Bytes of `ChordEnd`, `Reference` and `Stroke` in WGSL.
 const CHORD_END_BYTES: u64 = 48;
 const REFERENCE_BYTES: u64 = 64;
 const STROKE_BYTES: u64 = 40;
 
-/// Ends at which a part of a curtain is projected, as in streaks.wgsl.
+/// Number of heights at which the middle of a part of a curtain is projected, for streaks of so many chords. As in streaks.wgsl.
 fn reference_room(chords: u32) -> u32 {
     3 * chords + 2
 }
 
-/// Room for the ends of a streak's chords, as in streaks.wgsl: red ones have twice as many.
+/// Room for the ends of a streak's chords; red streaks have twice as many chords. As in streaks.wgsl.
 fn chord_room(chords: u32) -> u32 {
     2 * chords + 1
 }
@@ -43,12 +43,12 @@ pub struct Aurora {
     ends: wgpu::ComputePipeline,
     walk: wgpu::ComputePipeline,
     ranges: Ranges,
-    /// Into the finest level, tested by depth, and into the others.
+    /// Draws strokes into the finest level, with depth test, and into the others.
     draw: [wgpu::RenderPipeline; 2],
     spread: wgpu::RenderPipeline,
-    /// Of the tiles of the finest level that have light.
+    /// Clears the tiles of the finest level that get light.
     wipe: wgpu::RenderPipeline,
-    /// By where a tile has light: in the finest level alone, in coarser ones alone, in both.
+    /// Three pipelines, for tiles with light in the finest level alone, in coarser ones alone, in both.
     resolve: [wgpu::RenderPipeline; 3],
     linear: wgpu::Sampler,
     walk_layout: wgpu::BindGroupLayout,
@@ -68,15 +68,15 @@ pub struct Aurora {
     colours: [wgpu::Buffer; ORDERS],
     levels: Option<Levels>,
     groups: Option<Groups>,
-    /// Of the prepared frame: pixels that each image may be on (left, top, width, height), and whether it is behind the disk.
+    /// For each image of the prepared frame: the pixels on which it may be (left, top, width, height), and whether it is behind the disk.
     images: Vec<([u32; 4], bool)>,
-    /// Of the prepared frame: streaks, chords of a streak, orders; nothing is drawn where there are none.
+    /// In the prepared frame: streaks, chords of a streak, image orders. Zero orders: nothing is drawn.
     drawn: [u32; 3],
-    /// Places that are projected in each order.
+    /// Points that are projected in each order.
     projected: u32,
-    /// Of the prepared frame.
+    /// The rooms of the prepared frame.
     rooms: Rooms,
-    /// What is on the GPU.
+    /// The rows and the table that are on the GPU.
     uploaded_rows: NodeHistory,
     uploaded_falls: Option<Arc<Vec<f32>>>,
 }
@@ -84,11 +84,11 @@ pub struct Aurora {
 #[derive(Debug)]
 struct Groups {
     walk: wgpu::BindGroup,
-    /// By level.
+    /// One group per level.
     draw: Vec<wgpu::BindGroup>,
     /// Of the next coarser level into each but the finest.
     spread: Vec<wgpu::BindGroup>,
-    /// Colours and tiles, by image.
+    /// Colours and tiles, one group per image.
     tiles: Vec<wgpu::BindGroup>,
     resolve: wgpu::BindGroup,
 }
@@ -277,29 +277,29 @@ impl Aurora {
         })
     }
 
-    /// How many images of it the prepared frame has.
+    /// Number of images of the aurora in the prepared frame.
     pub fn images(&self) -> u32 {
         self.drawn[2]
     }
 
-    /// Those of them that are behind the disk, or the others.
+    /// The images that are behind the disk, or the others.
     pub fn images_behind(&self, behind: bool) -> Vec<u32> {
         let all = 0..self.images();
         all.zip(&self.images).filter(|(_, (_, is_behind))| *is_behind == behind).map(|(image, _)| image).collect()
     }
 
-    /// Places amid the parts of curtains, through the lookup.
+    /// Projects the middles of the parts of curtains through the lensing lookup.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
         self.compute(pass, &self.project, self.projected.div_ceil(64), self.drawn[2]);
     }
 
-    /// From there to the ends of the chords.
+    /// Finds the ends of the chords from them.
     pub fn ends(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, chords, orders] = self.drawn;
         self.compute(pass, &self.ends, (streaks * chord_room(chords)).div_ceil(64), orders);
     }
 
-    /// From chords to strokes.
+    /// Walks along the chords and makes strokes.
     pub fn walk(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, _, orders] = self.drawn;
         self.compute(pass, &self.walk, streaks.div_ceil(64), orders);
@@ -312,12 +312,12 @@ impl Aurora {
         pass.dispatch_workgroups(groups, orders, 1);
     }
 
-    /// The depths by tiles, which the walk asks for, once all that has depth has been drawn.
+    /// Finds the range of depths per tile, which the walk needs, once everything with depth has been drawn.
     pub fn ranges(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
         self.ranges.encode(encoder, timing, frame);
     }
 
-    /// The textures in which light is added up, the coarsest first, and whether each is tested by depth.
+    /// The textures in which light is added up, the coarsest first, with their levels.
     pub fn levels(&self) -> impl Iterator<Item = (u32, &wgpu::TextureView)> {
         let lights = self.levels.iter().flat_map(|levels| &levels.lights);
         (0..).zip(lights.take(self.rooms.levels as usize)).collect::<Vec<_>>().into_iter().rev()
@@ -327,7 +327,7 @@ impl Aurora {
     pub fn draw(&self, pass: &mut wgpu::RenderPass, image: u32, level: u32) {
         let Some((bound, levels)) = self.groups.as_ref().zip(self.levels.as_ref()) else { return };
         self.within(pass, image, |part| levels.part(part, level));
-        // The coarsest has nothing to take over.
+        // The coarsest level has no coarser one to enlarge.
         if level > 0 && level + 1 < self.rooms.levels {
             pass.set_pipeline(&self.spread);
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
@@ -344,7 +344,7 @@ impl Aurora {
         pass.draw_indirect(&self.draws, DRAWS_BYTES * u64::from(image) + 16 * u64::from(level));
     }
 
-    /// Adds the colour of what was added up to the picture.
+    /// Adds the colour of the light that was added up to the picture.
     pub fn resolve(&self, pass: &mut wgpu::RenderPass, image: u32) {
         let Some(bound) = &self.groups else { return };
         pass.set_bind_group(1, &bound.tiles[image as usize], &[]);
@@ -356,7 +356,7 @@ impl Aurora {
         }
     }
 
-    /// Only where the image may be; `level` says where that is in a level.
+    /// Restricts drawing to where the image may be; `level` takes pixels of the screen to those of a level.
     fn within(&self, pass: &mut wgpu::RenderPass, image: u32, level: impl FnOnce([u32; 4]) -> [u32; 4]) {
         if let Some((part, _)) = self.images.get(image as usize) {
             let [left, top, width, height] = level(*part);
@@ -364,8 +364,8 @@ impl Aurora {
         }
     }
 
-    /// Places amid the parts of the curtains at each height of chord ends, as the last frame's camera sees them (`Reference` in streaks.wgsl), by image, part and
-    /// pole; for tests that read them.
+    /// The projected middles of the parts of curtains at each height of chord ends (`Reference` in streaks.wgsl), as the last frame's
+    /// camera sees them, by image, part and pole. For tests.
     pub fn references(&self) -> &wgpu::Buffer {
         &self.references.buffer
     }
@@ -376,13 +376,13 @@ impl Aurora {
     }
 }
 
-/// Draws those tiles of an image that are of a kind; as in lit_corners.wgsl.
+/// Draws the tiles of an image that are of one kind; as in lit_corners.wgsl.
 fn draw_tiles(pass: &mut wgpu::RenderPass, image: u32, kind: u32) {
     let instance = 4 * image + kind;
     pass.draw(0..6 * LIT_TILES[0] * LIT_TILES[1], instance..instance + 1);
 }
 
-/// Pixels that strokes reach over the edge of where their middles are.
+/// By how many pixels strokes may reach beyond the part of the screen where their middles are.
 const EDGE: f64 = 16.0;
 
 /// The pixels of a part of the screen: left, top, width, height.

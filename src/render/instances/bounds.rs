@@ -1,7 +1,8 @@
-//! Where the image of an object can be: the image of a ball that holds it. `shaders/geometry/bounds.wgsl` leaves out what would be drawn outside.
+//! Bounds of the image of an object: the image of a ball that holds it. `shaders/geometry/bounds.wgsl` leaves out triangles outside.
 //!
-//! The image of a ball in one order lies between two angles ψ from outwards, and on one side of the axis as far round as the ball reaches. Each of the three is a
-//! cap of directions, the one about the axis or the one about the ball's middle; aberration turns caps into caps. Far from the axis and the horizon the last is enough.
+//! The image of a ball in one order is bounded by two angles ψ from outwards, and on one side of the axis by the azimuths that the ball
+//! reaches. Each bound is a cap of directions: two about the axis, one about the middle of the image. Aberration turns caps into caps. Far
+//! from the axis and the horizon the last cap is enough.
 
 use crate::spacetime::Observer;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -13,28 +14,30 @@ use crate::spacetime::light::Order;
 use crate::render::instances::{Extent, MARGIN, View};
 use crate::render::method::Method;
 
-/// Three caps of directions in camera axes, as `Instance.bounds` of WGSL: xyz their middle; w the square of the chord from there to their rim, positive if the image lies
-/// inside, negative if outside, 0 if it may lie anywhere.
+/// Three caps of directions in camera axes, as `Instance.bounds` of WGSL. xyz: the middle. w: the square of the chord from the middle to
+/// the rim, positive if the image lies inside, negative if outside, 0 if anywhere.
 pub type Bounds = [[f32; 4]; 3];
 
-/// By how much an image may be drawn beyond its ball's, in pixels of the screen's middle: half a pixel is what patches may be off.
+/// By how many pixels of the screen's middle an image may be drawn beyond that of its ball; half a pixel is the error of patches.
 const MARGIN_PIXELS: f64 = 2.0;
-/// By how much the ball is taken larger, for what lies between the places on it that are looked at: an octagon round a circle reaches 1.08 as far.
+/// Factor on the ball's radius, because only some points of it are evaluated: an octagon round a circle reaches 1.08 times as far.
 const LARGER: f64 = 1.1;
-/// A ball this small, against its distances from the axis and from the horizon, is seen in one small patch, which its extent tells.
+/// A ball whose radius is below this share of its distances from the axis and from the horizon is seen in one small patch: its extent is
+/// enough.
 const FAR: f64 = 0.3;
-/// Places that are looked at on the ball's circle in the plane of the axis.
+/// Number of points that are evaluated on the ball's circle in the plane of the axis.
 const PLACES: u32 = 8;
-/// Nearer to the hole nothing sends light to a camera outside, in r_s.
+/// Least radius, in r_s, of points that send light to a camera outside.
 const LEAST_RADIUS: f64 = 1.0001;
 
 impl View<'_> {
-    /// The bounds of the image of a ball at `position` (rain axes), of `longer` times the radius `reach` (r_s) whose `extent` is given; `age` decides, inside the
-    /// horizon, which light is meant. Without bounds if the ball holds the hole or the camera, or part of it is not seen.
+    /// The bounds of the image of a ball at `position` (rain axes). Its radius is `longer` times `reach` (r_s); `extent` is that for
+    /// `reach`. Inside the horizon `age` decides which light is meant. No bounds if the ball holds the hole or the camera, or if part of it
+    /// is not seen.
     pub(super) fn bounds(&self, extent: &Extent, position: DVec3, reach: f64, longer: f64, order: Order, age: f64) -> Bounds {
         let camera = self.camera;
         let radius = LARGER * longer * reach;
-        // Approximations of light do not keep to where it is.
+        // Approximate methods draw images outside of their exact bounds.
         let exact = matches!(self.settings.method, Method::Table | Method::TableFull | Method::Newton | Method::Exact);
         if !exact
             || !radius.is_finite()
@@ -78,7 +81,7 @@ impl View<'_> {
         let side = if round < PI { across * (turn / distance) } else { a };
         let middle = 0.5 * (low + high);
         let look = n * middle.cos() + side * middle.sin();
-        // The farthest point from the middle is on the border of the patch between both angles, at one of its ends round the axis.
+        // The farthest point from the middle is on the border of the patch between both angles, at one of its ends in azimuth.
         let farthest = (0..=8).map(|k| {
             let psi = low + (high - low) * f64::from(k) / 8.0;
             (middle.cos() * psi.cos() + middle.sin() * psi.sin() * round.cos()).clamp(-1.0, 1.0).acos()
@@ -91,7 +94,8 @@ impl View<'_> {
 
 /// The cap of directions within `radius` of `middle` (rain axes) as the camera sees it, wider by `margin`; all in radians.
 ///
-/// It is d · middle ≥ cos radius for directions d, linear in the light's (d, −1), which the Lorentz matrix takes to the camera.
+/// The cap is d · middle ≥ cos radius for directions d. This is linear in the light's (d, −1), which the Lorentz matrix takes to the
+/// camera.
 fn seen_cap(camera: &Observer, middle: DVec3, radius: f64, margin: f64) -> [f32; 4] {
     if radius >= PI {
         return [0.0; 4];

@@ -1,4 +1,4 @@
-//! Where each object is seen: for each image order the emission time of its centre and the motion around it, in f64, as the GPU's start.
+//! Instances: for each object and image order the emission time of its centre and its motion about it, in f64. The GPU starts from them.
 
 mod bounds;
 pub mod swing;
@@ -29,7 +29,8 @@ use crate::render::settings::Settings;
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
 pub enum Motion<'a> {
-    /// Held in place (every point of it), at a position on the slice, with an attitude (body to rain axes). Its shape is taken on the slice.
+    /// Every point is held in place. `position` is on the slice T = const, `attitude` takes body to rain axes; the shape is taken on the
+    /// slice.
     Held {
         /// Centre, in r_s.
         position: DVec3,
@@ -45,9 +46,9 @@ pub enum Motion<'a> {
 pub struct Object<'a> {
     /// Which model.
     pub model: ModelRange,
-    /// What stands for it where its image is only a few pixels wide.
+    /// Coarse model for images a few pixels wide.
     pub coarse: ModelRange,
-    /// What stands for it in wider images, up to so many pixels, the coarsest first.
+    /// Coarse models for wider images: each up to a width in pixels, the coarsest first.
     pub stand_ins: &'a [(f64, ModelRange)],
     /// How it moves.
     pub motion: Motion<'a>,
@@ -66,21 +67,21 @@ pub struct Object<'a> {
 pub struct Placed {
     /// Its model.
     pub model: ModelRange,
-    /// What the shader gets; the renderer fills in the places in its buffers.
+    /// The instance as the shader reads it; the renderer fills in the places in its buffers.
     pub instance: Instance,
 }
 
 /// The instances of an object in orders 1 to `orders`, seen by `camera` at the clock's `time`. An order in which the centre is not seen
 /// (it has not been reached by light yet, or never will) is left out.
 ///
-/// A camera inside the horizon sees what is held inside twice, by light of E > 0 and of E < 0 that left at two times. The worldline of
-/// something that moves is met once: it leaves the camera's past on one side or on the other, and each vertex finds out which.
+/// A camera inside the horizon sees what is held inside twice: by light of E > 0 and by light of E < 0, which left at two different times.
+/// The worldline of a moving body crosses the camera's past light cone once, on one side or the other; each vertex finds out which.
 pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
         let (mut instance, position, age) = match object.motion {
-            // From inside, higher orders show only what is outside.
+            // From inside the horizon higher orders show only what is outside of it.
             Motion::Held { position, .. } if order.number() > 1 && position.length() + object.reach < 1.0 => return None,
             Motion::Held { position, attitude } => {
                 (held(camera, position, attitude, object), position, if branch == Branch::Minus { f64::from(OLD) } else { 0.0 })
@@ -89,11 +90,11 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
         };
         instance.ids = [u32::from(order.number()), object.id, 0, 0];
         instance.axis = by_axis(camera, &instance, position, object.reach);
-        // Within this of its centre are all points of it, each where its light leaves.
+        // All points of the object, each where its light leaves, are within this distance of its centre.
         let whole = position.z.abs() > MARGIN * object.reach;
         instance.snap[3] = if whole { plane_crossings(camera.position.z, position.z, order) as f32 } else { -1.0 };
         if !settings.method.bends() {
-            // Drawn straight, light leaves otherwise than the shape on the slice is meant for.
+            // With straight light the direction in which light leaves does not agree with the shape on the slice.
             instance.triangles[3] |= TWO_SIDED;
         }
         if branch == Branch::Minus {
@@ -107,7 +108,7 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
         if width < settings.least_width && order.number() > 1 {
             return None;
         }
-        // Near the hole, against its size, an image is drawn out round the ring and shows more than its width tells.
+        // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
         let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
         let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
         let model = stands_in.map_or(object.model, |(_, model)| model);
@@ -135,36 +136,37 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
 }
 
-/// How often light of an image order from `height` over the plane z = 0, or below it, crosses that plane on its way to a camera at another height. It stays in a
-/// plane through the hole and sweeps n − 1 to n half turns about it, of which each crosses z = 0 once: n − 1 times or n times, the odd number if its ends lie on
-/// different sides. The image is behind as many of the disk's own orders.
+/// How often light of an image order crosses the plane z = 0 on its way from `height` (z of its source) to the camera at `camera_height`.
+/// The ray stays in a plane through the hole and sweeps n − 1 to n half turns about it, each of which crosses z = 0 once. So it crosses n −
+/// 1 or n times: the odd number if its ends are on different sides. So many of the disk's own images are in front of it.
 pub fn plane_crossings(camera_height: f64, height: f64, order: Order) -> u32 {
     let n = u32::from(order.number());
     let across = (height < 0.0) != (camera_height < 0.0);
     if across == n.is_multiple_of(2) { n - 1 } else { n }
 }
 
-/// Images narrower than this are narrow ones, in pixels: of ten columns of pixels two lie at an outline.
+/// Images narrower than this, in pixels, are narrow ones: of ten columns of pixels two are at an outline.
 const NARROW_BELOW: f64 = 10.0;
-/// Thin images lie along the edge of the shadow, and are grown by half a pixel to be lines: their chords are held this much closer, so that sag and growth together stay
-/// under a pixel.
+/// Strictness of thin images. They lie along the edge of the shadow and are widened by half a pixel. So their chords are held this much
+/// closer, and sag and widening together stay under a pixel.
 const THIN_STRICTNESS: f32 = 4.0;
-/// Images narrower than this are slim ones, in pixels: chords of theirs are held the closer, the narrower they are, since all of them are near an outline. The width is
-/// that where it is the most; a ring is a tenth as wide elsewhere.
+/// Images narrower than this, in pixels, are slim ones. The narrower they are, the closer their chords are held, since all of them are near
+/// an outline. The width is the largest; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
-/// But no closer than by this factor.
+/// Largest strictness of slim images.
 const MOST_SLIM: f64 = 4.0;
-/// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it: images there are sheared, and their points are off by more than the
-/// chords of the edges around them.
+/// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it. Images there are sheared, and their
+/// inner points are off by more than the chords around them.
 const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
-/// By how much closer chords are held there. With a budget of 0.3 pixels for 0.5 points of balls behind the hole were within half a pixel, at 0.5 by up to 0.59.
+/// Strictness there. With a budget of 0.3 px instead of 0.5 px, points of balls behind the hole were within half a pixel; with 0.5 px up to
+/// 0.59 px off.
 const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
-/// Models of so many triangles have short edges, which sag less; held as close, ships behind the hole filled the buffers.
+/// Models with so many triangles have short edges, which sag less. Held as close as others, ships behind the hole filled the buffers.
 const FINE_MODEL: u32 = 2000;
-/// What such models are held closer by.
+/// Largest strictness of slim images of such models.
 const MOST_SLIM_FINE: f64 = 2.0;
 
-/// A camera with what is needed to say how wide an image is.
+/// A camera, and what is needed to tell how wide an image is.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
     /// The camera.
@@ -173,7 +175,7 @@ pub struct View<'a> {
     pub slice: &'a Slice,
     /// Angle of a pixel in radians.
     pub pixel: f64,
-    /// Height over width of the screen: what lies off it is left out. None: nothing is.
+    /// Height over width of the screen: images off it are left out. None: no image is left out.
     pub aspect: Option<f64>,
     /// How the picture is made.
     pub settings: &'a Settings,
@@ -184,13 +186,14 @@ pub struct View<'a> {
 pub(super) struct Extent {
     /// The direction of its centre, a unit vector in rain axes.
     pub(super) look: DVec3,
-    /// A cone about it, in radians, that holds the image.
+    /// Radius, in radians, of a cone about `look` that holds the image.
     pub(super) radius: f64,
-    /// How wide it is on the screen, in pixels, where that is the most: its extent in ψ, or its angular size if that is less.
+    /// Largest width on the screen, in pixels: the extent in ψ, or the angular size if that is less.
     pub(super) width: f64,
 }
 
-/// The extent is that of a ball at one time, from five of its points: twice as much for the points between, and for what moves.
+/// Factor by which an extent is enlarged. It is that of a ball at one time, from five of its points; the points between them and the motion
+/// need more.
 pub(super) const MARGIN: f64 = 3.0;
 
 impl Extent {
@@ -205,8 +208,8 @@ impl Extent {
 }
 
 impl View<'_> {
-    /// In which direction (a unit vector, rain axes) light that is `age` old comes from a place, and how long its path is. `age` decides, inside the horizon,
-    /// which light is meant.
+    /// The direction (a unit vector, rain axes) from which light of age `age` (r_s/c) comes from a position, and the length of its path.
+    /// Inside the horizon `age` decides which of two rays is meant.
     pub(super) fn look(&self, position: DVec3, order: Order, age: f64) -> Option<(DVec3, f64)> {
         let n = self.camera.position.normalize();
         let height = position.dot(n);
@@ -216,8 +219,8 @@ impl View<'_> {
         Some((n * psi.cos() + across.normalize_or_zero() * (turn * psi.sin()), path))
     }
 
-    /// The angle ψ from outwards at which a place is seen, and the length of the light's path: the place by how far it is outward of the camera, across the axis,
-    /// and along the axis from the hole.
+    /// The angle ψ from outwards at which a position is seen, and the length of the light's path. The position is given by its distance
+    /// outward of the camera, its distance from the axis, and its height along the axis from the hole.
     pub(super) fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
         if !self.settings.method.bends() {
             return Some((across.atan2(along), along.hypot(across)));
@@ -243,7 +246,7 @@ impl View<'_> {
         };
         let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
         let places = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];
-        // Where part of the object is not seen its image ends, as wide as it may be.
+        // If a part of the object is not seen, its image may end anywhere.
         let Some(around) = places.map(|(r, phi)| seen(r, phi)).into_iter().collect::<Option<Vec<_>>>() else {
             return anywhere;
         };
@@ -251,10 +254,10 @@ impl View<'_> {
         let (low, high) = around.iter().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
         let across = position - n * position.dot(n);
         let distance = across.length();
-        // Round the axis: a ball that meets it is seen all round.
+        // Half its extent in azimuth round the axis: a ball that meets the axis is seen all round.
         let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
         let turn = if order.flips() { -1.0 } else { 1.0 };
-        // On the axis any side will do; what is left of `across` there is rounding.
+        // On the axis any side will do: what is left of `across` there is rounding.
         let side = if distance > 1e-9 * r { across * (turn / distance) } else { n.any_orthonormal_vector() };
         let look = n * centre.cos() + side * centre.sin();
         let width = (high - low).min(2.0 * reach / path.max(1e-9)) * self.enlargement(n, side, [low, high], round);
@@ -262,8 +265,8 @@ impl View<'_> {
         Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width }
     }
 
-    /// How many pixels a radian of ψ takes on the screen, where that is the most: by the aberration of the camera's motion, and as a plane screen draws what
-    /// is seen beside its middle. For directions between two angles from outwards, n, and as far `round` n on both sides of `side` as an image reaches.
+    /// The largest number of screen units per radian of ψ, by aberration and by the projection onto the plane screen. For directions
+    /// between two angles from outwards `n`, up to `round` (radians of azimuth) on both sides of `side`.
     fn enlargement(&self, n: DVec3, side: DVec3, [low, high]: [f64; 2], round: f64) -> f64 {
         let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(1e-4));
         let edge = 1.1 * (0.5 * self.camera.field_of_view).tan() * self.aspect.unwrap_or(1.0).max(1.0);
@@ -273,7 +276,7 @@ impl View<'_> {
             let [a, b] = [middle - half, middle + half].map(|psi| self.camera.seen_direction(n * psi.cos() + side * psi.sin()));
             let [p, q] = [a, b].map(|seen| DVec2::new(seen.x, seen.y) / -seen.z);
             let on_screen = |seen: DVec3, at: DVec2| seen.z < 0.0 && at.abs().max_element() < edge;
-            // What is off the screen is not drawn out by it.
+            // Off the screen the projection does not count.
             let length = if on_screen(a, p) || on_screen(b, q) { p.distance(q) } else { a.angle_between(b) };
             length / (2.0 * half * self.pixel)
         };
@@ -303,14 +306,15 @@ fn light_rows(light: &Surroundings) -> [[f32; 4]; 3] {
     })
 }
 
-/// How far beside its place an object is drawn, in roundings, so that nothing that was put on the axis of hole and camera, or in a plane through it, is there
-/// exactly: such a plane is seen as a ring, of which no point of it tells the azimuth.
+/// By how many roundings an object is drawn beside its true position. So nothing that was put on the axis of hole and camera, or in a plane
+/// through it, is exactly there: such a plane is seen as a ring without azimuth.
 const BESIDE: f64 = 4.0;
-/// Rounding of f32 in where a point of an object is, relative to the object's reach, and of its emission time, relative to the delay: some roundings of 2⁻²⁴ each.
+/// Rounding of f32 in the position of a point, relative to the object's reach, and in its emission time, relative to the delay: some
+/// roundings of 2⁻²⁴ each.
 const ROUNDING: f64 = 4e-7;
 
-/// The row `axis` of an instance at `position`: where that is across the axis, how far a point of the object may be put beside its place by rounding, and 1 for an image
-/// that is not slim.
+/// The row `axis` of an instance at `position`: its coordinates across the axis (x, y), by how much rounding may move a point of the object
+/// (z), in r_s, and a strictness of 1 (w).
 pub(super) fn by_axis(camera: &Observer, instance: &Instance, position: DVec3, reach: f64) -> [f32; 4] {
     let [_, a, b] = camera.axis_frame();
     let [vx, vy, vz, moves] = instance.velocity.map(f64::from);
@@ -335,8 +339,8 @@ fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) ->
     }
 }
 
-/// By how much farther from its centre, at the most, points of an object are where their light leaves than they are at one time: light leaves what is farther earlier by
-/// the delay's gradient ∇Δ, and as much earlier again for the way that it moved meanwhile, as v ∇Δ/(1 + v ∇Δ).
+/// Factor by which points of an object may be farther from its centre when their light leaves than at one time. Light leaves a farther
+/// point earlier by the delay's gradient ∇Δ. Meanwhile the object moves with velocity v, which adds v ∇Δ/(1 + v ∇Δ).
 fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Order, age: f64) -> f64 {
     let [x, y, z, moves] = instance.velocity.map(f64::from);
     if moves == 0.0 {
@@ -347,10 +351,10 @@ fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Ord
     1.0 + ACCELERATES * velocity.length() * gradient.length() / (1.0 + velocity.dot(gradient)).max(1e-6)
 }
 
-/// What acceleration adds to that while light crosses the object, as a factor.
+/// Factor on that for acceleration while light crosses the object.
 const ACCELERATES: f64 = 1.5;
 
-/// When the light left by which the centre of what flies is seen at `time`, as the settings ask for; None if it is not seen.
+/// The emission time of the centre of a flying body that is seen at `time`, as the settings ask for; None if it is not seen.
 pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
     match view.settings {
         Settings { light_delay: false, .. } => Some(time),
@@ -359,7 +363,7 @@ pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Opt
     }
 }
 
-/// The instance, where the object then is, and the age of its light.
+/// The instance, the object's position at the emission time, and the age of its light.
 fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Instance, DVec3, f64)> {
     let camera = view.camera;
     let emission = departure(view, time, history, order)?;
@@ -387,7 +391,8 @@ fn flying(view: &View, time: f64, history: &History, order: Order, object: &Obje
     Some((instance, sample.position, time - emission))
 }
 
-/// The momentum against what hovers there, which takes the part of the rain where light is drawn straight; inside nothing hovers.
+/// The momentum relative to a static observer, which takes the place of the rain frame where light is drawn straight. Inside the horizon
+/// there is none.
 pub fn against_static(position: DVec3, momentum: DVec3) -> DVec3 {
     static_momentum(position).map_or(momentum, |rest| relative_momentum(rest, momentum))
 }
@@ -398,7 +403,8 @@ fn contraction(p: DVec3) -> DMat3 {
     DMat3::IDENTITY - DMat3::from_cols(p * p.x, p * p.y, p * p.z) * (1.0 / (g * (1.0 + g)))
 }
 
-/// Travel time of light of this order from a place on the slice to the camera, and its gradient over the place; None if there is none.
+/// Travel time of light of this order from a position on the slice to the camera, in r_s/c, and its gradient over the position. None if
+/// there is no ray.
 pub fn light_path(camera: &Observer, position: DVec3, order: Order, branch: Branch) -> Option<(f64, DVec3)> {
     let (l, r) = (camera.radius(), position.length());
     let n = camera.position / l;
@@ -417,16 +423,16 @@ pub fn light_path(camera: &Observer, position: DVec3, order: Order, branch: Bran
     ray.delay.is_finite().then_some((ray.delay, -momentum))
 }
 
-/// Which of the two rays from a place inside the horizon to a camera inside is the one by which light of this age (r_s/c) can be seen:
-/// that of E < 0 if it is older than light of zero energy.
+/// Which of the two rays from a position inside the horizon to a camera inside belongs to light of this age (r_s/c): E < 0 if it is older
+/// than light of zero energy.
 pub fn branch_of(camera: &Observer, position: DVec3, age: f64) -> Branch {
     let (u, u_camera) = (1.0 / position.length(), 1.0 / camera.radius());
     if u > 1.0 && u_camera > 1.0 && age > light::zero_energy_delay(u, u_camera) { Branch::Minus } else { Branch::Plus }
 }
 
-/// The time T_e at which the light left that arrives at `time`: the root of T_e + Δ(x(T_e)) − T, which increases strictly with T_e for light of
-/// E > 0 and decreases for E < 0. A worldline leaves the camera's past only once, so there is one root on both branches together.
-/// None if the object is seen at no time.
+/// The emission time T_e of light that arrives at `time`: the root of T_e + Δ(x(T_e)) − T. It increases strictly with T_e for light of E >
+/// 0 and decreases for E < 0. A worldline leaves the camera's past only once, so both branches together have one root. None if the object
+/// is not seen.
 pub fn emission_time(camera: &Observer, time: f64, history: &History, order: Order) -> Option<f64> {
     leaving(time, |t| {
         let sample = history.at(t);
@@ -442,19 +448,19 @@ fn flat_emission_time(camera: &Observer, time: f64, history: &History) -> Option
     leaving(time, |t| {
         let sample = history.at(t);
         let line = sample.position - camera.position;
-        // Across the hole a ship may fall faster than straight light.
+        // Seen across the hole a ship may fall faster than straight light.
         Some((t + line.length() - time, (1.0 + line.normalize_or_zero().dot(sample.velocity)).max(0.05)))
     })
 }
 
-/// The root of an increasing function of T_e, given with its slope, that is negative in the camera's past and has no value where no light
-/// leaves any more. Bracketed Newton from `time` backwards.
+/// The root of an increasing function of T_e, given with its slope. It is negative in the camera's past and has no value where no light
+/// leaves any more. Newton's method within a bracket, from `time` backwards.
 fn leaving(time: f64, late: impl Fn(f64) -> Option<(f64, f64)>) -> Option<f64> {
     let (mut low, mut high) = (f64::NEG_INFINITY, time);
     let mut t = time - late(time).map_or(1.0, |(missing, _)| missing.max(0.0));
     for _ in 0..100 {
         let next = match late(t) {
-            // Seen from outside, something below the horizon has no ray: too late.
+            // For a camera outside, a body below the horizon has no ray: too late.
             None => {
                 high = high.min(t);
                 if low.is_finite() { 0.5 * (low + high) } else { t - (time - t).max(1.0) }

@@ -1,6 +1,6 @@
-//! How a moving body swings while its light crosses it: its centre to fourth order, its attitude to second order in the rotation vector and
-//! with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients go to the GPU with the instance;
-//! [`swing_at`] is the twin of the shader's.
+//! How a moving body moves, turns and contracts while its light crosses it: its centre to fourth order in time, its attitude to second
+//! order in the rotation vector and with one jump of the angular velocity, its contraction by the momentum at each moment. The coefficients
+//! go to the GPU with the instance; [`swing_at`] is the twin of the shader's function.
 
 use glam::{DVec3, Vec3};
 
@@ -31,16 +31,15 @@ pub struct Swing {
 }
 
 impl Swing {
-    /// Fitted through the places and attitudes of T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c), and the places halfway: light crosses a body of that
-    /// radius in such a while. The fourth order is for what falls inside the horizon beside the camera: the fall of a ship of 0.16 r_s at
-    /// r = 0.6 is off by 10⁻⁴ r_s without it, a pixel where that is a thirtieth of r_s away.
-    /// A Taylor series about T₀ would be off by the most where it matters, at the ends; and where the turning of a ship jumps, which one of a hundred
-    /// pixels shows by two, there are no derivatives to take.
+    /// Fitted to positions and attitudes at T₀ − `reach`, T₀ and T₀ + `reach` (r_s/c), and to positions halfway: in that time light crosses
+    /// a body of this radius. The fourth order is needed for what falls inside the horizon beside the camera: without it a ship of 0.16 r_s
+    /// at r = 0.6 is off by 10⁻⁴ r_s, a pixel at a distance of a thirtieth of r_s. A Taylor series about T₀ would be worst at the ends,
+    /// where it matters. It would also need derivatives where the turning of a ship jumps; one pixel in a hundred would be off by two.
     pub fn new(history: &History, emission: f64, reach: f64) -> Swing {
-        // Of what is smaller than a thousandth of r_s differences would be lost in rounding, and no motion is seen.
+        // For bodies smaller than a thousandth of r_s differences would be lost in rounding, and no motion is visible.
         let w = reach.max(1e-3);
         let [earlier, now, later] = [emission - w, emission, emission + w].map(|t| history.at(t));
-        // In what approaches or recedes light takes longer to cross it.
+        // Light takes longer to cross a body that approaches or recedes.
         let (after, jolt) = history.jolt(emission - 2.0 * w, emission + 2.0 * w).unwrap_or((emission, DVec3::ZERO));
         let jolt_after = after - emission;
         let [back, on] =
@@ -48,7 +47,7 @@ impl Swing {
         let moved = |sample: &Sample, s: f64| sample.position - now.position - now.velocity * s;
         let (moved_back, moved_on) = (moved(&earlier, -w), moved(&later, w));
         let [half_back, half_on] = [-0.5 * w, 0.5 * w].map(|s| moved(&history.at(emission + s), s));
-        // What is even in s is a s² + k s⁴/12.
+        // The even part in s is a s² + k s⁴/12.
         let (even, even_half) = (moved_on + moved_back, half_on + half_back);
         Swing {
             acceleration: (even_half * 16.0 - even) / (3.0 * w * w),
@@ -63,16 +62,16 @@ impl Swing {
     }
 }
 
-/// For how long a jump at `after` has gone on at `s`, counted from 0: so that nothing is turned at 0.
+/// Time for which the jump at `after` has acted at `s`, less that at s = 0: so there is no turn at 0.
 fn jolted(s: f64, after: f64) -> f64 {
     (s - after).max(0.0) - (-after).max(0.0)
 }
 
-/// The farthest turn that is believed, radians: the polynomials below are right to 1.3 % there and to 1e-7 at half a radian.
+/// The largest turn that is used, in radians. The polynomials below are right to 1.3 % there and to 1e-7 at half a radian.
 const FARTHEST_TURN: f32 = 2.0;
 
-/// Where a point of a body (model's unit, body axes) is on the slice, away from the body's centre at T₀, `s` r_s/c after that time, in r_s and rain axes.
-/// The function of the same name in shaders/geometry/project.wgsl.
+/// Offset of a point of a body (model's unit, body axes) from the body's centre at T₀, `s` r_s/c later, on the slice, in r_s and rain axes.
+/// Twin of the function of the same name in shaders/geometry/swing.wgsl.
 pub fn swing_at(instance: &Instance, body: Vec3, s: f32) -> Vec3 {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
     let columns = |m: [[f32; 4]; 3]| xyz(m[0]) * body.x + xyz(m[1]) * body.y + xyz(m[2]) * body.z;
