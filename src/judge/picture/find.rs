@@ -1,7 +1,9 @@
-//! What one look direction shows: the ray followed backwards in pieces, each held against the trees, the curve itself met at the leaves.
+//! What is seen in one direction. The ray is followed backwards in pieces. The chord of each piece is traced through the trees; at the
+//! leaves the curve itself is intersected with triangles.
 //!
-//! A piece from s₀ to s₁ differs from its chord, at equal parameter, by at most |s₁ − s₀|² max|x''| / 8 (the sagitta): so a box that the curve
-//! meets, grown by that much, is met by the chord. Flying bodies are asked in their rest frame, where they stand still and the curve moves.
+//! A piece from s₀ to s₁ differs from its chord, at equal parameter, by at most |s₁ − s₀|² max|x''| / 8 (the sagitta). So the chord meets
+//! every box that the curve meets, if boxes are grown by that much. Flying bodies are tested in their rest frame, where they stand still
+//! and the curve moves.
 
 use std::cell::OnceCell;
 use std::f64::consts::PI;
@@ -28,18 +30,18 @@ pub enum Seen {
     Captured,
     /// The sky.
     Sky {
-        /// Unit vector from the hole to the place on the sky.
+        /// Unit vector from the hole to the point on the sky.
         direction: DVec3,
         /// The angle Φ∞ swept.
         swept: f64,
         /// The energy of the light, in units of the frequency that a rain observer at the camera sees.
         energy: f64,
     },
-    /// A surface; `Hit::object` is the index of the thing.
+    /// A surface; `Hit::object` is the index of the body.
     Hit(Hit),
 }
 
-/// The plane of a ray's orbit and the light in it.
+/// A piece of a ray between two delays, in the plane of its orbit, which is spanned by `axes`.
 struct Piece<'a> {
     segment: &'a Segment,
     axes: [DVec3; 2],
@@ -73,12 +75,12 @@ impl Ends {
     }
 }
 
-/// What a ray may meet in a step.
+/// What a ray may meet in a step: candidates from a larger packet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Near {
-    /// Leaves of the tree of what is held; None where nobody has looked.
+    /// Leaves of the tree of bodies held in place; None where they are not known.
     pub held: Option<Vec<u32>>,
-    /// Numbers among the flying.
+    /// Indices of flying bodies.
     pub flying: Vec<u32>,
 }
 
@@ -89,7 +91,7 @@ impl Near {
     }
 }
 
-/// The nearest meeting up to now.
+/// The nearest intersection so far.
 #[derive(Clone, Copy)]
 struct Met {
     elapsed: f64,
@@ -99,7 +101,8 @@ struct Met {
 }
 
 impl Met {
-    /// Takes the nearer one; of two at the same place, on a shared edge, the one of lower number: the order in which they were found says nothing.
+    /// Keeps the nearer one. Of two at the same point, on a shared edge, it keeps the one of lower number, so that the order in which they
+    /// were found does not matter.
     fn offer(self, met: &mut Option<Met>) {
         let key = |met: &Met| (met.thing, met.triangle);
         if met.is_none_or(|other| self.elapsed < other.elapsed || self.elapsed == other.elapsed && key(&self) < key(&other)) {
@@ -108,27 +111,27 @@ impl Met {
     }
 }
 
-/// A piece that may bend by more than this part of a body's reach, in its axes, is halved,
+/// A piece that may bend by more than this share of a body's reach, in the body's axes, is halved,
 const BENT: f64 = 0.05;
-/// unless body and light come closer by less than this part of it meanwhile.
+/// unless body and light together move by less than this share of the reach meanwhile.
 const SHORT: f64 = 1.0 / 128.0;
-/// Where light and body together move by less than this part of the bound on their speeds, they creep.
+/// If light and body together move by less than this share of the bound on their speeds, tighter bounds are asked for.
 const CREEPING: f64 = 0.25;
 
-/// More looks at flying bodies than this are not worth one ray: it is given up, and counted. None is known that needs a tenth of it.
+/// Most tests of flying bodies per ray. A ray that needs more is given up and counted. None is known that needs a tenth of it.
 pub(super) const MOST_LOOKS: u32 = 1 << 16;
 
-/// Weights this far below 0 still count as inside: rounding of the crossing must not open a gap between neighbours.
+/// Barycentric weights down to minus this count as inside: rounding must not open a gap between neighbours.
 const SLACK: f64 = 1e-11;
 
 impl World<'_> {
-    /// Follows the light seen from `position` (r_s) in direction `look` (rain frame) back to the first thing that it meets, with a local error
-    /// of `tolerance` in each step.
+    /// Follows the light seen from `position` (r_s) in direction `look` (rain frame) back to the first body that it meets. `tolerance` is
+    /// the local error of a step.
     pub fn look(&self, position: DVec3, look: DVec3, tolerance: f64) -> Seen {
         self.look_through(position, look, tolerance, &mut |_| ())
     }
 
-    /// The same, telling on the way of every crossing of the plane z = 0, in order.
+    /// The same; calls `cross` for every crossing of the plane z = 0 on the way, in order.
     pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
         let near = Near::all(self);
@@ -161,7 +164,8 @@ impl World<'_> {
         beyond(&follower, axes)
     }
 
-    /// The first meeting in one step of the ray, which had swept `swept` when it began, with what is `near` it. It has so many `looks` at flying bodies left.
+    /// The first intersection in one step of the ray with what is `near` it. `swept` is the angle swept when the step began. `looks` is how
+    /// many tests of flying bodies are left.
     #[allow(clippy::too_many_arguments)]
     pub(super) fn meet(
         &self,
@@ -242,7 +246,7 @@ impl World<'_> {
         }
     }
 
-    /// Nearer and nearer halves of the piece, until body and light are sure to miss each other or are close for a moment only.
+    /// Halves the piece until body and light are sure to miss each other, or until they are close for a short time only.
     fn meet_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, met: &mut Option<Met>, looks: &mut u32) {
         if *looks == 0 || met.is_some_and(|met| met.elapsed <= piece.from) {
             return;
@@ -253,20 +257,20 @@ impl World<'_> {
         let light = piece.segment.at(middle).position;
         let pose = line.at(self.time - piece.segment.start - middle);
         let centre = pose.position;
-        // Neither light nor body, followed backwards, comes nearer to the hole than it is at the late end of the piece, or than r = 1.
+        // Followed backwards, neither light nor body comes nearer to the hole than at the late end of the piece, or than r = 1.
         let speed = |r: f64, late: &dyn Fn() -> f64| if is_short(half, r) { fastest(r) } else { fastest_since(late()) };
         let light_speed = if self.hole { speed(light.length(), &|| piece.segment.position(piece.from).length()) } else { 1.0 };
         let body_speed = speed(centre.length(), &|| line.at(self.time - piece.segment.start - piece.from).position.length());
         let most = half * (light_speed + body_speed);
         let apart = piece.embed(light).distance(centre);
-        // A length is never longer on the slice than at rest.
+        // A length on the slice is at most that at rest.
         if apart > flying.reach + most {
             return;
         }
         let can_halve = half > 1e-9 * (1.0 + piece.segment.start);
         let late = self.time - piece.segment.start;
         let ask = || line.sway(late - piece.to, late - piece.from);
-        // Next to the horizon light and body creep, far below those bounds: there they are asked how they move.
+        // Next to the horizon light and body move far more slowly than those bounds: there the actual motion is asked for.
         let (mut straying, mut light_speed, mut sway) = (most, light_speed, None);
         if self.hole && can_halve && most > 0.5 * flying.reach {
             let light_rate = piece.segment.velocity(middle).length();
@@ -282,12 +286,12 @@ impl World<'_> {
             }
         }
         let is_long = can_halve && straying > 0.5 * flying.reach;
-        // Bounds on the motion are asked for late: most pieces are long, and are halved or let go without them.
+        // Bounds on the motion are asked for late: most pieces are long, and are halved or dropped without them.
         let bend = (!is_long).then(|| sway.or_else(ask)).flatten().map(|sway| sway.bend(apart + straying, light_speed, piece.bend));
         let sagitta = bend.map_or(0.0, |bend| bend.sagitta(2.0 * half));
         let bends = sagitta > BENT * flying.reach && most > SHORT * flying.reach;
         if bends && can_halve {
-            // The bend grows with γ, and so does how far light is in the body's axes that is beside it.
+            // The bend grows with γ. So does, in the body's axes, the distance of light that passes beside it.
             let ends = [piece.from, piece.to].map(|elapsed| line.at(late - elapsed).to_body(piece.place(elapsed)));
             let rounding = self.rounding(piece, middle) * gamma(pose.momentum) + 1e-9 * flying.reach;
             if from_origin(ends) > flying.reach + sagitta + rounding {
@@ -305,13 +309,13 @@ impl World<'_> {
         self.cross_flying(piece, flying, line, bend, met);
     }
 
-    /// How exactly a place on a piece is known in the axes of a body, in r_s: a few ulp of the distance from the hole and of the clocks.
+    /// How exactly a point on a piece is known in the axes of a body, in r_s: to a few ulp of its distance from the hole and of the times.
     fn rounding(&self, piece: &Piece, elapsed: f64) -> f64 {
         let delay = piece.segment.start + elapsed;
         8.0 * f64::EPSILON * (1.0 + piece.segment.position(elapsed).length() + self.time.abs() + delay)
     }
 
-    /// The piece in the body's rest frame, against its tree; `bend` is how much it bends there, if that is known.
+    /// Intersects the piece, in the body's rest frame, with the body's tree. `bend` bounds how much it bends there, if that is known.
     fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, bend: Option<Bend>, met: &mut Option<Met>) {
         let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.place(elapsed));
         let span = piece.to - piece.from;
@@ -323,7 +327,7 @@ impl World<'_> {
             [ends[0], a, b, c, ends[1]]
         };
         let bend = bend.filter(|bend| bend.sagitta(span) <= flying.reach).unwrap_or_else(|| {
-            // Measured at a quarter, a half and three quarters, and doubled.
+            // Not known: measured at a quarter, a half and three quarters, and doubled.
             let points = points();
             let off = [1, 2, 3].map(|k| points[k].distance(points[0].lerp(points[4], k as f64 / 4.0)));
             Bend { curve: 16.0 * off.into_iter().fold(0.0, f64::max) / (span * span), kink: 0.0 }
@@ -350,7 +354,7 @@ impl World<'_> {
                 first = weights(corners, normal, body(elapsed), rounding).map(|barycentrics| (elapsed, barycentrics));
                 first.is_some()
             };
-            // A later crossing of this triangle is of no interest.
+            // Only the first crossing of this triangle counts.
             (0..4)
                 .any(|k| roots(&|s| height(body(s)), (at(k), heights[k]), (at(k + 1), heights[k + 1]), &rising, least * size, &mut visit));
             let Some((elapsed, barycentrics)) = first else { return until };
@@ -367,7 +371,7 @@ fn drift(pose: &Pose) -> f64 {
     (pose.momentum / gamma(pose.momentum) - pose.position * (river_speed(r) / r)).length()
 }
 
-/// How far the line from `from` to `to` stays from the origin.
+/// Least distance of the line from `from` to `to` from the origin.
 fn from_origin([from, to]: [DVec3; 2]) -> f64 {
     let chord = to - from;
     let part = (-from.dot(chord) / chord.length_squared()).clamp(0.0, 1.0);
@@ -385,20 +389,20 @@ pub(super) fn beyond(follower: &Follower, axes: [DVec3; 2]) -> Seen {
     }
 }
 
-/// Into how many pieces a step of this bend, length and chord is cut, so that the sagitta of each is at most a fiftieth of its chord: boxes hardly
-/// grow, and there are few pieces.
+/// Number of pieces into which a step of this bend, length and chord is cut, so that the sagitta of each is at most a fiftieth of its
+/// chord. Then boxes hardly grow, and pieces are few.
 pub(super) fn pieces(bend: f64, length: f64, chord: f64) -> f64 {
     let sagitta = bend * length * length / 8.0;
     (50.0 * sagitta / chord.max(1e-300)).ceil().clamp(1.0, 64.0)
 }
 
-/// How far a piece of this delay strays from the chord between its ends, and rounding: a few ulp of the distance from the hole.
+/// How far a piece of the delay `span` is from the chord between its ends at most, with rounding: a few ulp of the distance from the hole.
 pub(super) fn growth(bend: f64, span: f64, ends: [DVec2; 2]) -> f64 {
     bend * span * span / 8.0 + 1e-15 * (1.0 + ends[0].length().max(ends[1].length()))
 }
 
-/// Where a piece goes through z = 0 before it has met something at the elapsed time `met`. The plane goes through the hole, round which a segment
-/// turns by less than half a turn, so it does so at most once. A piece that starts on the plane has been told of by the one before.
+/// Where a piece crosses z = 0, before it has met something at the elapsed time `met`. The plane goes through the hole, and a segment turns
+/// round the hole by less than half a turn, so it crosses at most once. If a piece starts on the plane, the one before has reported it.
 fn cross_plane(piece: &Piece, ends: &Ends, met: Option<f64>) -> Option<Crossing> {
     let a = DVec2::new(piece.axes[0].z, piece.axes[1].z);
     let end = met.unwrap_or(piece.to);
@@ -433,7 +437,7 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
     let rounding = 8.0 * f64::EPSILON * ends.places[0].length().max(ends.places[1].length());
     let try_at = |elapsed: f64| weights(corners, normal, piece.place(elapsed), rounding).map(|weights| (elapsed, weights));
     if a == DVec2::ZERO || h0 == 0.0 && h1 == 0.0 && height(0.5 * (from + to)) == 0.0 {
-        // The ray runs in the plane of the triangle: it sees no surface.
+        // The ray is in the plane of the triangle, which it sees edge on.
         return None;
     }
     if h0 * h1 < 0.0 {
@@ -441,7 +445,7 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
     }
     let at_start = || (h0 == 0.0).then(|| try_at(from)).flatten();
     let at_end = || (h1 == 0.0).then(|| try_at(to)).flatten();
-    // Both ends on one side, or on the line: in between it is crossed only where the way to or from the line turns round.
+    // Both ends are on one side, or on the line. In between the ray crosses the line only if it first approaches and then recedes.
     let [rate0, rate1] = ends.rates(piece).map(|rate| a.dot(rate));
     if rate0 * rate1 >= 0.0 || h0 * rate0 > 0.0 || h1 * rate1 < 0.0 {
         return at_start().or_else(at_end);
@@ -455,10 +459,11 @@ fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [
         .or_else(at_end)
 }
 
-/// Whether a curve that strays from the chord between two points by no more than `grow` (r_s) is sure to miss a triangle.
+/// Whether a curve within `grow` (r_s) of the chord between two points is sure to miss a triangle.
 ///
-/// Where the curve is in the plane its chord is within `grow` of it, so no farther from where the chord goes through it than `grow` times the
-/// chord's length over its rise, and the curve `grow` more. A weight changes by no more than the longest edge over twice the area in a length of 1.
+/// Where the curve is in the triangle's plane, its chord is within `grow` of the plane. So that point of the chord is within `grow` times
+/// the chord's length over its rise of where the chord crosses the plane, and the curve within `grow` more. A barycentric weight changes
+/// per length by at most the longest edge over twice the area.
 fn passes_beside(corners: [DVec3; 3], normal: DVec3, [from, to]: [DVec3; 2], grow: f64) -> bool {
     let chord = to - from;
     let rise = normal.dot(chord);
@@ -468,11 +473,11 @@ fn passes_beside(corners: [DVec3; 3], normal: DVec3, [from, to]: [DVec3; 2], gro
     let longest = edges.map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
     let away = grow * (1.0 + chord.length() * area.sqrt() / rise.abs());
     let slack = SLACK + away * (longest / area).sqrt();
-    // Not a number where the chord runs along the plane: then nothing is sure.
+    // NaN if the chord is parallel to the plane: then nothing is sure.
     (0..3).any(|k| edges[k].cross(through - corners[k]).dot(normal) < -slack * area)
 }
 
-/// The weights of the corners at a point of the triangle's plane that is known to `rounding` (r_s), or None outside.
+/// Barycentric weights of a point of the triangle's plane that is known to `rounding` (r_s), or None outside.
 fn weights(corners: [DVec3; 3], normal: DVec3, point: DVec3, rounding: f64) -> Option<[f64; 3]> {
     let area = normal.length_squared();
     let [a, b, c] = corners.map(|v| v - point);

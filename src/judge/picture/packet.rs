@@ -1,9 +1,10 @@
-//! Packets of neighbouring geodesics through one scene: the idea of Sei 2008 along curves.
+//! Packets of neighbouring geodesics: the idea of Sei 2008, along curves.
 //!
-//! The rays of a packet take their steps together, [`LANES`] at a time. A sheaf, the chord in their middle with the room that they need around it, goes
-//! down the tree once for all of them; where it meets something its quarters are asked, and so on down to single rays, which do what a ray alone
-//! does with what is left. Where the rays of a packet diverge, so that the sheaf is wide against its length, the packet is split in four for good.
-//! What a ray sees is the same to the last bit as when it goes alone: sheaves only ever leave out what cannot be met.
+//! The rays of a packet take their steps together, [`LANES`] at a time. A sheaf is the chord in their middle with a box around it that
+//! holds all of them. It is traced through the tree once. Where it may meet something, the quarters of the packet are tested, and so on
+//! down to single rays, which do what a ray alone does with what is left. Where rays diverge, so that the sheaf is wide relative to its
+//! length, the packet is split in four for good. A ray sees the same bits as when it is traced alone: sheaves only leave out what cannot be
+//! met.
 
 use std::ops::Range;
 use std::sync::atomic::Ordering;
@@ -18,11 +19,11 @@ use super::world::World;
 use crate::judge::ray::{End, Follower, Stop, orbit_plane, sky_radius};
 use crate::judge::segments::{LANES, PIECES, Segments};
 
-/// A packet is split where its sheaf is wider than this part of its length; a third more or less costs no more than two per cent.
+/// A packet is split if its sheaf is wider than this share of its length. A third more or less costs at most 2 %.
 const WIDE: f64 = 0.5;
-/// So few rays are asked one by one where their sheaf meets something.
+/// So few rays are tested one by one where their sheaf may meet something.
 const FEW: usize = 2;
-/// More leaves than this are no help to a single ray, which then goes down the tree itself.
+/// If there are more leaves than this, a single ray is faster through the tree itself.
 const MOST_LEAVES: usize = 24;
 
 /// A ray on its way.
@@ -30,22 +31,22 @@ struct Walk {
     follower: Follower,
     axes: [DVec3; 2],
     seen: Option<Seen>,
-    /// How many looks at flying bodies it has left.
+    /// How many tests of flying bodies it has left.
     looks: u32,
     /// The step that it has just taken.
     stride: Stride,
 }
 
-/// What of a ray's step its packet needs.
+/// What a packet needs to know of a step of one of its rays.
 #[derive(Clone, Copy, Default)]
 struct Stride {
-    /// Its number among the rays that took it, [`LANES`] at a time.
+    /// Index among the rays that took the step, [`LANES`] at a time.
     slot: usize,
     /// Φ at the start of the step, radians.
     swept: f64,
-    /// Where it is at the ends of its pieces, in r_s.
+    /// Positions at the ends of the step's pieces, in r_s.
     places: [DVec3; PIECES + 1],
-    /// How far the curve, and the boxes that a ray alone tries, stray from the chords between the places, in r_s.
+    /// How far the curve, and the grown boxes of a ray alone, may be from the chords between the places, in r_s.
     strays: f64,
     /// Delay at the start, and how much of it the step covers, in r_s/c.
     start: f64,
@@ -55,9 +56,9 @@ struct Stride {
 }
 
 impl World<'_> {
-    /// What [`World::look_through`] sees from `position` (r_s) in each of these directions (rain frame), with the same bits, in less time where
-    /// neighbours stand together: every quarter of the list, and every quarter of it, should be a patch of the picture. `cross` is told the number
-    /// of the ray.
+    /// What [`World::look_through`] sees from `position` (r_s) in each of these directions (rain frame), with the same bits. It takes less
+    /// time if neighbours in the list are neighbours in the picture: every quarter of the list, and every quarter of that, should be a
+    /// patch. `cross` also gets the number of the ray.
     pub fn look_together(&self, position: DVec3, looks: &[DVec3], tolerance: f64, cross: &mut dyn FnMut(usize, Crossing)) -> Vec<Seen> {
         if !self.hole {
             let alone = |(i, &look): (usize, &DVec3)| self.look_through(position, look, tolerance, &mut |crossing| cross(i, crossing));
@@ -85,7 +86,7 @@ impl World<'_> {
         let is_lost =
             |walk: &&Walk| walk.looks == 0 || walk.seen.is_some_and(|seen| seen == Seen::Captured) && walk.follower.end == Some(End::Steps);
         self.given_up.fetch_add(march.walks.iter().filter(is_lost).count(), Ordering::Relaxed);
-        // Every ray has ended, so every ray has seen something; or there is no time left for a picture.
+        // Every ray has ended and has seen something, unless the deadline has passed.
         march.walks.iter().map(|walk| walk.seen.unwrap_or(Seen::Captured)).collect()
     }
 }
@@ -100,7 +101,7 @@ struct March<'a> {
 }
 
 impl March<'_> {
-    /// The next step of every ray that is still on its way; false where none is.
+    /// Takes the next step of every ray that is still on its way; false if there is none.
     fn step(&mut self) -> bool {
         for walk in self.walks.iter_mut().filter(|walk| walk.seen.is_none() && walk.follower.end.is_some()) {
             walk.seen = Some(beyond(&walk.follower, walk.axes));
@@ -110,7 +111,7 @@ impl March<'_> {
             self.steps.push(Segments::empty());
         }
         for (group, (step, rays)) in self.steps.iter_mut().zip(alive.chunks(LANES)).enumerate() {
-            // The last of too few goes more than once.
+            // If rays are too few for all lanes, the last one fills the rest.
             let here = std::array::from_fn::<_, LANES, _>(|lane| self.walks[rays[lane.min(rays.len() - 1)]].follower.here());
             step.step(here.map(|here| here.0), &here.map(|here| here.1), self.tolerance);
             for (lane, &ray) in rays.iter().enumerate() {
@@ -127,7 +128,7 @@ impl March<'_> {
         self.strides(packet).count()
     }
 
-    /// Adds the packet to the list, or its quarters where its rays have diverged.
+    /// Adds the packet to the list, or its quarters if its rays have diverged.
     fn split(&self, packet: Range<usize>, list: &mut Vec<Range<usize>>) {
         match self.count(&packet) {
             0 => {}
@@ -141,7 +142,7 @@ impl March<'_> {
         self.walks[packet.clone()].iter().filter(|walk| walk.seen.is_none()).map(|walk| &walk.stride)
     }
 
-    /// Finds what the rays of a packet meet in their step of what is `near` a larger one.
+    /// Intersects the rays of a packet, in their step, with what is `near` the larger packet.
     fn meet(&mut self, packet: Range<usize>, near: &Near) {
         let count = self.count(&packet);
         if count <= 1 {
@@ -157,7 +158,7 @@ impl March<'_> {
         }
     }
 
-    /// Asks those rays of a packet one by one whose step has it.
+    /// Tests one by one those rays of a packet whose step satisfies `asked`.
     fn meet_each(&mut self, packet: Range<usize>, near: &Near, asked: impl Fn(&Stride) -> bool) {
         for ray in packet {
             let Walk { axes, seen, looks, stride, .. } = &mut self.walks[ray];
@@ -170,7 +171,7 @@ impl March<'_> {
     }
 }
 
-/// Four parts of as equal length as can be, or fewer.
+/// Four parts of as equal length as possible, or fewer.
 fn quarters(packet: Range<usize>) -> impl Iterator<Item = Range<usize>> {
     let length = packet.len().div_ceil(4).max(1);
     packet.clone().step_by(length).map(move |start| start..(start + length).min(packet.end))
@@ -188,11 +189,12 @@ impl Stride {
             slot,
             swept,
             places: along.map(|place| axes[0] * place.x + axes[1] * place.y),
-            // From the sheaf's chords to the curve, from it to the chords of a ray alone, and from those as far as boxes are grown for it.
+            // From the sheaf's chords to the curve, from the curve to the chords of a ray alone, and from those to the limit of the boxes
+            // grown for it.
             strays: growth(bend, length / PIECES as f64, ends) + 2.0 * growth(bend, own, ends),
             start: step.start[lane],
             length,
-            // The plane goes through the hole, round which a step turns by less than half a turn: it is crossed once at most.
+            // The plane goes through the hole, and a step turns round the hole by less than half a turn: it crosses the plane at most once.
             crosses: height(ends[0]) * height(ends[1]) <= 0.0,
         }
     }
@@ -233,7 +235,7 @@ impl Sheaf {
         width > WIDE * length
     }
 
-    /// A chord in the middle of a piece, and how far on each axis what the rays do strays from it.
+    /// The chord in the middle of a piece, and how far along each axis the rays may be from it.
     fn chord(&self, piece: usize) -> Chord {
         let ends = [piece, piece + 1];
         let [from, to] = ends.map(|k| 0.5 * (self.low[k] + self.high[k]));
@@ -243,7 +245,7 @@ impl Sheaf {
         Chord::new(from, to, a.max(b) + self.strays + rounding)
     }
 
-    /// What of `outer` the rays may meet.
+    /// The part of `outer` that the rays may meet.
     fn near(&self, world: &World, scope: &Scope, outer: &Near) -> Near {
         let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
         let tree = &world.held.tree;

@@ -1,32 +1,33 @@
-//! Where a curve of which a bound on its bend is known goes through a plane: all of its crossings, in order.
+//! All crossings of a curve with a plane, in order, if a bound on the bend of the curve is known.
 
-/// How much a curve, or its height over a plane, bends at most.
+/// Bounds on how much a curve, or its height over a plane, bends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bend {
-    /// |second derivative|, but at kinks.
+    /// Greatest |second derivative|, except at kinks.
     pub curve: f64,
-    /// All jumps of the first derivative together.
+    /// Sum of all jumps of the first derivative.
     pub kink: f64,
 }
 
 impl Bend {
-    /// How far the curve strays from its chord over a span: Green's function of the second derivative is a quarter of the span at most, its
-    /// integral an eighth of its square.
+    /// Greatest distance of the curve from its chord over a span. Green's function of the second derivative is at most a quarter of the
+    /// span, and its integral an eighth of the span's square.
     pub fn sagitta(&self, span: f64) -> f64 {
         (0.125 * self.curve * span + 0.25 * self.kink) * span
     }
 
-    /// The same in units of which one is `factor` of the old ones.
+    /// The same bounds times `factor`.
     pub fn times(&self, factor: f64) -> Bend {
         Bend { curve: self.curve * factor, kink: self.kink * factor }
     }
 }
 
-/// Tells `visit` of the roots of f from `a` to `b`, each with its value there, in order, until it answers that it is content; gives whether it was.
+/// Calls `visit` for the roots of f from `a` to `b` (each with the value of f there), in order, until it returns true. Returns whether it
+/// did.
 ///
-/// With the sagitta S a function is within 4 S t (1 − t) of its chord at the share t of the span, and its slope within 4 S over the span. So between
-/// a and b of one sign it has no root if √a + √b > 2 √S, and between two of different signs it has one if |b − a| > 4 S. Everything else is halved,
-/// down to dips and waves of less than `least`.
+/// With the sagitta S a function is within 4 S t (1 − t) of its chord at the share t of the span, and its slope within 4 S over the span of
+/// the chord's. So between ends of one sign it has no root if √a + √b > 2 √S, and between ends of different signs exactly one if |b − a| >
+/// 4 S. All other spans are halved, down to dips and waves of less than `least`.
 pub(super) fn roots(
     f: &impl Fn(f64) -> f64,
     a: (f64, f64),
@@ -38,13 +39,13 @@ pub(super) fn roots(
     let span = b.0 - a.0;
     let sagitta = bend.sagitta(span);
     let crosses = a.1 * b.1 <= 0.0;
-    // Where f is unknown at one end, it may be known up to near there.
+    // If f is unknown at one end, it may be known up to near there.
     let known = [a.1, b.1].map(f64::is_finite);
     if known == [false; 2] || known == [true; 2] && !crosses && a.1.abs().sqrt() + b.1.abs().sqrt() > 2.0 * sagitta.sqrt() {
         return false;
     }
     if crosses && (b.1 - a.1).abs() > 4.0 * sagitta || sagitta.is_nan() || sagitta <= least {
-        // A curve that runs in the plane sees no surface.
+        // A curve in the plane sees the triangle edge on.
         return crosses && (a.1 != 0.0 || b.1 != 0.0) && visit(falsi(a, b, f));
     }
     let middle = a.0 + 0.5 * span;

@@ -1,20 +1,25 @@
-//! At which delays a camera may see a flying body at all, and how far out: by a walk along its worldline in steps as long as it is far.
+//! The delays between which a camera may see a flying body, and how far out: found by a walk along its worldline, in steps proportional to
+//! its radius.
 
 use super::sweep::fastest_since;
 use super::worldline::{Pose, Worldline};
 use crate::spacetime::matter::gamma;
 
-/// Light winds at the photon sphere for this long at most (r_s/c): a deviation grows by e in (3√3/2) r_s/c, and 10¹⁶ is e^36.8.
+/// Longest winding at the photon sphere, in r_s/c. A deviation from it grows by a factor of e in (3√3/2) r_s/c, and 10¹⁶ is e^36.8.
 const WINDING: f64 = 100.0;
-/// Light that clings to the horizon is followed for this long (r_s/c): its frequency has then fallen by e^−100, below the least number in f32.
+/// For how long light that clings to the horizon is followed, in r_s/c. Its frequency has then fallen by e^−100, below the least number in
+/// f32.
 pub(super) const CLINGING: f64 = 200.0;
-/// Older light is not looked for (r_s/c): a ship that comes straight at the camera with 1 − v below about 10⁻⁴ is not seen where it was before.
+/// Oldest light that is searched for, in r_s/c. A ship that comes straight at the camera with 1 − v below about 10⁻⁴ is not seen at its
+/// earlier positions.
 const OLDEST: f64 = 1e5;
-/// A step of the walk, as a part of the radius or of the body's reach, whichever is more.
+/// Step of the walk, as a share of the radius or of the body's reach, whichever is more.
 const STEP: f64 = 0.25;
-/// How close to r = 1 (r_s) light that clings is followed: the gap is taken with which it is left soonest. Each costs it 4.6 r_s/c more than the one before.
+/// Gaps to r = 1, in r_s, down to which clinging light may be followed. The one with which the following ends soonest is taken. Each costs
+/// 4.6 r_s/c more than the one before.
 const GAPS: [f64; 6] = [1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
-/// Before a body that is held in place light stands still that moves by less than this part of its reach, in its axes.
+/// Clinging light stands still in front of a body held in place, if it moves by less than this share of the body's reach, in the body's
+/// axes.
 const STILL: f64 = 1e-3;
 
 /// What light to a camera at one radius may meet.
@@ -22,20 +27,21 @@ const STILL: f64 = 1e-3;
 pub(super) struct Scope {
     /// The camera's radius, in r_s.
     camera: f64,
-    /// Light on its way out beyond this radius (r_s) meets nothing any more.
+    /// Outgoing light beyond this radius, in r_s, meets nothing.
     pub radius: f64,
-    /// Light that clings to the horizon may meet something until this delay (r_s/c),
+    /// Clinging light may meet something until this delay, in r_s/c,
     pub clings_until: f64,
     /// or while it is farther than this from r = 1 (r_s).
     pub gap: f64,
-    /// For each of [`GAPS`] the delay (r_s/c) after which no body comes so close to r = 1.
+    /// For each of [`GAPS`] the delay, in r_s/c, after which no body is so close to r = 1.
     lingers: [f64; GAPS.len()],
-    /// For each flying body the delays between which it may be met, in r_s/c.
+    /// For each flying body the least and the greatest delay at which it may be met, in r_s/c.
     spans: Vec<[f64; 2]>,
 }
 
 impl Scope {
-    /// Of a camera at radius `camera` (r_s) at T = `time`, where nothing is held beyond `radius`; `lines` are the flying bodies with their reach (r_s), in their order.
+    /// For a camera at radius `camera` (r_s) at T = `time`. Nothing is held in place beyond `radius`. `lines` are the flying bodies with
+    /// their reach (r_s), in order.
     pub fn new<'a>(camera: f64, radius: f64, time: f64, hole: bool, lines: impl Iterator<Item = (&'a dyn Worldline, f64)>) -> Scope {
         let (lingers, spans) = ([0.0; GAPS.len()], Vec::new());
         let mut scope = Scope { camera, radius, clings_until: 0.0, gap: GAPS[0], lingers, spans };
@@ -46,7 +52,7 @@ impl Scope {
         scope
     }
 
-    /// Whether it is that of a camera at this radius (r_s).
+    /// Whether it belongs to a camera at this radius (r_s).
     pub fn is_of(&self, camera: f64) -> bool {
         self.camera == camera
     }
@@ -60,7 +66,7 @@ impl Scope {
     fn add(&mut self, time: f64, hole: bool, line: &dyn Worldline, reach: f64) {
         let pose = |delay: f64| line.at(time - delay);
         let at = |delay: f64| pose(delay).position.length();
-        // Light to the camera, followed backwards, comes no nearer to the hole than this; nor does a body that is inside ever come out.
+        // Light to the camera, followed backwards, comes no nearer to the hole than this, and a body inside never comes out.
         let floor = if hole { self.camera.min(1.0) } else { 0.0 };
         let newest = last_below(|delay| at(delay) + reach < floor);
         let mut delay = newest;
@@ -68,7 +74,7 @@ impl Scope {
         let mut r = here.position.length();
         while delay < OLDEST {
             if !r.is_finite() {
-                // Where nothing is known here, more may be known a moment earlier.
+                // If nothing is known at this time, something may be known a moment earlier.
                 delay += 1.0 / 64.0;
                 here = pose(delay);
                 r = here.position.length();
@@ -79,14 +85,14 @@ impl Scope {
                 break;
             }
             let strays = STEP * r.max(reach);
-            // At r = 0, where nothing real is, the bound has no end.
+            // At r = 0 the bound is infinite.
             let newer = delay;
             delay += (strays / fastest_since(r)).max(1e-4);
             let last = std::mem::replace(&mut here, pose(delay));
             let before = std::mem::replace(&mut r, here.position.length());
-            // Between the two it may be nearer and farther by half of what it strays at most.
+            // Between the two times it may be nearer or farther by half of the largest motion.
             let far = before.max(r) + 0.5 * strays + reach;
-            // Light gains on everything: what it has not reached by now it had not before.
+            // Light is faster than any body: a body that it has not reached by this delay it had not reached before.
             if r - reach <= farthest(self.camera, delay) {
                 self.radius = self.radius.max(far);
             }
@@ -105,15 +111,15 @@ impl Scope {
         self.spans.push([newest, delay]);
     }
 
-    /// Takes the gap with which light that clings is left soonest.
+    /// Takes the gap with which the following of clinging light ends soonest.
     fn settle(&mut self) {
         let left = |k: &usize| self.lingers[*k].max(self.inwards() - 2.0 * GAPS[*k].ln());
         let best = (0..GAPS.len()).min_by(|a, b| left(a).total_cmp(&left(b))).unwrap_or(0);
         (self.clings_until, self.gap) = (self.lingers[best], GAPS[best]);
     }
 
-    /// Whether no light is as old as this (r_s/c) and still within `far` (r_s), but what clings to the horizon. Nothing overtakes light, so that
-    /// stays so. Light takes r − 2√r + 2 ln(1 + √r) out, followed backwards, and at most [`Scope::inwards`] in.
+    /// Whether no light of this age (r_s/c) is still within `far` (r_s), except clinging light. Nothing overtakes light, so this stays true
+    /// for older light. Followed backwards, light takes r − 2√r + 2 ln(1 + √r) outwards, and at most [`Scope::inwards`] inwards.
     fn is_past(&self, hole: bool, far: f64, delay: f64) -> bool {
         if !hole {
             return far < delay - self.camera;
@@ -122,29 +128,29 @@ impl Scope {
         far - 2.0 * root + 2.0 * root.ln_1p() < delay - self.inwards() - WINDING
     }
 
-    /// How long light takes from the camera inwards at most, without its winding (r_s/c).
+    /// Longest time that light takes from the camera inwards, without winding, in r_s/c.
     fn inwards(&self) -> f64 {
         let root = self.camera.sqrt();
         self.camera + 2.0 * root + 2.0 * root.ln_1p()
     }
 }
 
-/// What is between a body and r = 1 for a while.
+/// The space between a body and r = 1 over a span of delay.
 struct Room {
-    /// How far it stays from there, in r_s; below 0 where it may lie across it.
+    /// Least distance of the body from r = 1, in r_s; below 0 where it may lie across it.
     room: f64,
-    /// Light closer than this to r = 1 (r_s) stands still before it.
+    /// Light closer than this to r = 1, in r_s, stands still in front of the body.
     stands: f64,
 }
 
-/// Of a body between two delays (r_s/c) a step apart, at which it is at these places; None where it does not know how it moves. What hugs the horizon is
-/// contracted across it: followed backwards it comes as close to it as light that clings, and no closer.
+/// The room of a body between two delays (r_s/c) one step apart, with its poses there; None if its motion is not known. A body close to the
+/// horizon is contracted across it: followed backwards it comes as close to r = 1 as clinging light, and no closer.
 fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pose); 2]) -> Option<Room> {
     let span = older.0 - newer.0;
     let sway = line.sway(time - older.0, time - newer.0)?;
     let moves = 0.5 * sway.velocity * span;
     let extent = |pose: &Pose| {
-        // Of y in body axes the place is B⁻¹ y from the centre, and |B⁻¹ n|² = 1 − (n·p)²/γ² = (1 + |p × n|²)/γ².
+        // A point y in body axes is B⁻¹ y from the centre, and |B⁻¹ n|² = 1 − (n·p)²/γ² = (1 + |p × n|²)/γ².
         let across = pose.momentum.cross(pose.position.normalize());
         reach * across.length().hypot(1.0) / gamma(pose.momentum)
     };
@@ -160,13 +166,14 @@ fn room(time: f64, line: &dyn Worldline, reach: f64, [newer, older]: [(f64, &Pos
     Some(Room { room: (r0.min(r1) - 1.0).max(1.0 - r0.max(r1)) - moves - extent, stands })
 }
 
-/// How far out light of this delay (r_s/c) to a camera at radius `camera` is at most, in r_s: dr/dτ ≤ 1 + r^{-1/2}.
+/// Largest radius of light of this delay (r_s/c) to a camera at radius `camera`, in r_s: dr/dτ ≤ 1 + r^{-1/2}.
 fn farthest(camera: f64, delay: f64) -> f64 {
     let start = camera.max(1.0);
     start + delay + 2.0 * ((start + delay).sqrt() - start.sqrt())
 }
 
-/// The last delay (r_s/c) up to which something holds that, once it does not, never holds at greater ones; a little less is given, never more.
+/// The largest delay (r_s/c) up to which `holds` is true, if once false it stays false at greater ones. The result may be a little less,
+/// never more.
 fn last_below(holds: impl Fn(f64) -> bool) -> f64 {
     if !holds(0.0) {
         return 0.0;

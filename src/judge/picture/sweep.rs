@@ -1,4 +1,5 @@
-//! Where a flying body may be over windows of delay: boxes in a binary tree over time, so that light far from it needs no look at its history.
+//! Where a flying body may be over windows of delay: boxes in a binary tree over time, so that for light far from the body its history need
+//! not be read.
 
 use glam::DVec3;
 
@@ -6,11 +7,11 @@ use super::tree::Chord;
 use super::worldline::Worldline;
 use crate::judge::bvh::Bounds;
 
-/// A window is halved until the body moves by less than this part of its reach and the bound on its speed holds.
+/// A window is halved until the body moves in it by less than this share of its reach and the bound on its speed holds.
 const SHARE: f64 = 1.0;
-/// Or until it is this short, in r_s/c: a body that comes to the singularity has no such window.
+/// Or until it is this short, in r_s/c: for a body that reaches the singularity the first condition is never met.
 const SHORTEST: f64 = 1.0 / 64.0;
-/// The width of the windows that are halved, in r_s/c, and how many there are at most: older light asks the history itself.
+/// Width of the windows that are halved, in r_s/c, and their greatest number: for older light the history itself is read.
 const WINDOW: f64 = 4.0;
 const MOST_WINDOWS: usize = 256;
 
@@ -25,12 +26,12 @@ pub(super) struct Sweep {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     bounds: Bounds<f64>,
-    /// The index of the first of two halves, 0 where there are none.
+    /// Index of the first of its two halves, 0 if there are none.
     halves: usize,
 }
 
 impl Sweep {
-    /// Of a body that reaches `reach` (r_s) from its centre, seen at T = `time` from delay 0 back to `oldest` (r_s/c).
+    /// For a body that reaches `reach` (r_s) from its centre, seen at T = `time` from delay 0 back to `oldest` (r_s/c).
     pub fn new(line: &dyn Worldline, time: f64, oldest: f64, reach: f64) -> Sweep {
         let windows = ((oldest / WINDOW).ceil() as usize).clamp(1, MOST_WINDOWS);
         let nothing = Node { bounds: Bounds::EMPTY, halves: 0 };
@@ -51,7 +52,7 @@ impl Sweep {
         // Inside the horizon r only falls with T: at the late end it is least.
         let late = if sure { f64::INFINITY } else { line.at(time - from).position.length() };
         let (sure, strays) = if late < 1.0 { (true, half * fastest_since(late)) } else { (sure, strays) };
-        // What the body knows of itself is closer: next to the horizon what came out of it creeps.
+        // The bounds of the body's own history are tighter: next to the horizon a body that would have come out of the hole hardly moves.
         let (sure, strays) = match sway.map(|sway| half * sway.velocity) {
             Some(known) if known.is_finite() => (true, if sure { strays.min(known) } else { known }),
             _ => (sure, strays),
@@ -93,12 +94,12 @@ impl Sweep {
     }
 }
 
-/// Nothing outruns light: |dx/dT| ≤ 1 + β, of which this is a bound while r stays above 0.4 of what it is here (1/√0.4 < 1.6).
+/// Bound on the speed |dx/dT| ≤ 1 + β of anything at r (r_s), in c, that holds while r stays above 0.4 of its value here (1/√0.4 < 1.6).
 pub(super) fn fastest(r: f64) -> f64 {
     1.0 + 1.6 / r.sqrt()
 }
 
-/// The same bound at every earlier time, of what is at r (r_s): inside the horizon r only falls with T, and what is outside now never was inside.
+/// The same bound for every earlier time: inside the horizon r only falls with T, and what is outside now was never inside.
 pub(super) fn fastest_since(r: f64) -> f64 {
     1.0 + 1.0 / r.min(1.0).sqrt()
 }

@@ -1,17 +1,17 @@
-//! A tree of boxes over triangles, asked along one short piece of a curve.
+//! A bounding volume hierarchy over triangles, traced along one short piece of a curve.
 
 use glam::DVec3;
 
 use crate::judge::bvh::{self, Bounds, Costs, Settings};
 
-/// A triangle against a curve takes a root to find; a box against a chord two divisions an axis.
+/// Costs: a triangle against a curve takes the search of a root; a box against a chord takes two divisions an axis.
 const SETTINGS: Settings = Settings { costs: Costs { node: 1.0, primitive: 4.0 }, max_leaf: 4 };
 
 /// A binary tree of axis-aligned boxes over triangles.
 #[derive(Clone, Debug)]
 pub struct Tree(bvh::Tree<f64>);
 
-/// Where a chord passes boxes that are grown on all sides.
+/// A chord against boxes that are grown on all sides.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chord {
     from: DVec3,
@@ -90,7 +90,7 @@ impl Tree {
             }
         }
     }
-    /// The same for those leaves alone of which `Tree::gather` told, in any order.
+    /// The same, only for those leaves that `Tree::gather` found, in any order.
     pub fn along_leaves(&self, leaves: &[u32], from: DVec3, to: DVec3, grow: f64, mut meet: impl FnMut(u32, f64) -> f64) {
         let chord = Chord::new(from, to, DVec3::splat(grow));
         let mut until = 1.0;
@@ -104,7 +104,7 @@ impl Tree {
         }
     }
 
-    /// Adds to `leaves` those whose boxes the chord passes; false, and no use, where they would be more than `most`.
+    /// Adds to `leaves` those whose boxes the chord passes. Returns false, and `leaves` is of no use, if there are more than `most`.
     pub(super) fn gather(&self, chord: &Chord, most: usize, leaves: &mut Vec<u32>) -> bool {
         if self.0.nodes.is_empty() {
             return true;

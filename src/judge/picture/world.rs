@@ -1,4 +1,4 @@
-//! What the judge looks at: a scene's things with their models, places and worldlines.
+//! The scene as the judge sees it: bodies with their models, positions and worldlines.
 
 use super::worldline::Motion;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -40,13 +40,13 @@ pub struct World<'a> {
     pub hole: bool,
     pub(super) held: Held,
     pub(super) flying: Vec<Flying>,
-    /// Beyond this radius nothing is held, in r_s.
+    /// Nothing is held in place beyond this radius, in r_s.
     pub(super) held_radius: f64,
-    /// What light to the latest camera may meet where.
+    /// What light to the latest camera may meet, and at which delays.
     pub(super) scope: Mutex<Option<Arc<Scope>>>,
     /// How many rays were given up.
     pub(super) given_up: AtomicUsize,
-    /// When there is no time left, and whether that is past.
+    /// The deadline; below, whether it has passed.
     deadline: Option<Instant>,
     late: AtomicBool,
 }
@@ -68,11 +68,11 @@ pub(super) struct Flying {
     pub tree: Tree,
     /// The farthest corner from the centre, in r_s.
     pub reach: f64,
-    /// Where it may be at which delay.
+    /// Where it may be, by delay.
     pub sweep: Sweep,
 }
 
-/// Windows of delay are kept back to this and twice the body's radius (r_s/c): beyond are cameras far away, and light that winds.
+/// Windows of delay go back to this and twice the body's radius, in r_s/c. Beyond are far cameras, and light that winds.
 const OLDEST: f64 = 100.0;
 
 impl<'a> World<'a> {
@@ -97,7 +97,7 @@ impl<'a> World<'a> {
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
                     let far = line.at(time).position.length();
                     let oldest = OLDEST + 2.0 * far;
-                    // What lingers at the hole may be met by light that clings to the horizon.
+                    // A body that lingers at the hole may be met by light that clings to the horizon.
                     let lingers = line.at(time - oldest).position.length() <= 2.0 + 2.0 * reach;
                     let sweep = Sweep::new(line, time, if lingers { oldest + CLINGING } else { oldest }, reach);
                     flying.push(Flying { thing: index as u32, vertices, tree, reach, sweep });
@@ -121,7 +121,7 @@ impl<'a> World<'a> {
         }
     }
 
-    /// From `deadline` on rays are left where they are: what they show then is nothing to go by, see [`World::is_late`].
+    /// From `deadline` on rays are stopped where they are; what they show is meaningless, see [`World::is_late`].
     pub fn stop_at(&mut self, deadline: Instant) {
         self.deadline = Some(deadline);
     }
@@ -139,8 +139,8 @@ impl<'a> World<'a> {
         self.given_up.fetch_add(usize::from(is), Ordering::Relaxed);
     }
 
-    /// How many rays have been given up since the world was built: they wound at the photon sphere to within rounding, or took more looks at flying bodies than
-    /// one ray is worth. Each counts as one that met nothing where it was left.
+    /// Number of rays that were given up since the world was built: they wound at the photon sphere to within rounding, or needed too many
+    /// tests of flying bodies. Each counts as one that met nothing.
     pub fn given_up(&self) -> usize {
         self.given_up.load(Ordering::Relaxed)
     }

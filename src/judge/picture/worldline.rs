@@ -1,4 +1,4 @@
-//! How things move.
+//! How bodies move.
 
 use glam::{DQuat, DVec3};
 
@@ -17,7 +17,7 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// From a place on the slice to the body's rest frame and axes: the rest length is longer along the momentum by γ.
+    /// From a position on the slice to the body's rest frame and axes: along the momentum lengths are γ times longer there.
     pub fn to_body(&self, place: DVec3) -> DVec3 {
         let away = place - self.position;
         let p = self.momentum;
@@ -48,16 +48,16 @@ pub struct Sway {
     pub surge: f64,
     /// The angular velocity of the attitude, constant between jumps.
     pub turning: f64,
-    /// All jumps of the force and of the angular velocity together.
+    /// Sum of all jumps of the force, and of the angular velocity.
     pub jumps: [f64; 2],
 }
 
 impl Sway {
-    /// How much the path of light bends in the body's axes, that comes no farther from its centre than `away` (r_s), at a speed of `light` and with
-    /// |d²x/dT²| up to `bend` on the slice.
+    /// How much the path of light bends in the body's axes. The light is within `away` (r_s) of the body's centre; on the slice it has the
+    /// speed `light` and |d²x/dT²| up to `bend`.
     ///
-    /// A place there is y = M (x − c), M = Rᵀ B with the rotation R of the attitude and the boost B = 1 + p pᵀ/(1 + γ), |B| = γ. With
-    /// f = 1/(1 + γ), |p| f < 1 and |γ'| ≤ |p'|: |B'| ≤ 3|p'| and |B''| ≤ 3|p''| + (8f + 1/γ)|p'|². The rest is the product rule.
+    /// A point there is y = M (x − c), M = Rᵀ B with the rotation R of the attitude and the boost B = 1 + p pᵀ/(1 + γ), |B| = γ. With f =
+    /// 1/(1 + γ), |p| f < 1 and |γ'| ≤ |p'|: |B'| ≤ 3|p'| and |B''| ≤ 3|p''| + (8f + 1/γ)|p'|². The rest is the product rule.
     pub(super) fn bend(&self, away: f64, light: f64, bend: f64) -> Bend {
         let [least, gamma] = self.momentum.map(|p| p.hypot(1.0));
         let rate = self.turning * gamma + 3.0 * self.force;
@@ -73,8 +73,8 @@ pub trait Worldline: Sync {
     /// The body at T = `time`, in r_s/c.
     fn at(&self, time: f64) -> Pose;
 
-    /// Bounds on how it moves from T = `from` to `to`; None where it knows none, and how far light strays from its chord in the body's axes is then
-    /// measured instead.
+    /// Bounds on its motion from T = `from` to `to`. None if they are not known; then the bend of light in the body's axes is measured
+    /// instead.
     fn sway(&self, _from: f64, _to: f64) -> Option<Sway> {
         None
     }
