@@ -1,4 +1,5 @@
-//! The gas of the disk where a ray crosses its plane: `disk_light` of `shaders/disk/place.wgsl`, point by point and without arcs.
+//! The light and opacity of the disk's gas where a ray crosses its plane: what `shaders/disk/light.wgsl` and `gas.wgsl` do, for each point
+//! and without arcs.
 
 use glam::{DVec3, Vec3};
 
@@ -36,8 +37,8 @@ impl Disk {
         Disk { gas, colours: blackbody::table(4096, COLDEST, HOTTEST) }
     }
 
-    /// What a crossing adds to the light of a ray at camera time `time`, and the part that it stops of what comes from behind. `blue` is
-    /// ν_camera over the frequency that a rain observer at the camera sees.
+    /// The light that a crossing adds to a ray at camera time `time`, and the share of light from behind that it stops. `blue` is ν_camera
+    /// over the frequency that a rain observer at the camera sees.
     pub fn light(&self, crossing: &Crossing, blue: f64, time: f64, shift: Shift) -> (Vec3, f32) {
         let position = crossing.position;
         let r = position.truncate().length();

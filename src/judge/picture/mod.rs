@@ -1,10 +1,10 @@
-//! Whole pictures by the judge: any scene, any camera, every pixel by a geodesic of its own.
+//! Whole pictures by the judge: any scene, any camera, one geodesic for every sample of a pixel.
 //!
-//! - [`world`]: the things of a scene, with worldlines handed in from above.
-//! - [`tree`]: boxes over triangles, asked along pieces of a curve.
-//! - `find`: what one look direction shows; `packet`: the same for neighbours together.
-//! - `roots`: where a curve of bounded bend goes through a plane.
-//! - `sweep`: where flying bodies may be at which delay; `span`: at which delays a camera may see them at all.
+//! - [`world`]: the bodies of a scene; their worldlines are handed in.
+//! - [`tree`]: bounding volume hierarchies over triangles, traced along pieces of a curve.
+//! - `find`: what is seen in one direction; `packet`: the same for neighbours together.
+//! - `roots`: crossings of a curve of bounded bend with a plane.
+//! - `sweep`: where flying bodies may be, by delay; `span`: the delays between which a camera may see them.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`post_process`]: linear light to a picture for the eye.
 
@@ -40,7 +40,7 @@ use shade::{Shift, Surface, detail, shaded, texel};
 use sky::{Background, SPOT_SIGMA, Spot};
 use texture::Pyramid;
 
-/// What of a scene is not a thing in it.
+/// The parts of a scene that are not bodies.
 pub struct Setting<'a> {
     /// The Milky Way.
     pub background: &'a Background,

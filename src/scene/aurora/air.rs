@@ -15,8 +15,8 @@ pub struct Air {
     pub temperature: f64,
 }
 
-/// (z in km, ρ in kg m⁻³, N₂, O₂, O in m⁻³, T in K): NRLMSISE-00 (Picone and others 2002) at 67.9° N, 25° E, 2003-01-21 00 UT,
-/// F10.7 = 150, Ap = 4.
+/// (z in km, ρ in kg m⁻³, N₂, O₂, O in m⁻³, T in K): NRLMSISE-00 (Picone et al. 2002) at 67.9° N, 25° E, 2003-01-21 00 UT, F10.7 = 150, Ap
+/// = 4.
 const TABLE: [(f64, f64, f64, f64, f64, f64); 23] = [
     (80.0, 1.165e-5, 1.911e20, 4.919e19, 2.323e15, 224.0),
     (85.0, 5.550e-6, 9.144e19, 2.310e19, 4.191e16, 221.0),
@@ -43,13 +43,13 @@ const TABLE: [(f64, f64, f64, f64, f64, f64); 23] = [
     (500.0, 3.572e-13, 8.895e10, 1.056e9, 1.196e13, 875.0),
 ];
 
-/// The lowest height at which anything is asked, km: far below, an electron of any energy drawn has stopped.
+/// The lowest height that is used, in km: an electron of any energy has stopped far above it.
 pub const FLOOR: f64 = 40.0;
-/// The highest height at which anything is asked, km.
+/// The highest height that is used, in km.
 pub const CEILING: f64 = 1000.0;
 
-/// The air at height `z` (km): logarithms of the densities are linear between the rows of the table, and go on with the slope of the last
-/// interval beyond its ends. Heights are held to [[`FLOOR`], [`CEILING`]]; a height that is not a number gives the air of the ceiling.
+/// The air at height `z` (km). Logarithms of the densities are linear between the rows of the table and continue with the last slope beyond
+/// its ends. Heights are clamped to [[`FLOOR`], [`CEILING`]]; NaN gives the air of the ceiling.
 pub fn air(z: f64) -> Air {
     let z = if z.is_nan() { CEILING } else { z.clamp(FLOOR, CEILING) };
     let i = TABLE.partition_point(|row| row.0 <= z).clamp(1, TABLE.len() - 1);

@@ -1,4 +1,5 @@
-//! Curves that go on in one another, so that what runs along them knows no joint: where each begins along its chain, and whether the chain is closed.
+//! Chains of curves that join end to end, so that what runs along them shows no joint: where each curve begins along its chain, and whether
+//! the chain is closed.
 
 use super::curve::Curve;
 
@@ -13,11 +14,11 @@ pub struct Link {
     pub total: f64,
     /// Whether the chain ends where it began.
     pub closed: bool,
-    /// The curves (or itself) that end where it starts, and start where it ends.
+    /// The curve (it may be this one) that ends where this one starts, and the one that starts where this one ends.
     pub joined: [Option<usize>; 2],
 }
 
-/// Ends nearer than this to one another are one, km.
+/// Ends closer together than this, in km, are joined.
 const JOINT: f64 = 1.0;
 
 /// The links of all curves, with their lengths in km.
@@ -25,7 +26,7 @@ pub fn links(curves: &[Curve], lengths: &[f64]) -> Vec<Link> {
     let next = |k: usize| curves.iter().position(|curve| curve.point(0.0).distance(curves[k].point(1.0)) < JOINT);
     let before = |k: usize| (0..curves.len()).find(|&other| next(other) == Some(k));
     let mut links: Vec<Option<Link>> = vec![None; curves.len()];
-    // Open chains from their beginnings, then what is left: rings, from any of their curves.
+    // Open chains from their beginnings; then rings, from any of their curves.
     let starts = (0..curves.len()).filter(|&k| before(k).is_none()).chain((0..curves.len()).filter(|&k| before(k).is_some()));
     for chain in starts {
         let mut own = Vec::new();

@@ -21,7 +21,7 @@ pub fn curtains(shape: AuroraShape, seed: u32) -> Vec<Curve> {
         AuroraShape::None => Vec::new(),
         AuroraShape::Oval => {
             let mut curves = ring(OVAL, 12.0, [20.0, 4.0], seed);
-            // A second curtain poleward, half of the way round: where that is turns with the planet.
+            // A second curtain poleward, over half of the circle; it turns with the planet.
             curves.extend(ring(0.83 * OVAL, 8.0, [15.0, 3.0], seed.wrapping_add(50)).into_iter().take(PARTS as usize / 2));
             curves
         }
@@ -33,7 +33,7 @@ pub fn curtains(shape: AuroraShape, seed: u32) -> Vec<Curve> {
 fn ring(colatitude: f64, width: f64, sine: [f64; 2], seed: u32) -> Vec<Curve> {
     let radius = colatitude * (PLANET_RADIUS + REFERENCE_HEIGHT);
     let part = TAU / f64::from(PARTS);
-    // Of a cubic Bézier curve that is a part of a circle: its handles over its radius.
+    // Length of the handles, over the radius, of a cubic Bézier curve that follows a part of a circle.
     let handle = 4.0 / 3.0 * (0.25 * part).tan();
     (0..PARTS)
         .map(|k| {
@@ -41,7 +41,7 @@ fn ring(colatitude: f64, width: f64, sine: [f64; 2], seed: u32) -> Vec<Curve> {
             let (a, b) = (DVec2::from_angle(part * f64::from(k)), DVec2::from_angle(part * f64::from(k + 1)));
             Curve {
                 control: [a, a + a.perp() * handle, b - b.perp() * handle, b].map(|point| point * radius),
-                // A whole number of waves from nought to nought: the parts join.
+                // A whole number of waves that begin and end at 0, so that the parts join.
                 amplitude: sine[0] * (0.2 + 1.2 * random(0)),
                 waves: (sine[1] * (0.5 + random(1))).round(),
                 phase: 0.0,

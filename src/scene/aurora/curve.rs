@@ -1,4 +1,5 @@
-//! Where electrons come down: points along a cubic Bézier curve with a sine laid over it, in the plane across the field (Sekiguchi et al., 2.2).
+//! The curves on which electrons come down: a cubic Bézier curve with a sine laid over it, in the plane across the field (Sekiguchi et al.,
+//! 2.2).
 
 use glam::DVec2;
 
@@ -24,9 +25,9 @@ impl Curve {
         self.base(t) + self.base_normal(t) * sine
     }
 
-    /// The unit normal of the curve with its sine at `t`. Where the curve stands still it is that of the Bézier curve's chord, or +y.
+    /// The unit normal of the curve with its sine at `t`. Where the derivative vanishes it is that of the Bézier curve's chord, or +y.
     pub fn normal(&self, t: f64) -> DVec2 {
-        // A step of 1e-4 of the curve: its error, second order, is far below the width.
+        // A step of 1e-4 of the curve: the error, of second order, is far below the width.
         let step = (self.point((t + 1e-4).min(1.0)) - self.point((t - 1e-4).max(0.0))).perp();
         step.try_normalize().unwrap_or_else(|| self.base_normal(t))
     }
@@ -50,10 +51,10 @@ impl Curve {
     }
 }
 
-/// Between two nodes of a curtain, beside the one before them and the one after: the place at `t` of the way and its derivative by t. A cubic with Catmull and
-/// Rom's directions: at a node it goes as from the node before that to the one after. It is everywhere about as fast as the two are apart, so that nodes at
-/// uneven distances make no loops, light that is spread evenly over t lies evenly, and seven nodes round a circle make one to half a per cent.
-/// Twin: `between_nodes` in shaders/aurora/streaks.wgsl.
+/// The point at `t` of the way from node `a` to node `b` of a curtain, with its derivative by t. It is a cubic with Catmull and Rom's
+/// directions: at a node the direction is that from the node before to the node after. The speed is everywhere about the distance of the
+/// two nodes. So nodes at uneven distances make no loops, light spread evenly over t is spread evenly along the curve, and seven nodes
+/// round a circle make one to half a per cent. Twin: `between_nodes` in shaders/aurora/streaks.wgsl.
 pub fn between_nodes([before, a, b, after]: [DVec2; 4], t: f64) -> [DVec2; 2] {
     let chord = b - a;
     let apart = chord.length();

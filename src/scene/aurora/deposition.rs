@@ -1,12 +1,12 @@
-//! Fang, Randall, Lummerzheim, Wang, Lu, Solomon and Frahm, *Parameterization of monoenergetic electron impact ionization*, Geophys. Res.
-//! Lett. 37, L22106 (2010): the height profile of ionisation by isotropic electrons of one energy, 100 eV to 1 MeV. The judge of [`super::fall`].
+//! The reference for [`super::fall`] (Fang et al. 2010): the height profile of ionisation by isotropic electrons of one energy, 100 eV to 1
+//! MeV.
 
 use super::air::air;
 
-/// Energy spent per ion pair, keV: the 35 eV of Fang and others (2010), after Rees (1989).
+/// Energy spent per ion pair, in keV: the 35 eV of Fang et al. 2010, after Rees 1989.
 pub const PAIR_ENERGY: f64 = 0.035;
 
-/// P_ij of their table 1: rows i = 1 to 8, columns j = 0 to 3.
+/// P_ij of table 1 there: rows i = 1 to 8, columns j = 0 to 3.
 const P: [[f64; 4]; 8] = [
     [1.24616, 1.45903, -0.242269, 0.0595459],
     [2.23976, -4.22918e-7, 0.0136458, 0.00253332],
@@ -35,8 +35,8 @@ fn scale_height(z: f64) -> f64 {
     BOLTZMANN * air.temperature / (mean_mass.max(DALTON) * gravity)
 }
 
-/// Ion pairs per cm³ and s at height `z` (km) for isotropic electrons of `energy` (keV, 0.1 to 1000) that bring `flux` keV cm⁻² s⁻¹
-/// from above. Their equations 1 to 5.
+/// Ion pairs per cm³ and s at height `z` (km) for isotropic electrons of `energy` (keV, 0.1 to 1000) that bring `flux` keV cm⁻² s⁻¹ from
+/// above. Equations 1 to 5 there.
 pub fn ionisation(z: f64, energy: f64, flux: f64) -> f64 {
     let ln = energy.ln();
     let c = P.map(|p| (p[0] + ln * (p[1] + ln * (p[2] + ln * p[3]))).exp());

@@ -1,9 +1,9 @@
 //! The planet's magnetic field as a centred dipole, and the plane in which the aurora moves.
 //!
-//! Axes are the dipole's: +z the north magnetic pole. A field line is r = L cos²λ (λ the magnetic latitude), so a point and a height say the
-//! rest in closed form. The plane across the field has the magnetic pole as its origin: a place at (x, y) km has the colatitude
-//! √(x² + y²)/R₀ and the longitude atan2(y, x), both on the reference sphere of radius R₀ = planet + [`REFERENCE_HEIGHT`]. The map is true
-//! along meridians; at the auroral oval (23°) circles of latitude are 2.7 % too long in it.
+//! Axes are the dipole's: +z is the north magnetic pole. A field line is r = L cos²λ with λ the magnetic latitude, so a point of the plane
+//! and a height give a position in closed form. The origin of the plane across the field is the magnetic pole. A point (x, y) in km has the
+//! colatitude √(x² + y²)/R₀ and the longitude atan2(y, x), both on the reference sphere of radius R₀ = planet + [`REFERENCE_HEIGHT`].
+//! Lengths are right along meridians; at the auroral oval (23°) circles of latitude are 2.7 % too long.
 
 use glam::{DVec2, DVec3};
 

@@ -1,10 +1,10 @@
 //! The fall of one electron along the field: how much of its energy is left at each height.
 //!
-//! Sekiguchi et al. move a particle by v_f Δt, meets air with probability n π r² v_f Δt (its equation 2) and takes energy away at each meeting; r is
-//! tuned. Here the mean loss per path is that of the measured range in air, R(E) = 4.57e-6 E^1.75 g cm⁻² (Barrett and Hays 1976, as Rees
-//! uses it), and a collision costs 35 eV: P_c = ρ v_f Δt/(35 eV · dR/dE). Along a path of slope µ = cos(pitch) the energy left follows from
-//! the mass of air overhead alone, E(z) = E₀ (1 − N(z)/(µ R(E₀)))^{1/1.75}, so a step may be of any length: a particle can neither pass
-//! the ground nor spend more than it has.
+//! Sekiguchi et al. move a particle by v_f Δt. It meets air with probability n π r² v_f Δt (equation 2 there) and loses energy at each
+//! meeting; r is tuned. Here the mean loss per path is that of the measured range in air, R(E) = 4.57e-6 E^1.75 g cm⁻² (Barrett & Hays
+//! 1976, as Rees 1989 uses it). A collision costs 35 eV: P_c = ρ v_f Δt/(35 eV · dR/dE). Along a path with µ = cos(pitch) the energy left
+//! follows from the mass N(z) of air overhead alone: E(z) = E₀ (1 − N(z)/(µ R(E₀)))^{1/1.75}. So a step may be of any length, and a
+//! particle can neither pass the ground nor spend more energy than it has.
 
 use super::air::overhead;
 use super::deposition::PAIR_ENERGY;

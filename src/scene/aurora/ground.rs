@@ -1,46 +1,47 @@
-//! The aurora's light on the ground: a map in the plane across the field, of how bright a white ground is beneath.
+//! The aurora's light on the ground: a map, in the plane across the field, of the brightness of white ground beneath.
 //!
-//! A map in that plane, and not one in the planet's texture coordinates: the curtains' places are in it as they are, a texel is as large everywhere, it is no larger
-//! than the oval with what it lights, and where an oval has two, the north's is the south's as well.
+//! The map is in that plane and not in the planet's texture coordinates, because there positions of curtains can be used as they are, all
+//! texels have the same size, the map is no larger than the oval and what it lights, and one map serves both poles of an oval.
 
 use glam::DVec2;
 
 use super::curve::Curve;
 use super::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 
-/// Side of a texel, km. Sources are laid out cloud in cell and the map is read straight between texels: that blurs by a variance of up to half
-/// a texel's square, of which a long straight curtain 110 km up loses up to 25²/(2 · 110²) = 2.6 % beneath it.
+/// Side of a texel, in km. Sources are laid out cloud in cell and the map is read bilinearly. That blurs by a variance of up to half a
+/// texel's square. A long straight curtain 110 km up loses up to 25²/(2 · 110²) = 2.6 % of its light beneath it.
 const TEXEL: f64 = 25.0;
-/// Most texels along a side: an oval's map has 290.
+/// Most texels along a side; an oval's map has 290.
 const MOST: usize = 400;
-/// What is lit from farther than the first of these (km) goes over to a map of coarser texels, and from the second on it is in that alone: light changes slowly there, and a
-/// source has thousands of fine texels within its horizon, nine times as many as coarse ones.
+/// Light from farther than the first distance, in km, goes over to a coarser map, and beyond the second it is in that alone. It changes
+/// slowly there, and within the horizon of a source there are thousands of fine texels, nine times as many as coarse ones.
 const NEAR: [f64; 2] = [90.0, 360.0];
 /// Fine texels along the side of a coarse one.
 const COARSE: usize = 3;
 
-/// How bright level white ground is by a square kilometre of a thin level sheet of brightness 1, km⁻². That part of the sheet is `height` km above the ground, and stands over a place that is
-/// `distance` km away in the plane across the field. A sheet shines as much to all sides: where it is seen along its normal with brightness L, the area A has the intensity L A. At r km from it,
-/// h km below it, the irradiance is E = L A h/r³, and white ground is as bright as E/π. The ground is round: below the horizon there is nothing.
+/// Brightness of level white ground by a square kilometre of a thin level sheet of brightness 1, in km⁻². That part of the sheet is
+/// `height` km above the ground and `distance` km away in the plane across the field. The sheet shines equally to all sides: along its
+/// normal an area A of brightness L has the intensity L A. At r km from it, h km below it, the irradiance is E = L A h/r³, and white ground
+/// has the brightness E/π. The ground is round: below the horizon there is no light.
 pub fn lit(distance: f64, height: f64) -> f64 {
     let (sine, cosine) = (distance / (PLANET_RADIUS + REFERENCE_HEIGHT)).sin_cos();
-    // From the place on the ground to the source: along the ground and up.
+    // From the point on the ground to the source: along the ground and up.
     let [aside, up] = [(PLANET_RADIUS + height) * sine, (PLANET_RADIUS + height) * cosine - PLANET_RADIUS];
     up.max(0.0) / (std::f64::consts::PI * (aside * aside + up * up).powf(1.5))
 }
 
-/// How far a source at a height is from the places that have it on their horizon, km in the plane across the field.
+/// Distance of a source at a height from the points that have it on their horizon, in km in the plane across the field.
 pub fn horizon(height: f64) -> f64 {
     (PLANET_RADIUS / (PLANET_RADIUS + height)).acos() * (PLANET_RADIUS + REFERENCE_HEIGHT)
 }
 
-/// The part of what a source lights so far away (km) that is in the fine map.
+/// The share of the light at this distance (km) that is in the fine map.
 fn near(distance: f64) -> f64 {
     let x = ((distance - NEAR[0]) / (NEAR[1] - NEAR[0])).clamp(0.0, 1.0);
     1.0 - x * x * (3.0 - 2.0 * x)
 }
 
-/// A square of the plane across the field: a fine map of what sources light near them, and a coarse one of the rest.
+/// A square of the plane across the field: a fine map of light near its source, and a coarse map of the rest.
 #[derive(Clone, Debug)]
 pub struct GroundMap {
     fine: Level,
@@ -48,7 +49,7 @@ pub struct GroundMap {
 }
 
 impl GroundMap {
-    /// Of curtains about these curves, whose light is made at a height, km.
+    /// For curtains about these curves whose light is made at `height`, in km.
     pub fn new(curves: &[Curve], height: f64) -> GroundMap {
         let places = || curves.iter().flat_map(|curve| (0..=32).map(|k| curve.point(f64::from(k) / 32.0)));
         let (low, high) = (places().fold(DVec2::INFINITY, DVec2::min), places().fold(DVec2::NEG_INFINITY, DVec2::max));
@@ -75,7 +76,7 @@ impl GroundMap {
         (self.fine.first - 0.5 * TEXEL, TEXEL * self.fine.size as f64)
     }
 
-    /// How bright a white ground is, row by row, where sources are at these places (km): their brightness times their area in km².
+    /// Brightness of white ground, row by row, for sources at these positions (km): each with its brightness times its area in km².
     pub fn of(&self, sources: impl Iterator<Item = (DVec2, f64)> + Clone) -> Vec<f32> {
         let (mut map, far, coarse) = (self.fine.of(sources.clone()), self.coarse.of(sources), self.coarse.size);
         for (y, row) in map.chunks_exact_mut(self.fine.size).enumerate() {
@@ -91,7 +92,7 @@ impl GroundMap {
     }
 }
 
-/// Texels of one size, and what a source lights about it.
+/// Texels of one size, and the light of a source on the texels round it.
 #[derive(Clone, Debug)]
 struct Level {
     /// The middle of the first texel, km, and the side of one.
@@ -99,12 +100,12 @@ struct Level {
     texel: f64,
     /// Texels along a side.
     size: usize,
-    /// What the texels about a source in the middle of one have: rows from the one that many texels before it on, each as long as a circle is wide there.
+    /// Light on the texels round a source that is in the middle of one: a list of rows, each as long as a circle is wide there.
     spread: Vec<Vec<f32>>,
 }
 
 impl Level {
-    /// Sources light so far (km), by their distance as `light` says.
+    /// Sources light as far as `reach` (km), by their distance as `light` says.
     fn new(first: DVec2, texel: f64, size: usize, reach: f64, light: impl Fn(f64) -> f64) -> Level {
         let most = (reach / texel) as i32;
         let row = |y: i32| {
@@ -114,7 +115,7 @@ impl Level {
         Level { first, texel, size, spread: (-most..=most).map(row).collect() }
     }
 
-    /// Its part of how bright a white ground is, row by row.
+    /// The part of the brightness of white ground that is in this map, row by row.
     fn of(&self, sources: impl Iterator<Item = (DVec2, f64)>) -> Vec<f32> {
         let laid = self.lay_out(sources);
         let mut map = vec![0.0; self.size * self.size];
@@ -123,7 +124,7 @@ impl Level {
             let (x, y) = (at % self.size, at / self.size);
             for (k, row) in self.spread.iter().enumerate() {
                 let half = row.len() / 2;
-                // The part of the row that is on the map.
+                // The part of the row on the map.
                 let Some(y) = (y + k).checked_sub(reach).filter(|y| *y < self.size) else { continue };
                 let (from, to) = (x.saturating_sub(half), (x + half + 1).min(self.size));
                 let texels = &mut map[y * self.size + from..y * self.size + to];

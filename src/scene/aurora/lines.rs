@@ -1,11 +1,12 @@
-//! The lines an aurora shines in: photons per ion pair by height, how long the light waits, and its colour.
+//! The spectral lines of an aurora: photons per ion pair by height, the delay of the light, and its colour.
 //!
-//! Four channels: green O(¹S) 557.7 nm; the first negative bands of N₂⁺ at 427.8 and 391.4 nm, blue and violet; red O(¹D) 630.0 and 636.4 nm; and
-//! the crimson first positive bands of N₂ (600 to 700 nm, given as 650). Those that share an upper state are one channel, counted by the photons of the
-//! first of them, and each has its own Doppler shift. Rates: Solomon, Hays and Abreu 1988 as in NCAR's GLOW (`gchem.f90`); shares of the species: Rees 1989.
+//! Four channels: green O(¹S) 557.7 nm; the first negative bands of N₂⁺ at 427.8 and 391.4 nm, blue and violet; red O(¹D) 630.0 and 636.4
+//! nm; and the crimson first positive bands of N₂ (600 to 700 nm, taken as 650). Lines that share an upper state are one channel; its
+//! photons are those of the first of them, and each line has its own Doppler shift. Rates: Solomon et al. 1988, as in GLOW (`gchem.f90`);
+//! shares of the species: Rees 1989.
 //!
-//! Left out is what has no ratio in those sources or is seen only when strongly shifted: N₂⁺ 470.9 nm, O(¹S) 297.2 nm, and the first positive bands
-//! in the infrared.
+//! Left out are lines without a ratio in those sources, or visible only when strongly shifted: N₂⁺ 470.9 nm, O(¹S) 297.2 nm, and the
+//! infrared first positive bands.
 
 use super::air::{Air, air};
 use crate::scene::blackbody::matching;
@@ -27,7 +28,7 @@ impl Line {
     /// All of them, in order.
     pub const ALL: [Line; 4] = [Line::Green, Line::Blue, Line::Red, Line::Crimson];
 
-    /// Where it shines: wavelengths in nm, each with its photons for one of the first.
+    /// Its wavelengths in nm, each with its photons per photon of the first.
     pub fn bands(self) -> &'static [(f64, f64)] {
         match self {
             Line::Green => &[(557.7, 1.0)],

@@ -1,16 +1,20 @@
 //! The motion of the curtains in the plane across the field: charge → potential → electric field → drift (Sekiguchi et al., 2.4).
 //!
-//! The electrons that come down charge the sheet negatively. Each node carries the charge of its share of the curve, as a Gaussian as thick as the sheet.
-//! What is far is solved on a grid: charges laid out cloud in cell, −∇²V = ρ/ε₀ with V = 0 on the edge of the square ([`Poisson`]), E = −∇V by central
-//! differences. What is near, and finer than the grid, is summed over pairs of nodes ([`Near`]). Every node drifts with E × B/B², which is what the
-//! Lorentz force leaves of a charge's motion once its gyration (a microsecond for electrons) is averaged away. A charged sheet in this drift is a vortex
-//! sheet: its waves grow, fold and curl by themselves, in the north counterclockwise as seen from the ground (Hallinan and Davis 1970). A wave of
-//! wavenumber k that is long against the sheet's thickness d grows at kU/2, U the jump of the drift across the sheet; waves of 2πd grow fastest, at
-//! 0.22 U/d, and those below 3 d hardly.
+//! The electrons that come down charge the sheet negatively. Each node carries the charge of its share of the curve, as a Gaussian as thick
+//! as the sheet.
 //!
-//! New electrons keep arriving where the curve was. They come in surges that run along the curtain: between two of them it folds freely, and in a surge
-//! its nodes go back to where they rest. Drawn back all the time instead, nodes that turn in a curl would fall into its middle, since turning
-//! evens out where they are drawn to: their charge would gather in knots that grow.
+//! - Far field: charges are laid on a grid cloud in cell, −∇²V = ρ/ε₀ is solved with V = 0 on the edge of the square ([`Poisson`]), and E =
+//!   −∇V by central differences.
+//! - Near field, finer than the grid: summed over pairs of nodes ([`Near`]).
+//! - Every node drifts with E × B/B², the Lorentz motion averaged over its gyration (a microsecond for electrons).
+//!
+//! A charged sheet in this drift is a vortex sheet: its waves grow, fold and curl by themselves, in the north counterclockwise as seen from
+//! the ground (Hallinan & Davis 1970). With d the sheet's thickness and U the jump of the drift across it, a wave of wavenumber k that is
+//! long against d grows at kU/2; waves of length 2πd grow fastest, at 0.22 U/d, and those shorter than 3 d hardly.
+//!
+//! New electrons keep arriving where the curve was at rest. They come in surges that run along the curtain. Between two surges it folds
+//! freely; in a surge its nodes go back to their rest. If nodes were drawn back all the time, those of a curl would fall into its middle,
+//! because the turning averages out the direction in which they are drawn, and their charge would gather in growing knots.
 
 use std::f64::consts::TAU;
 
@@ -24,43 +28,46 @@ use super::random::uniform;
 
 /// Inner points along the side of the grid.
 pub const GRID: usize = 95;
-/// Time between two steps, s. A node at the greatest speed moves a fraction of a cell in it.
+/// Time between two steps, in s. In it a node at the greatest speed moves a fraction of a cell.
 pub const STEP: f64 = 0.5;
 /// Strength of the field at the reference height, T (the Earth's at 67° N).
 pub const FIELD: f64 = 5e-5;
 /// No node drifts faster, km s⁻¹: the fastest seen in the ionosphere are near 4.
 pub const TOP_SPEED: f64 = 4.0;
-/// What the grid has instead of each charge: a Gaussian of so many cells, the least at which modes between its points are gone (to 1 %).
+/// Standard deviation, in cells, of the Gaussian that stands for each charge on the grid: the least at which modes between its points
+/// vanish (to 1 %).
 const SIGMA: f64 = 1.0;
-/// Least thickness of a curtain's charge, km (a standard deviation): curls are then some 40 km apart, as folds on the sky are 10 to 50 km wide.
+/// Least thickness of a curtain's charge, in km (one standard deviation): with it curls are about 40 km apart; folds in the sky are 10 to
+/// 50 km wide.
 pub const THICKNESS: f64 = 6.0;
-/// Part of a renewal time that a surge takes, and by which power of e it brings nodes nearer to their rest.
+/// Share of a renewal time that a surge takes; below, by which power of e a surge brings nodes nearer to their rest.
 const SURGE: f64 = 0.4;
 const SURGES_TO: f64 = 3.0;
-/// A surge comes this long after the one before at the latest, in d/U: later, curls would have wound up more than twice.
+/// Longest time between two surges, in d/U: later, curls would have wound up more than twice.
 const WOUND_UP: f64 = 24.0;
-/// Length of the noise by which surges come earlier and later along a curtain, km, and by how many renewal times they do.
+/// Length, in km, of the noise by which surges come earlier or later along a curtain; below, by how many renewal times.
 const SURGE_LENGTH: f64 = 250.0;
 const SURGE_SPREAD: f64 = 1.5;
-/// Lengths of the waves of brightness that travel along the curtains, km, and the times in which they pass a node, s.
+/// Waves of brightness that travel along the curtains: length in km, and the time in s in which one passes a node.
 const WAVES: [(f64, f64); 2] = [(95.0, 23.0), (30.0, -9.0)];
-/// Round a ring [`Node::along`] grows by a multiple of this, km: the period of the rays' noise in shaders/aurora/ends.wgsl, 512 values at 0.3 a km.
+/// Round a closed chain [`Node::along`] grows by a multiple of this, in km: the period of the rays' noise in shaders/aurora/ends.wgsl, 512
+/// values at 0.3 per km.
 pub const RAYS_LENGTH: f64 = 512.0 / 0.3;
 
-/// What moves, and how strongly.
+/// The curtains and the strength of their motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The curves at rest.
     pub curves: Vec<Curve>,
-    /// Nodes of all curves together; shared out by length.
+    /// Nodes of all curves together, distributed by length.
     pub nodes: usize,
-    /// Electric field toward a long straight curtain beside it, mV/m: the sheet's charge is −2 ε₀ of it.
+    /// Electric field towards a long straight curtain, beside it, in mV/m: the sheet's charge is −2 ε₀ times it.
     pub field: f64,
-    /// Time between two surges in which new electrons take the place of old, s; infinite for none.
+    /// Time between two surges, in which new electrons replace old ones, in s; infinite for none.
     pub renewal: f64,
     /// Contrast of the brightness that travels along the curtains, 0 to 1.
     pub contrast: f64,
-    /// Which aurora.
+    /// Seed: which aurora.
     pub seed: u32,
 }
 
@@ -71,7 +78,8 @@ pub struct Node {
     pub place: DVec2,
     /// Energy flux over its mean.
     pub flux: f64,
-    /// Where it lies along its curtain at rest, km, for the pattern of rays; stretched a little round a ring, for a whole number of [`RAYS_LENGTH`].
+    /// Position along its curtain at rest, in km, for the pattern of rays. Round a closed chain it is stretched a little, to a whole number
+    /// of [`RAYS_LENGTH`].
     pub along: f64,
 }
 
@@ -79,17 +87,17 @@ pub struct Node {
 #[derive(Clone, Debug)]
 pub struct Motion {
     plan: Plan,
-    /// Where each node is at rest: curve, place along it, and place, km.
+    /// Each node at rest: its curve, its parameter along it, its position in km.
     rest: Vec<(usize, f64, DVec2)>,
-    /// By how many renewal times surges come earlier at each node.
+    /// For each node, by how many renewal times surges come earlier.
     early: Vec<f64>,
     /// First node of each curve, and their number after the last.
     starts: Vec<usize>,
-    /// Lengths of the curves at rest, km, and how they go on in one another.
+    /// Lengths of the curves at rest, in km; below, how they join.
     lengths: Vec<f64>,
     links: Vec<Link>,
     nodes: Vec<Node>,
-    /// Speeds of the last step, for Adams and Bashforth's second-order step.
+    /// Velocities of the last step, for the second-order step of Adams and Bashforth.
     speeds: Vec<DVec2>,
     time: f64,
     centre: DVec2,
@@ -116,7 +124,7 @@ impl Motion {
         }
         let low = rest.iter().map(|rest| rest.2).fold(DVec2::INFINITY, DVec2::min);
         let high = rest.iter().map(|rest| rest.2).fold(DVec2::NEG_INFINITY, DVec2::max);
-        // Twice as wide as the charges: the grounded frame is then far.
+        // Twice as wide as the charges, so that the grounded edge is far.
         let side = 2.0 * (high - low).max_element().max(10.0);
         let centre = 0.5 * (low + high);
         let spacing = side / (GRID + 1) as f64;
@@ -152,14 +160,15 @@ impl Motion {
         motion
     }
 
-    /// Strength of the field, renewal time and contrast as in [`Plan`], from now on.
+    /// Sets the strength of the field, renewal time and contrast, as in [`Plan`].
     pub fn change(&mut self, field: f64, renewal: f64, contrast: f64) {
         (self.plan.field, self.plan.renewal, self.plan.contrast) = (field, renewal, contrast);
         self.near.thicken(self.thickness());
     }
 
-    /// Thickness d of the sheet, km: the standard deviation of the Gaussian that each node's charge is. At least as far as nodes lie apart at rest, so that
-    /// a sheet drawn out to twice its length is still even to 2 %, and no less than drifts past in a step, so that waves grow by an eighth in one at most.
+    /// Thickness d of the sheet, in km: the standard deviation of each node's charge. It is at least the distance of nodes at rest, so that
+    /// a sheet stretched to twice its length is still even to 2 %. It is at least the drift in a step, so that waves grow by an eighth in a
+    /// step at most.
     pub fn thickness(&self) -> f64 {
         let spacing = self.lengths.iter().sum::<f64>() / (self.nodes.len() - self.lengths.len()).max(1) as f64;
         THICKNESS.max(spacing).max(jump(self.plan.field).abs() * STEP)
@@ -185,8 +194,9 @@ impl Motion {
         &self.starts
     }
 
-    /// The nodes as they are drawn: before the first of each curve one more, and one after its last, by which its ends have their direction
-    /// ([`super::curve::between_nodes`]). Where curves are joined they are nodes of the neighbours; else they lie as far beyond the end as its own neighbour before it.
+    /// The nodes as they are drawn: each curve has one more before its first and one more after its last, which give its ends their
+    /// direction ([`super::curve::between_nodes`]). Where curves join these are nodes of the neighbour; else the end's own neighbour is
+    /// mirrored at the end.
     pub fn row(&self) -> impl Iterator<Item = Node> {
         let at = |curve: usize, from_start: bool, number: usize| {
             let (first, last) = (self.starts[curve], self.starts[curve + 1] - 1);
@@ -206,7 +216,7 @@ impl Motion {
         })
     }
 
-    /// Nodes whose speed was not finite, and that were put back to where they rest, so far.
+    /// How many nodes had a velocity that was not finite and were put back to rest, so far.
     pub fn caught(&self) -> u64 {
         self.caught
     }
@@ -244,8 +254,8 @@ impl Motion {
         self.plan.renewal.max(STEP).min(WOUND_UP * self.thickness() / jump(self.plan.field).abs().max(1e-6))
     }
 
-    /// How much of new electrons came in the last step where a node is, as an exponent: that of old ones which are left. A surge, 1 − cos over its time, is added up
-    /// in closed form, so that it comes to the same however short it is beside a step.
+    /// By which power of e new electrons replaced old ones at a node in the last step. A surge, 1 − cos over its time, is integrated in
+    /// closed form, so that its sum does not depend on how short it is relative to a step.
     fn renewed(&self, k: usize, period: f64) -> f64 {
         let come = |time: f64| {
             let periods = time / period + self.early[k];
@@ -255,7 +265,7 @@ impl Motion {
         SURGES_TO * (come(self.time) - come(self.time - STEP))
     }
 
-    /// Smooth noise in [0, 1] along the curtains, a value every so many km, without a seam round a ring; it has moved by `gone` values.
+    /// Smooth noise in [0, 1] along the curtains, one value every `long` km, without a seam round a closed chain, shifted by `gone` values.
     fn noise_along(&self, curve: usize, t: f64, long: f64, gone: f64, channel: u32) -> f64 {
         let link = self.links[curve];
         let round = (link.total / long).round().max(1.0);
@@ -269,7 +279,7 @@ impl Motion {
         &self.grid
     }
 
-    /// The field at a place where the charges were before the last step, mV/m.
+    /// The field at a point, in mV/m, by the charges as they were before the last step.
     pub fn field_at(&self, place: DVec2) -> DVec2 {
         self.far_at(place) + self.near.field_at(place)
     }
@@ -297,7 +307,7 @@ impl Motion {
         };
         let (i, j) = (p.x.floor() as i64, p.y.floor() as i64);
         let s = p - DVec2::new(i as f64, j as f64);
-        // Central differences of fourth order: the second order's are short by a twelfth where the grid's part hands over to the pairs.
+        // Central differences of fourth order: those of second order are too small by a twelfth where the pairs take over from the grid.
         let at = |i: i64, j: i64| {
             let near = DVec2::new(potential(i + 1, j) - potential(i - 1, j), potential(i, j + 1) - potential(i, j - 1));
             let far = DVec2::new(potential(i + 2, j) - potential(i - 2, j), potential(i, j + 2) - potential(i, j - 2));
@@ -310,7 +320,8 @@ impl Motion {
         self.side / (GRID + 1) as f64
     }
 
-    /// The charge of each node: of its share of its curve at rest, half as much at the ends; stretching thins it out. Electrons: it is negative.
+    /// The charge of each node: that of its share of the curve at rest, half as much at the ends. Stretching thins it out. It is negative,
+    /// as of electrons.
     fn charge(&self) -> impl Iterator<Item = Charge> {
         self.starts.windows(2).enumerate().flat_map(move |(curve, window)| {
             let share = -2.0 * self.plan.field * self.lengths[curve] / (window[1] - window[0] - 1) as f64;
@@ -340,12 +351,12 @@ impl Motion {
         }
     }
 
-    /// Brightness that travels along the curtains: two octaves of smooth noise, going at different speeds, without a seam round a ring.
+    /// Brightness that travels along the curtains: two octaves of smooth noise at different speeds, without a seam round a closed chain.
     fn shine(&mut self) {
         for k in 0..self.nodes.len() {
             let (curve, t, _) = self.rest[k];
             let link = self.links[curve];
-            // A curtain that ends fades out over an eighth of its last part.
+            // An open end of a curtain fades out over an eighth of its last curve.
             let end = |joined: Option<usize>, t: f64| if joined.is_some() { 1.0 } else { smooth((t / 0.12).min(1.0)) };
             let fade = end(link.joined[0], t) * end(link.joined[1], 1.0 - t);
             let wave = [0, 1].map(|octave: usize| {
@@ -357,17 +368,18 @@ impl Motion {
     }
 }
 
-/// The drift E × B/B² in a field (mV/m), km s⁻¹: B points down, so it turns E to the left seen from above. mV/m over T is mm/s·1000.
+/// The drift E × B/B² in a field (mV/m), in km s⁻¹. B points down, so the drift is E turned to the left as seen from above. 1 mV/m over 1 T
+/// is 1e-6 km/s.
 fn drift(field: DVec2) -> DVec2 {
     field.perp() * (1e-6 / FIELD)
 }
 
-/// The jump U of the drift across a long straight curtain with a field (mV/m) toward it from both sides, km s⁻¹.
+/// The jump U of the drift across a long straight curtain, in km s⁻¹, with a field (mV/m) towards it on both sides.
 pub fn jump(field: f64) -> f64 {
     2.0 * field * (1e-6 / FIELD)
 }
 
-/// Noise in [0, 1], smooth, one value per unit of `x`, the same again after `round` of them.
+/// Smooth noise in [0, 1], one value per unit of `x`, with period `round`.
 fn smooth_noise(channel: u32, x: f64, round: f64) -> f64 {
     let cell = x.floor();
     let s = x - cell;
@@ -375,7 +387,7 @@ fn smooth_noise(channel: u32, x: f64, round: f64) -> f64 {
     at(cell) + (at(cell + 1.0) - at(cell)) * smooth(s)
 }
 
-/// From 0 to 1 with level ends.
+/// From 0 to 1 with slope 0 at both ends.
 fn smooth(s: f64) -> f64 {
     s * s * (3.0 - 2.0 * s)
 }

@@ -1,20 +1,21 @@
-//! The near field of charges whose far field lies on a grid: what a charge as thick as the sheet has beside the Gaussian cloud that the grid knows.
+//! The near field of charges whose far field is on a grid: the difference between the field of a charge as thick as the sheet and that of
+//! the Gaussian cloud on the grid.
 //!
-//! A line of charge q/ε₀ (mV/m times km) spread by a Gaussian of standard deviation w has the field q (1 − exp(−r²/2w²))/(2πr) in closed form. The grid
-//! has that of w = σ, about a cell; the charge itself is as thick as the sheet, w = d. Their difference, q (exp(−r²/2σ²) − exp(−r²/2d²))/(2πr), is
-//! nothing beyond a few σ, and is summed over pairs: Ewald's way of splitting the sum, in two dimensions. Charges beside one another on a curve are taken
-//! together in sixes where they are seen under a small angle (Barnes and Hut).
+//! A line of charge q/ε₀ (mV/m times km) spread by a Gaussian of standard deviation w has the field q (1 − exp(−r²/2w²))/(2πr) in closed
+//! form. The grid has w = σ, about a cell; the charge itself is as thick as the sheet, w = d. The difference, q (exp(−r²/2σ²) −
+//! exp(−r²/2d²))/(2πr), vanishes beyond a few σ and is summed over pairs (Ewald's split of the sum, in two dimensions). Charges that are
+//! neighbours on a curve are taken together, six at a time, if they are seen under a small angle (Barnes and Hut).
 
 use std::f64::consts::TAU;
 
 use glam::DVec2;
 
-/// The near field is left out beyond so many σ: it has fallen to 1/450 of the charge's there.
+/// The near field is left out beyond so many σ, where it is 1/450 of the charge's.
 const REACH: f64 = 3.5;
-/// Values of the table of the field; straight lines between them are right to 1e-3 of the greatest where d is five of their steps or more.
+/// Entries of the table of the field. Linear interpolation is right to 1e-3 of the greatest value if d is five steps of it or more.
 const TABLE: usize = 2048;
-/// Charges that may be taken together, and how near they are to their middle then, over their distance: what is left of their field's change over so
-/// much, its second order with both signs along the curve, is below 1/100 of it.
+/// Charges that may be taken together, and their largest distance from their middle over that to the point: then the error of second order,
+/// which has both signs along the curve, is below 1/100 of the field.
 const TOGETHER: usize = 6;
 const OPENING: f64 = 0.25;
 
@@ -27,7 +28,7 @@ pub struct Charge {
     pub amount: f64,
 }
 
-/// Charges beside one another: which, their sum at their middle, and the square of the distance from which on it stands for them.
+/// Neighbouring charges: which, their sum at their middle, and the square of the distance from which on it stands for them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Cluster {
     all: Charge,
@@ -41,7 +42,7 @@ impl Cluster {
         let own = &charges[first..last];
         let amount: f64 = own.iter().map(|charge| charge.amount).sum();
         let mean = own.iter().map(|charge| charge.place).sum::<DVec2>() / own.len() as f64;
-        // Charges of one sign have their middle among them; without charge any place will do.
+        // Charges of one sign have their middle among them; without charge any point will do.
         let middle = own.iter().map(|charge| charge.place * (charge.amount / amount)).sum::<DVec2>();
         let place = if middle.is_finite() { middle } else { mean };
         let radius = own.iter().map(|charge| charge.place.distance_squared(place)).fold(0.0, f64::max);
@@ -54,7 +55,7 @@ impl Cluster {
 pub struct Near {
     sigma: f64,
     thickness: f64,
-    /// Field over distance and charge, km⁻², at evenly spaced distances up to the reach.
+    /// Field over distance and charge, in km⁻², at evenly spaced distances up to the reach.
     table: Vec<f64>,
     low: DVec2,
     /// Cells along a side, each as wide as the reach.
@@ -66,7 +67,7 @@ pub struct Near {
 }
 
 impl Near {
-    /// For charges of `thickness` d within a square around `centre`, beside a grid that has them as Gaussians of `sigma` (km).
+    /// For charges of thickness d (km) within a square of side `side` around `centre`. On the grid they are Gaussians of `sigma` (km).
     pub fn new(thickness: f64, sigma: f64, centre: DVec2, side: f64) -> Self {
         let cells = ((side / (REACH * sigma)).ceil() as usize).max(1);
         let mut near = Near {
@@ -83,7 +84,7 @@ impl Near {
         near
     }
 
-    /// The thickness d from now on, km; never more than σ, where nothing is left to the pairs.
+    /// Sets the thickness d, in km. It is never more than σ; at σ nothing is left to the pairs.
     pub fn thicken(&mut self, thickness: f64) {
         let thickness = thickness.min(self.sigma);
         if thickness == self.thickness {
@@ -108,11 +109,12 @@ impl Near {
         &self.charges
     }
 
-    /// These are the charges from now on, curve after curve; `curves` are the first of each curve and their number after the last. Those outside of the square
-    /// count as in its outermost cells.
+    /// Takes new charges, curve after curve. `curves` has the first of each curve and their number after the last. Charges outside of the
+    /// square count as in its outermost cells.
     pub fn sort(&mut self, charges: Vec<Charge>, curves: &[usize]) {
         self.charges = charges;
-        // Anew with each curve: the middle of a cluster with parts of two is far from both, and in a cell where none of its charges is looked for.
+        // Each curve begins a new cluster: the middle of a cluster with parts of two curves would be far from both, maybe in a cell with
+        // none of its charges.
         let of_curve = |curve: &[usize]| {
             let last = curve[1];
             (curve[0]..last).step_by(TOGETHER).map(move |first| (first, (first + TOGETHER).min(last)))
@@ -145,7 +147,7 @@ impl Near {
         let (column, row) = self.cell(place);
         let mut field = DVec2::ZERO;
         for row in row.saturating_sub(1)..(row + 2).min(self.cells) {
-            // Cells beside one another in a row are one run of clusters.
+            // Neighbouring cells of a row are one run of clusters.
             let first = row * self.cells + column.saturating_sub(1);
             let last = row * self.cells + (column + 2).min(self.cells);
             for cluster in &self.sorted[self.starts[first]..self.starts[last]] {

@@ -14,7 +14,7 @@ pub struct Poisson {
     sine: Vec<f64>,
     /// Eigenvalues of the one-dimensional −d²/dx².
     eigenvalues: Vec<f64>,
-    /// What each mode of one dimension is multiplied by.
+    /// Factor on each mode of one dimension.
     gains: Vec<f64>,
     first: Vec<f64>,
     second: Vec<f64>,
@@ -30,9 +30,9 @@ impl Poisson {
         Poisson { n, sine, eigenvalues, gains: vec![1.0; n], first: vec![0.0; n * n], second: vec![0.0; n * n] }
     }
 
-    /// For point charges that are laid on the grid cloud in cell, as the smooth part of their field: each is a Gaussian of standard deviation `sigma`
-    /// instead, in the exact modes' eigenvalues k². Laying charges out and reading the potential between points bilinearly each dampen a mode by
-    /// sinc²(kh/2) (Hockney and Eastwood, *Computer Simulation Using Particles*, 8-3), which is taken back here.
+    /// For point charges that are laid on the grid cloud in cell, as the smooth part of their field: each is replaced by a Gaussian of
+    /// standard deviation `sigma`, with the exact eigenvalues k². Laying out charges and bilinear reading of the potential each damp a mode
+    /// by sinc²(kh/2) (Hockney and Eastwood, *Computer Simulation Using Particles*, 8-3); this is undone here.
     pub fn of_clouds(n: usize, spacing: f64, sigma: f64) -> Self {
         let waves = (1..=n).map(|k| PI * k as f64 / ((n + 1) as f64 * spacing));
         let gain = |k: f64| {
@@ -66,7 +66,7 @@ impl Poisson {
 fn product_transposed(sine: &[f64], f: &[f64], out: &mut [f64], n: usize) {
     for (i, row) in f.chunks_exact(n).enumerate() {
         for (j, mode) in sine.chunks_exact(n).enumerate() {
-            // Four sums at once: one would wait for itself.
+            // Four sums at once, since additions of one sum wait for each other.
             let mut sums = [0.0; 4];
             let (a, b) = (row.chunks_exact(4), mode.chunks_exact(4));
             let rest: f64 = a.remainder().iter().zip(b.remainder()).map(|(x, y)| x * y).sum();

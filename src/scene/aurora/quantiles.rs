@@ -1,10 +1,12 @@
-//! The fall and its light as tables: for each brightness of a curtain, the heights between which equal parts of each line's light lie, and how much it is.
+//! The fall of electrons and its light as tables: for each brightness of a curtain, the heights between which equal parts of each line's
+//! light are made, and how much light that is.
 //!
-//! A row is the mean over all electrons that come down there, of every energy and slope of the spectrum: what is drawn is not one electron but all of a few
-//! hundred metres of a curtain. Drawn one by one, each with the energy that chance gave it, five times as many made a picture with more grain.
+//! A row is the mean over all electrons at that brightness, of every energy and slope of the spectrum: a streak is not one electron but all
+//! of a few hundred metres of a curtain. If electrons were drawn one by one, each with a random energy, five times as many would still make
+//! a picture with more grain.
 //!
-//! Steps are short where light is made and long where there is none. How high and how deep the light goes depends on the spectrum, from 500 km for the softest
-//! electrons to 65 km for the hardest, and so do the heights between which it is drawn ([`Quantiles::ends`]).
+//! Steps are short where much light is made and long where there is little. How high and how deep the light goes depends on the spectrum:
+//! from 500 km for the softest electrons to 65 km for the hardest. So do the heights between which it is drawn ([`Quantiles::ends`]).
 
 use super::air::overhead;
 use super::fall::{Spectrum, range, sane_energy, share_left, slope};
@@ -14,23 +16,25 @@ use super::lines;
 pub const ROWS: usize = 32;
 /// Equal parts of the light.
 pub const PARTS: usize = 32;
-/// Energy flux over its mean of the first and the last row; beyond them falls stay the same.
+/// Energy flux over its mean in the first and the last row; beyond them the table is constant.
 pub const FLUXES: [f64; 2] = [0.05, 4.0];
-/// Kinds of light, each with heights of its own: green with blue and crimson, and red, which is made higher up and waits too long to be where they are.
+/// Kinds of light, each with its own heights: green with blue and crimson; and red, which is made higher up and is delayed too long to use
+/// theirs.
 pub const KINDS: usize = 2;
 /// The lines of each kind: 1 for those that it has of green, blue, red, crimson.
 const LINES: [[f64; 4]; KINDS] = [[1.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 0.0]];
 /// The greatest and the least height at which any light is drawn, km.
 pub const HEIGHTS: [f64; 2] = [500.0, 60.0];
-/// Of each kind, the part of a line's light that may be made above the heights at which it is drawn, and as much below: it is drawn at their ends. More for red, a
-/// hundredth of which comes from above 450 km: its chords have to be short further down, where it waits seconds.
+/// For each kind, the share of a line's light that may be made above the heights at which it is drawn, and as much below; it is drawn at
+/// their ends. More for red, of which 1 % comes from above 450 km: its chords have to be short further down, where it is delayed by
+/// seconds.
 const OUTSIDE: [f64; KINDS] = [0.002, 0.008];
 /// Steps of height of the integrals, km.
 const STEP: f64 = 0.5;
-/// Reaches µR(E) whose falls are mixed, evenly spaced in their logarithm: how many, the first and the last, g cm⁻².
+/// Reaches µR(E) of which the spectrum is mixed, evenly spaced in their logarithm: their number; below, the first and the last in g cm⁻².
 const REACHES: usize = 128;
 const REACH_ENDS: [f64; 2] = [2e-9, 0.25];
-/// Slopes, and energies above that of the potential, over which the spectrum is summed; the latter up to so many thermal energies.
+/// Slopes over which the spectrum is summed; below, energies above that of the potential, up to so many thermal energies.
 const SLOPES: usize = 64;
 const ENERGIES: usize = 96;
 const THERMALS: f64 = 16.0;
@@ -40,9 +44,10 @@ const THERMALS: f64 = 16.0;
 pub struct Quantiles {
     /// Heights (km) by row, kind and part: PARTS + 1 each, falling.
     pub heights: Vec<f32>,
-    /// Photons of green, blue, red and crimson above those heights, of red above those of its kind, per 35 eV that come down; by row and part.
+    /// By row and part: photons of green, blue, red and crimson above those heights (of red above those of its kind), per 35 eV that come
+    /// down.
     pub photons: Vec<[f32; 4]>,
-    /// Mean wait (s) of green and red at 64 heights from 80 to 500 km; the molecules do not wait.
+    /// Mean delay (s) of green and red at 64 heights from 80 to 500 km; the molecules have none.
     pub delays: Vec<[f32; 2]>,
     /// For each kind the greatest and the least height (km) at which it is drawn, the same for all rows.
     pub ends: [[f32; 2]; KINDS],
@@ -59,8 +64,8 @@ pub fn flux(row: usize) -> f64 {
     (first + (last - first) * row as f64 / (ROWS - 1) as f64).powi(2)
 }
 
-/// Parts of the energy that electrons of each of the [`REACHES`] bring; 1 together. Number goes as E exp(−(E − E_acc)/E_th), so energy as E² of it, and
-/// isotropic electrons come down at the slope √u, u even in [0, 1).
+/// Share of the energy that electrons of each of the [`REACHES`] bring; the sum is 1. Their number goes as E exp(−(E − E_acc)/E_th), so the
+/// energy as E times that. Isotropic electrons have slopes √u, with u uniform in [0, 1).
 fn shares(spectrum: &Spectrum) -> Vec<f64> {
     let mut shares = vec![0.0; REACHES];
     let step = THERMALS / ENERGIES as f64;
@@ -82,8 +87,8 @@ fn shares(spectrum: &Spectrum) -> Vec<f64> {
 }
 
 impl Quantiles {
-    /// Integrates the falls of a curtain's electrons; `spectrum` is theirs where the flux is the mean. Brighter parts are harder: the potential goes as
-    /// the square root of the flux.
+    /// Integrates the falls of a curtain's electrons. `spectrum` is theirs at the mean flux. Where there is more flux electrons are harder:
+    /// the potential goes as the square root of the flux.
     pub fn new(spectrum: &Spectrum) -> Self {
         let levels: Vec<f64> = (0..).map(|k| HEIGHTS[0] - STEP * f64::from(k)).take_while(|&z| z >= HEIGHTS[1]).collect();
         let overheads: Vec<f64> = levels.iter().map(|z| overhead(z - 0.5 * STEP)).collect();
