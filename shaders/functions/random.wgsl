@@ -1,4 +1,4 @@
-// Random numbers by hashing: the twins of scene::aurora::random.
+// Random numbers by hashing (`pcg` of Jarzynski & Olano 2020): the twins of scene::aurora::random.
 
 /// Twin of scene::aurora::random::hash.
 fn hash(value: u32) -> u32 {

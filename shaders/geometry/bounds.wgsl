@@ -1,6 +1,7 @@
 // The guard: no triangle of an object is drawn outside of where the image of its ball can be, whatever went wrong before.
 
-/// Whether three seen vertices are outside one of the instance's caps, or reach across one that they must keep out of. Then the triangle is counted.
+/// Whether a triangle of three seen vertices leaves one of the instance's caps, or enters one that it must keep out of. If so it is
+/// counted.
 fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
     if instance.bound_high.w == 0.0 && instance.bound_low.w == 0.0 && instance.bound_look.w == 0.0 {
         return false;
@@ -15,7 +16,8 @@ fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
     return leaves;
 }
 
-/// Of one cap, as `Bounds` of Rust. A cap is convex: a triangle whose corners are in it is in it. To keep out of one the nearest point of the triangle must.
+/// The same for one cap, as `Bounds` of Rust. A cap is convex: a triangle whose corners are in it is in it. To be outside of a cap the
+/// nearest point of the triangle must be outside.
 fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     if cap.w == 0.0 {
         return false;
@@ -36,7 +38,8 @@ fn square(v: vec3<f32>) -> f32 {
     return dot(v, v);
 }
 
-/// The square of the chord from a direction to the nearest inner point of the great circle's arc from a to b; 4, the most, if an end is nearer.
+/// The square of the chord from a direction to the nearest inner point of the great circle's arc from a to b; 4, the largest value, if an
+/// end is nearer.
 fn nearest_on_side(middle: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> f32 {
     let normal = cross(a, b);
     let foot = middle - normal * (dot(normal, middle) / max(dot(normal, normal), 1e-30));

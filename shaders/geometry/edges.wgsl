@@ -1,4 +1,4 @@
-// Stage 2: one thread per model edge and order. The level of an edge comes from the edge alone, so its two triangles agree on it.
+// Stage 2: one thread per model edge and image order. The number of segments depends on the edge alone, so its two triangles agree on it.
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -22,7 +22,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
 
-    // Does the axis cut the edge, as far as can be seen? The foot of the axis on it, and how far that is.
+    // Does the axis visibly cut the edge? By the foot of the axis on it, and the distance there.
     let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
     if plain {
         let d = b.xy - a.xy;
@@ -45,10 +45,11 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
     var error = 0.0;
     var whole = true;
-    // A short edge needs no measuring. Away from the axis it bends for two reasons: aberration and delay are not linear, by θ²/8 at most for an
-    // edge seen under θ; and light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both are
-    // held under a quarter of the budget (of an outline's for one), the tide with another factor of 3 for the shear of images near the ring. Beside the axis
-    // it also runs along the ring, and bends by an eighth of the square of the angle by which it turns, at most.
+    // A short edge is not measured. Away from the axis it bends for two reasons. Aberration and delay are not linear: they bend an edge
+    // seen under θ by θ²/8 at most. And light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its
+    // length. Both must be below a quarter of the budget (for an outline, of its smaller budget), the tide with another factor of 3 for the
+    // shear of images near the ring. Beside the axis an edge also runs along the ring; there it bends by at most an eighth of the square of
+    // its turn.
     let seen_under = angle_between(from_apparent, to_apparent);
     let edge_length = distance(a.xyz, b.xyz);
     let nearest = min(length(a.xy), length(b.xy));
@@ -62,7 +63,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let small = (!limb && seen_under < 8.0 * pixel * inverseSqrt(slimness(instance))) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
     let short = seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
     if radial || !short {
-        // A radial side runs from the axis (where its azimuth is that of the other end) to the plain vertex.
+        // A radial side runs from the axis (with the azimuth of its other end) to the plain vertex.
         let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);
         let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);
         var points = array<vec3<f32>, 5>(from_apparent, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), to_apparent);
@@ -76,7 +77,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             points[k] = found.apparent;
             whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
         }
-        // Where, from inside, a part of the edge is not seen its image ends; no splitting finds more of it.
+        // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.
         error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
     }
     var level = level_for(error * strictness(instance) * closer, 1.0);

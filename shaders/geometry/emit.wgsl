@@ -1,8 +1,8 @@
-// How a stage hands over: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is held inside its buffer.
+// How a stage hands pieces on: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is kept inside its buffer.
 
-/// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. In a thin image it decides how the
-/// triangle is drawn: at least `render.min_width`, as it is; less, grown to that, with the covered part as alpha, so that narrow images are lines and
-/// not dots.
+/// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. In a thin image it decides
+/// how the triangle is drawn. If it is at least `render.min_width`, as it is; else widened to that, with the covered share as alpha, so
+/// that narrow images are lines and not dots.
 fn height_on_screen(p0: vec2<f32>, p1: vec2<f32>, p2: vec2<f32>) -> f32 {
     let a = p1 - p0;
     let b = p2 - p0;
@@ -15,32 +15,31 @@ fn pixels(clip: vec4<f32>) -> vec2<f32> {
     return clip.xy / clip.w * 0.5 * frame.size.xy;
 }
 
-/// Sides and heights shorter than this are lengthened only as much as one of this length would be, in pixels: f32 pixels (3e-5 at 500) do not say them
-/// well enough.
+/// Sides and heights below this, in pixels, are widened only as much as one of this length: f32 pixels (3e-5 at 500) do not resolve them.
 const LEAST_ALONG: f32 = 0.05;
 const LEAST_HEIGHT: f32 = 1e-3;
 
-/// By how much a thin triangle is drawn longer and higher than it is: to the least width.
+/// Factors by which a thin triangle is drawn longer and higher than it is, to the least width.
 fn stretched(length_along: f32, height: f32) -> vec2<f32> {
     let least = frame.side_a.w;
     return vec2<f32>(max(1.0, least / max(length_along, LEAST_ALONG)), least / max(height, LEAST_HEIGHT));
 }
 
-/// Grows a thin triangle about its centroid, along a direction and across it.
+/// Widens a thin triangle about its centroid, along a direction and across it.
 fn grown(p: vec2<f32>, centre: vec2<f32>, direction: vec2<f32>, stretch: vec2<f32>) -> vec2<f32> {
     let across = vec2<f32>(-direction.y, direction.x);
     let v = p - centre;
     return centre + direction * (dot(v, direction) * stretch.x) + across * (dot(v, across) * stretch.y);
 }
 
-/// The part of a triangle whose light crosses the disk's plane as often on its way as the order says; that of the rest crosses it once less. `plane_crossings` of Rust,
-/// told here where parts of the image differ, from the heights of its corners over the plane.
+/// The share of a triangle whose light crosses the disk's plane as often as the image order says; that of the rest crosses it once less. As
+/// `plane_crossings` of Rust, for images whose parts differ, from the heights of the corners over the plane.
 fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
     let order = instance.ids.x;
     if instance.snap.w >= 0.0 {
         return select(0.0, 1.0, instance.snap.w == f32(order));
     }
-    // First the corner that is alone on its side, if one is: the plane cuts off so much of the area there.
+    // First the corner that is alone on its side of the plane, if there is one: the plane cuts off its share of the area.
     let below = heights < vec3<f32>(0.0);
     var h = heights;
     if below.y != below.x && below.y != below.z { h = heights.yxz; }
@@ -52,11 +51,12 @@ fn share_across(instance: Instance, heights: vec3<f32>) -> f32 {
     return select(other_side, 1.0 - other_side, order % 2u == 0u);
 }
 
-/// True if the triangle was taken care of as a thin one (or faces away and is nothing to the eye). Only objects whose whole image is thin
-/// have such: a sliver inside a wide image is covered by its neighbours and stays opaque. `seen_from` tells which directions see it.
+/// Draws a triangle of a thin image with coverage; true if that was done, or if the triangle faces away. Only objects whose whole image is
+/// thin have such triangles: a sliver inside a wide image is covered by its neighbours and stays opaque. `seen_from` has the directions
+/// from which it is not hidden.
 ///
-/// What is narrower than the error of its corners (chords, f32) folds over: one triangle covers what the next one covers again. So areas are counted
-/// with the sense in which the corners run, and over all triangles what was covered twice cancels.
+/// A triangle narrower than the error of its corners (chords, f32) may be folded over: it covers what the next one covers again. So areas
+/// count with the sense in which the corners run, and over all triangles the double cover cancels.
 fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) -> bool {
     if !is_thin(instance) {
         return false;
@@ -76,7 +76,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     if height >= frame.side_a.w {
         return false;
     }
-    // Coverage adds up to the truth only if each line of sight meets one layer: back faces of closed bodies are left out.
+    // The sum of coverages is right only if each line of sight meets one layer, so backs of closed bodies are left out.
     let leaving = seen[i0].leaving.xyz + seen[i1].leaving.xyz + seen[i2].leaving.xyz;
     let from_behind = dot(facing.normal, leaving) < 0.0;
     if facing.closed && from_behind {
@@ -89,7 +89,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     if dot(b, b) > dot(direction, direction) { direction = b; }
     if dot(c, c) > dot(direction, direction) { direction = c; }
     let along = length(direction);
-    // Nothing to see, and f32 pixels (3e-5 at 500) cannot say its direction.
+    // Nothing is visible, and f32 pixels (3e-5 at 500) do not resolve its direction.
     if along < 1e-3 || height < 1e-5 {
         return true;
     }
@@ -97,7 +97,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let towards_eye = select(1.0, -1.0, from_behind);
     let sense = select(1.0, sign(turned) * facing.turn * towards_eye, facing.turn != 0.0);
     let stretch = stretched(along, height);
-    // What it truly covers of what is drawn; and of one layer, as far as no other part of the model stands before it.
+    // The share of the drawn area that it covers, times its share that no other part of the model hides.
     let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye), in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
     let coverage = sense * part / (stretch.x * stretch.y);
     if coverage == 0.0 {
@@ -118,7 +118,7 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     return true;
 }
 
-/// Draws three seen vertices as they are.
+/// Draws the triangle of three seen vertices.
 fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen_from: u32) {
     if leaves_bounds(instance, i0, i1, i2) || emit_thin(i0, i1, i2, instance, facing, seen_from) {
         return;
@@ -133,7 +133,7 @@ fn emit_triangle(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, 
     indices[slot + 2u] = i2;
 }
 
-/// Room for the blocks of a piece is taken here, so that a full buffer is noticed while a coarser way is left. False if there is less than
+/// Takes room for the blocks of a piece, so that a full buffer is noticed while a coarser way is left. False if there is less room than
 /// `most` allows.
 fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: vec4<u32>) -> bool {
     let fan = piece.what.z != PIECE_TRIANGLE;
@@ -151,8 +151,8 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
                 || atomicLoad(&counters.indices) + index_count > most.y {
                 return false;
             }
-            // On a graphics card thousands of threads have looked by now. Without vertices nothing else is taken, so that there are always indices for the
-            // triangles of the model.
+            // On a graphics card thousands of threads may have passed that test. Without vertices nothing else is taken, so that there are
+            // always indices for the triangles of the model.
             let first_vertex = atomicAdd(&counters.vertices, vertex_count);
             if first_vertex + vertex_count > frame.capacity.x {
                 return false;
@@ -160,7 +160,7 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
             let slot = atomicAdd(&counters.work, 1u);
             let first_index = atomicAdd(&counters.indices, index_count);
             if slot >= frame.capacity.z || first_index + index_count > frame.capacity.y {
-                // Others took the rest meanwhile. What was taken is left empty, so that nothing stale is drawn.
+                // Other threads took the rest meanwhile. What was taken is left empty, so that no stale data is drawn.
                 if slot < frame.capacity.z {
                     work[slot].place = vec4<u32>(0u);
                 }
@@ -170,7 +170,7 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
                 return false;
             }
             work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, index_count / 3u));
-            // So that a thread of the mesh stage finds the item of its vertex.
+            // A thread of the mesh stage finds the item of its vertex by this.
             for (var i = 0u; i < vertex_count; i++) {
                 seen[first_vertex + i].surface.x = bitcast<f32>(slot);
             }
@@ -181,8 +181,8 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
     return true;
 }
 
-/// What a thread hands on. It is first collected, then handed over in one loop: compilers copy functions into every call, and with a call for
-/// each piece two passes took half a minute to compile.
+/// What a thread hands on. It is collected first and handed over in one loop: compilers copy functions into every call, and with one call
+/// per piece two passes took half a minute to compile.
 struct Handed {
     piece: Piece,
     levels: vec4<u32>,
@@ -222,8 +222,8 @@ fn emit_whole(instance: u32, triangle: u32) {
     hand(Piece(vec4<u32>(instance, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
 }
 
-/// Hands over what was collected; pieces go to `queue`. Where the buffers are full, but for the fifth that is kept back, a piece is drawn
-/// without any subdivision; if that is used up too, the triangle of the model that it is a part of.
+/// Hands over what was collected; pieces go to `queue`. A fifth of the buffers is kept back. If the rest is full, a piece is drawn without
+/// subdivision; if that fifth is used up too, the triangle of the model is drawn in its place.
 fn hand_over(queue: u32) {
     for (var k = 0u; k < min(handed_count, 4u); k++) {
         let item = handed[k];
@@ -240,7 +240,7 @@ fn hand_over(queue: u32) {
             }
         }
         let whole = piece.what.z != PIECE_FAN && piece.what.w == 0u;
-        // First as asked, then as coarse as can be.
+        // First as asked, then without subdivision.
         for (var attempt = select(1u, 0u, kind == HANDED_WORK); attempt < 2u; attempt++) {
             if done || kind == HANDED_TRIANGLE {
                 break;
@@ -266,13 +266,13 @@ fn hand_over(queue: u32) {
     }
 }
 
-/// Whether a patch with these corners is off the screen for sure: all beyond one side by more than its sag.
+/// Whether a patch with these corners is surely off the screen: all corners are beyond one side by more than the patch sags.
 fn off_screen(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> bool {
     let fx = frame.projection.x;
     let fy = frame.projection.y;
     let sx = inverseSqrt(1.0 + fx * fx);
     let sy = inverseSqrt(1.0 + fy * fy);
-    // A third more than the measured error: the curve may bulge most between the places where it was measured.
+    // A third more than the measured error: the curve may bulge most between the measured points.
     let sag = min(1.34 * error, 3.0);
     let margin = vec3<f32>(length(a), length(b), length(c)) * sag;
     let x = vec3<f32>(a.x, b.x, c.x);

@@ -9,24 +9,25 @@ fn triangle_row(k: u32) -> u32 {
     return row;
 }
 
-/// Where vertex i of a side of n cells goes, if the side itself has only `level` segments: the nearest of its points. The points left over
-/// fall together and their triangles vanish; what remains is the polyline that the neighbour draws too.
+/// Position of vertex i of a side of n cells, if the side has only `level` segments: the nearest of its points. Surplus vertices coincide
+/// and their triangles vanish; what remains is the polyline that the neighbour draws too.
 fn snapped(i: u32, n: u32, level: u32) -> f32 {
     return round(f32(i) * f32(level) / f32(n)) / f32(level);
 }
 
-/// How far from the axis a vertex of a fan lies, as a part of the way to the outer edge: below 0 past the axis.
+/// Position of a vertex of a fan, from the axis (0) to the outer edge (1); below 0 past the axis.
 var<private> fan_place: f32;
 
-/// Whether the axis at this height is the outer border of the order's image: Φ = (order − 1)π.
+/// Whether the axis at this height is the outer border of the order's image, where Φ = (order − 1)π.
 fn axis_is_outside(height: f32, order: u32) -> bool {
     return (order == 2u && height < 0.0) || (order == 3u && height > 0.0);
 }
 
-/// How far past the axis a vertex is put that is nearer to it than that, in r_s; 0 where none is. The order before begins there with arcs that are cut at other
-/// points: between two chords of one circle a pixel could be missed. Chords of the outer order sag over the inner one's; those of the inner are set off by more
-/// than they sag. Near the ring an image moves by half of what its source does, the third order's by a twentieth. Thin images are sums of areas: they would
-/// be too bright by that. `apparent` is where the fan's outer point is seen: arcs are cut by the budget of that place on the screen.
+/// How far past the axis, in r_s, a vertex near it is moved, so that two orders overlap; 0 where that is not needed. The order before
+/// begins there with arcs that are cut at other points, and a pixel between two chords of one circle could be missed. Chords of the outer
+/// order sag over those of the inner; those of the inner are moved by more than they sag. Near the ring an image moves by half of what its
+/// source does, that of the third order by a twentieth. Thin images are sums of areas and would become too bright. `apparent` is where the
+/// fan's outer point is seen: arcs are cut by the budget there.
 fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
     let budget = frame.size.w / pixel_fineness(apparent, apparent);
     let past = 4.0 * ARC_SHARE * budget * abs(query.along) * select(1.0, 10.0, instance.ids.x == 3u);
@@ -41,7 +42,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     if index >= min(atomicLoad(&counters.vertices), frame.capacity.x) {
         return;
     }
-    // Left there by the stage that made the item.
+    // Written by the stage that made the item.
     let item = work[bitcast<u32>(seen[index].surface.x)];
     let instance = instance_at(item.piece.what.x);
     let triangle = model_triangles[item.piece.what.y];
@@ -108,7 +109,7 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
             }
         }
         let slot = place.y + 3u * k;
-        // A place in the index buffer is held for every triangle: one that is thin, unseen or out of bounds leaves a point there.
+        // Every triangle has its place in the index buffer; one that is thin, unseen or out of bounds leaves a point there.
         if unseen(a) || unseen(b) || unseen(c) || leaves_bounds(instance, a, b, c) || emit_thin(a, b, c, instance, facing, seen_from) {
             b = a;
             c = a;
@@ -192,7 +193,7 @@ fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
     if row == 1u {
         return side_point(c1, c2, column, columns, item.levels.x);
     }
-    // Neither side gets fewer cells than it has segments.
+    // No side has fewer cells than segments.
     let first = item.levels.z + (columns - item.levels.z - item.levels.y) / 2u;
     if column <= first {
         return side_point(c1, c0, column, first, item.levels.z);
@@ -210,15 +211,15 @@ fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3
         + vec2<f32>(v2.position.w, v2.normal.w) * corner.z;
 }
 
-/// The seen vertex of a point of a model triangle (s = 1), or of one between a fan's axis and that point (s < 1). A corner of the model
-/// itself is taken from the first stage, to the last bit.
+/// The seen vertex of a point of a model triangle (s = 1), or of a point between a fan's axis and that point (s < 1). A corner of the model
+/// is taken from the first stage, with the same bits.
 fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point: vec3<f32>, s: f32) -> SeenVertex {
     if s == 1.0 && (point.x == 1.0 || point.y == 1.0 || point.z == 1.0) {
         let which = select(select(triangle.vertices.z, triangle.vertices.y, point.y == 1.0), triangle.vertices.x, point.x == 1.0);
         return seen[instance.ids.z + which];
     }
-    // Inside a fan: the axis point and the outer point at their emission times, then the place between them. Elsewhere the point alone, and again if it
-    // is put past the axis.
+    // Inside a fan: the axis point and the outer point at their emission times, then the position between them. Elsewhere the point alone,
+    // and again if it is moved past the axis.
     let body = body_point(instance, triangle, point);
     var apex = 0.0;
     var apex_height = 0.0;

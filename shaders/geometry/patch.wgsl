@@ -1,6 +1,7 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
-/// Deepest splitting. A third of it is what an edge takes that passes the axis at a millionth of its length (`halfway`), and not all edges are halved at a time.
+/// Deepest splitting. An edge that passes the axis at a millionth of its length takes a third of it (`halfway`), and not all edges are
+/// halved at the same time.
 const DEEPEST: u32 = 24u;
 /// Cells of a block of the mesh stage; an edge that needs more segments is split.
 const BLOCK: u32 = 8u;
@@ -25,26 +26,26 @@ fn seen_vertex(instance: Instance, index: u32, found: Answer, normal: vec3<f32>,
     return vertex;
 }
 
-/// Whether the axis is an edge of the image of this order: behind the hole (φ = π) always, on the near side (φ = 0) from order 2 on.
-/// `along` is the offset from the camera along the outward radial.
+/// Whether the image of this order ends at the axis: behind the hole (φ = π) always, on the near side (φ = 0) from order 2 on. `along` is
+/// the offset from the camera along the outward radial.
 fn axis_matters(along: f32, order: u32) -> bool {
     return frame.radial.w + along < 0.0 || order >= 2u;
 }
 
-/// The offset from the camera, rain axes, of a place given by the axis (`Answer.by_axis`).
+/// The offset from the camera, in rain axes, of a position by the axis (`Answer.by_axis`).
 fn offset_of(by_axis: vec3<f32>) -> vec3<f32> {
     return frame.side_a.xyz * by_axis.x + frame.side_b.xyz * by_axis.y + frame.radial.xyz * by_axis.z;
 }
 
-/// The cross product of two places across the axis: twice the area that they make with the axis, positive if b lies counterclockwise of a. Asked
-/// with the ends of an edge in the order of the model, its sign is the same for all triangles of the edge: then they agree on which side of the edge the
-/// axis is, and of a closed sheet round it exactly one triangle has it inside.
+/// The cross product of two positions across the axis: twice the area of the triangle that they make with the axis, positive if b is
+/// counterclockwise of a. If the ends of an edge are always given in the order of the model, the sign is the same for all triangles of the
+/// edge. Then they agree on which side of the edge the axis is, and of a closed sheet round the axis exactly one triangle contains it.
 fn area_with_axis(a: vec2<f32>, b: vec2<f32>) -> f32 {
     return fma(a.x, b.y, -(a.y * b.x));
 }
 
-/// Where the axis meets the triangle of three corners that are given by the axis, barycentric; negative where it does not. The corners in the
-/// order of the model. A zero counts as positive.
+/// Where the axis meets a triangle, barycentric; negative where it does not. The corners are positions by the axis, in the order of the
+/// model. A zero counts as positive.
 fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32> {
     let ab = area_with_axis(a.xy, b.xy);
     let bc = area_with_axis(b.xy, c.xy);
@@ -58,36 +59,36 @@ fn meets_axis(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, order: u32) -> vec3<f32>
     return select(vec3<f32>(-1.0), at, axis_matters(dot(at, vec3<f32>(a.z, b.z, c.z)), order));
 }
 
-/// The most that an edge may turn about the axis, radians: one that turns farther is split, whatever its error. Of a triangle whose sides turn by less than a
-/// third of a circle the inside cannot reach across the ring; and where they turn much less, equal parts of them turn about equally. In thin and narrow images,
-/// most of which lies near the ring, they must do so the better.
+/// The largest turn of an edge about the axis, in radians. An edge with a larger one is split, whatever its error. A triangle whose sides
+/// turn by less than a third of a circle does not reach across the ring, and with much smaller turns equal parts of an edge turn about
+/// equally. Thin and narrow images lie mostly near the ring, so their limit is smaller.
 fn most_turn(instance: Instance) -> f32 {
     return select(0.5, 0.25, (instance.triangles.w & (INSTANCE_THIN | INSTANCE_NARROW)) != 0u);
 }
 
-/// By how much an edge between two places that are given by the axis turns about it, radians; 0 where the axis is a place as any other.
+/// The turn of an edge about the axis, in radians, from its ends as positions by the axis; 0 where the image does not end at the axis.
 fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
     let turn = abs(atan2(area_with_axis(a.xy, b.xy), dot(a.xy, b.xy)));
     return select(0.0, turn, axis_matters(a.z, order) || axis_matters(b.z, order));
 }
 
-/// Whether three places that are given by the axis are so near to it that f32 tells nothing of their azimuths. Between them there is nothing to see.
+/// Whether three positions by the axis are so near to it that f32 tells nothing of their azimuths. Nothing is visible between them.
 fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
     return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
 }
 
-/// How far from the axis a vertex or an edge of a model counts as on it, in r_s: as far as rounding may have moved it, and so far that nobody sees the
-/// difference. It is the same for all triangles of the vertex or the edge, so what is drawn stays closed. A point beside the axis, moved so far, is turned about it
-/// and seen elsewhere on the ring: at a tenth of a pixel from the axis half a pixel at most, on a ring as wide as the screen. In a thin image areas count, and of
-/// its pixels the object may be a small part: there it is rounding alone.
+/// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it: as far as rounding may have moved it, and
+/// so far that nobody sees the difference. It is the same for all triangles of the vertex or the edge, so the surface stays closed. A point
+/// moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as wide
+/// as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
 fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
     let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
     return max(instance.axis.z, select(0.1 * pixel / frame.size.x, 0.0, is_thin(instance)));
 }
 
-/// How many segments, at most, an edge needs between two places that are given by the axis, where a pixel spans `pixel`: within a fiftieth of a pixel of the
-/// axis, where azimuths are lost in the rounding of f32, there is no more to see than that the ring is whole.
+/// The most segments that an edge needs between two positions by the axis, where a pixel spans `pixel`, in r_s. Within a fiftieth of a
+/// pixel of the axis f32 does not tell azimuths, and all that is visible is that the ring is whole.
 fn most_segments(instance: Instance, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
     let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, instance.ids.x);
     return select(0xffffu, BLOCK, core);
@@ -100,14 +101,15 @@ fn angle_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// How much of the budget a chord may use. What a patch shows inside is off by more than its sides are: in a triangle by up to 4/3 of it
-/// (where a quadratic map has the same error on all sides), in a cell of a fan by the sum of row, column and diagonal.
+/// Share of the budget that a chord may use. Inside a patch the error is larger than on its sides: in a triangle up to 4/3 of it (for a
+/// quadratic map with the same error on all sides), in a cell of a fan the sum of row, column and diagonal.
 const CHORD_SHARE: f32 = 0.45;
-/// How much of the budget the arc of a fan at the axis may be off. Two orders meet there, each with chords of its own.
+/// Share of the budget for the arc of a fan at the axis. Two orders meet there, each with its own chords.
 const ARC_SHARE: f32 = 0.015625;
 
-/// The level that brings the error of a chord under its share of the budget: the error falls as the square of the number of segments. A whole
-/// edge of the model may be halved `switches.y` times; `part` is how much of it the chord spans, so that both sides of it agree.
+/// The number of segments that brings the error of a chord (radians) under its share of the budget: the error falls as the square of that
+/// number. A whole edge of the model may be halved `switches.y` times; `part` is the share of it that the chord spans, so that both of its
+/// sides agree.
 fn level_for(error: f32, part: f32) -> u32 {
     let n = ceil(sqrt(error / (CHORD_SHARE * frame.size.w)));
     // Not-a-number compares false.
@@ -117,31 +119,31 @@ fn level_for(error: f32, part: f32) -> u32 {
     return 1u;
 }
 
-/// How much of an edge of the model the line between two barycentric corners spans.
+/// The share of an edge of the model that the line between two barycentric corners spans.
 fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     let d = abs(b - a);
     return max(d.x, max(d.y, d.z));
 }
 
-/// How much closer all chords of an image are held than the budget says, told by how wide it is and how fine its model.
+/// Factor by which the error of all chords of an image counts more, from its width and the fineness of its model.
 fn strictness(instance: Instance) -> f32 {
     return instance.axis.w;
 }
 
-/// The same for images that are a few pixels wide and not thin: there every edge is near an outline and would bulge over it.
+/// The same for slim images that are not thin: all their edges are near an outline and would bulge over it.
 fn slimness(instance: Instance) -> f32 {
     return select(instance.axis.w, 1.0, is_thin(instance));
 }
 
-/// Outlines are held closer than what lies inside them: there an error shows as surface where there is none.
+/// Factor for outlines: there an error shows as surface where there is none.
 const LIMB_STRICTNESS: f32 = 9.0;
-/// The same for images of higher orders a few pixels wide, of which hardly more than the outline is seen, and that drawn out along the ring.
+/// The same for narrow images of higher orders, which are little more than outline, stretched along the ring.
 const NARROW_LIMB_STRICTNESS: f32 = 24.0;
 
-/// The same for thin images, on top of their own: what counts is their area and that they are whole.
+/// The same for thin images, on top of their own factor: what counts is their area and that they are unbroken.
 const THIN_LIMB_STRICTNESS: f32 = 3.0;
 
-/// By how much closer outlines are held than other edges of the same image.
+/// Factor for outlines relative to other edges of the same image.
 fn limb_strictness(instance: Instance) -> f32 {
     if is_thin(instance) {
         return THIN_LIMB_STRICTNESS;
@@ -150,35 +152,37 @@ fn limb_strictness(instance: Instance) -> f32 {
     return max(outline / slimness(instance), 1.0);
 }
 
-/// How much closer the edges beside the axis are held in the image: there the order's image ends, and a chord that bulges farther than the ring is away shows
-/// surface beyond it. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there.
+/// Factor for edges beside the axis: there the image of the order ends, and a chord that bulges farther than its distance from the ring
+/// shows surface beyond it. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there, both in r_s.
 fn ring_strictness(nearest: f32, pixel: f32, along: f32, order: u32) -> f32 {
     let pixels_away = nearest / pixel;
     return select(1.0, clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS), axis_matters(along, order));
 }
 
-/// A triangle from which light leaves under a sine below this may be seen edge-on here or there: so far a ship may turn while light crosses it.
+/// If light leaves a triangle under a sine below this, it may be seen edge on somewhere: so far a ship may turn while light crosses it.
 const LIMB_SINE: f32 = 0.15;
 
-/// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or so differently
-/// at its two ends. Normals of vertices, which are there for the light, do not tell that of a body with corners; nor do places on the screen, where
-/// an edge drawn out along the ring bends by more than its triangles are wide. `edge` has the two vertices and those opposite to it.
+/// Whether the edge of a model between two triangles may be an outline: light leaves one of them outward and the other inward, or does so
+/// differently at its two ends. Normals of vertices, which are for shading, do not tell this for a body with corners. Nor do positions on
+/// the screen: an edge stretched along the ring bends by more than the width of its triangles. `edge` has the two vertices of the edge and
+/// the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
     let first = instance.vertices.x;
     let corner = model_vertices[first + edge.x].position.xyz;
     let along = shaped(instance, model_vertices[first + edge.y].position.xyz - corner);
     let c = shaped(instance, model_vertices[first + edge.z].position.xyz - corner);
     let d = shaped(instance, model_vertices[first + edge.w].position.xyz - corner);
-    // Of both triangles the normal on the same side of the surface.
+    // The normals of both triangles on the same side of the surface.
     let n = at_rest(instance, cross(along, c), offset);
     let m = at_rest(instance, cross(d, along), offset);
     let sines = vec4<f32>(dot(n, leaving_a), dot(n, leaving_b), dot(m, leaving_a), dot(m, leaving_b));
     return !(all(sines > vec4<f32>(LIMB_SINE)) || all(sines < vec4<f32>(-LIMB_SINE)));
 }
 
-/// The greatest angle between points of the seen curve a–b (those at ¼, ½, ¾) and the chord that would replace it; or, where the curve bends most in
-/// one part, between that part and its own chord, times the four by which the error of a curve that bends evenly falls when it is halved: equal
-/// segments, which `level_for` counts, must be short enough for the part that bends most.
+/// The error of the chord of a seen curve from a to b, in radians. It is the greatest angle between the points at ¼, ½, ¾ and the chord;
+/// or, if that is more, four times the greatest angle between one of these points and the chord of its two neighbours. Halving an evenly
+/// bent curve divides the error by four. So the second term makes equal segments, which `level_for` counts, short enough for the part that
+/// bends most.
 fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>) -> f32 {
     let whole = max(slant(middle, a + b), max(slant(quarter, a * 3.0 + b), slant(three_quarters, a + b * 3.0)));
     let part = max(slant(middle, quarter + three_quarters), max(slant(quarter, a + middle), slant(three_quarters, middle + b)));
@@ -192,8 +196,8 @@ fn slant(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return select(1e12, min(dot(across, across) / (along * along), 1e12), along > 0.0);
 }
 
-/// The body point of barycentric coordinates in a model triangle. Products are fused with sums, said so and in this order: a driver that fuses as it
-/// likes makes other bits of an edge's point in one of its triangles than in the other.
+/// The body point of barycentric coordinates in a model triangle. The fused products are written out, in this order: a driver that fuses as
+/// it likes would give the point of an edge other bits in each of its two triangles.
 fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
     let first = instance.vertices.x;
     let a = model_vertices[first + triangle.vertices.x].position.xyz * corner.x;
@@ -201,8 +205,8 @@ fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) ->
     return fma(model_vertices[first + triangle.vertices.z].position.xyz, vec3<f32>(corner.z), b);
 }
 
-/// The unit normal that points out of the closed body a model triangle is a part of, in the rest frame of what is at `offset` from the camera;
-/// zero where no side is outside, or both are drawn.
+/// The unit normal that points out of the closed body of a model triangle, in the rest frame of what is at `offset` from the camera. Zero
+/// if the surface is not closed or both sides are drawn.
 fn outward_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
     return plane_normal(instance, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(instance));
@@ -217,17 +221,17 @@ fn plane_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) 
     return at_rest(instance, cross(a, b), offset);
 }
 
-/// The side of a model triangle by which it is told whether its image is turned over.
+/// The side of a model triangle by which it is decided whether its image is turned over.
 struct Facing {
-    /// A unit normal in the rest frame: outward of a closed body, else to that side from which the corners run counterclockwise.
+    /// A unit normal in the rest frame: outward for a closed body, else on the side from which the corners run counterclockwise.
     normal: vec3<f32>,
-    /// The sense in which the corners run on the screen where that side is seen, +1 counterclockwise; 0 where it cannot be told.
+    /// Sense in which the corners run on the screen where that side is seen, +1 counterclockwise; 0 if it cannot be told.
     turn: f32,
     /// Whether the other side is never seen.
     closed: bool,
 }
 
-/// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once shows what it left mirrored: even orders.
+/// The facing of a model triangle at `offset` from the camera. Light that has passed the axis once (even orders) shows its source mirrored.
 fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> Facing {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
     let mirrored = select(1.0, -1.0, instance.ids.x == 2u);
@@ -235,15 +239,16 @@ fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> 
     return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both), triangle.vertices.w != SIDE_OPEN && !both);
 }
 
-/// The unit normal of a plane on the slice as it is in the rest frame of what is at `offset` from the camera: lengths along the motion are γ times
-/// longer there.
+/// The unit normal of a plane on the slice, transformed to the rest frame of what is at `offset` from the camera: along the motion lengths
+/// are γ times longer there.
 fn at_rest(instance: Instance, on_slice: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
     let momentum = momentum_at(instance, frame.radial.xyz * frame.radial.w + offset);
     let n = on_slice - momentum.xyz * (dot(momentum.xyz, on_slice) / (momentum.w * (1.0 + momentum.w)));
     return n / max(length(n), 1e-30);
 }
 
-/// Whether a comes before b on an edge they share: the lower vertex first, which both triangles of the edge agree on.
+/// Whether barycentric corner a comes before b on their edge: the one nearer to the lower vertex first, which both triangles of the edge
+/// agree on.
 fn comes_first(a: vec3<f32>, b: vec3<f32>) -> bool {
     if a.x != b.x {
         return a.x > b.x;
@@ -262,19 +267,21 @@ fn edge_point(a: vec3<f32>, b: vec3<f32>, t: f32) -> vec3<f32> {
     return b + (a - b) * (1.0 - t);
 }
 
-/// A point of the fan round the axis: `outer` is a point of its outer edge, by the axis, `apex` how far along the axis its innermost point is, `s` runs
-/// from the axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis itself.
+/// A point of a fan round the axis. `outer` is a point of the outer edge, by the axis; `apex` is the position along the axis of the
+/// innermost point; `s` runs from the axis (0) to the edge (1). The azimuth is that of the outer point for every s, also on the axis
+/// itself.
 fn query_fan(apex: f32, outer: vec3<f32>, s: f32) -> Query {
     let along = mix(apex, outer.z, s);
     return Query(vec3<f32>(0.0), true, along, length(outer.xy) * s, frame.radial.w + along, side_towards(outer.xy));
 }
 
-/// An edge that turns by less about the axis is as any other, radians.
+/// An edge with a smaller turn about the axis, in radians, is halved in its middle.
 const LEAST_TURN: f32 = 0.05;
 
-/// Where an edge between two places is halved, as a part of the way from a to b. Beside the axis its image runs along the ring near the foot of the axis on
-/// it, and out along two radii beyond: where an edge turns about the axis, halves are equal in asinh of the distance from the foot over that of the axis, so
-/// that an edge that passes the axis at a millionth of its length takes five halvings and not twenty.
+/// Where an edge is halved, as a share of the way from a to b (positions across the axis). The image of an edge that passes beside the axis
+/// runs along the ring near the foot of the axis, and along two radii beyond. So the halves are equal in asinh(s/h), s along the edge from
+/// the foot and h the distance of the axis. An edge that passes the axis at a millionth of its length then takes five halvings and not
+/// twenty.
 fn halfway(a: vec2<f32>, b: vec2<f32>) -> f32 {
     let area = abs(area_with_axis(a, b));
     if dot(a, b) > 0.0 && area < LEAST_TURN * dot(a, b) {
@@ -288,7 +295,7 @@ fn halfway(a: vec2<f32>, b: vec2<f32>) -> f32 {
     return clamp((middle - start) / reach, 1e-3, 0.999);
 }
 
-/// asinh, whose built-in is lost for large negative numbers.
+/// asinh; the built-in one loses its digits for large negative numbers.
 fn inverse_sinh(x: f32) -> f32 {
     return sign(x) * log(abs(x) + sqrt(x * x + 1.0));
 }

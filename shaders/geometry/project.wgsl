@@ -1,6 +1,6 @@
-// From a point of an object to the place where the camera sees it.
+// From a point of an object to where the camera sees it: `answer()`.
 
-/// What one ray tells: where it is seen, how long it took, and the photon's momentum at both ends over |E b|.
+/// One ray: where its source is seen, how long it took, and the photon's momentum at both ends over |E b|.
 struct Sight {
     /// Apparent position, camera axes: direction times light path.
     apparent: vec3<f32>,
@@ -13,14 +13,14 @@ struct Sight {
     valid: bool,
 }
 
-/// The ray of `order` from the point `offset` away from the camera (rain axes). `side` is the unit vector across the axis towards the
-/// point; given apart, because on the axis the offset does not say it. `across` is the distance from the axis, `along` the offset along it,
-/// `height` the distance of the hole along it; `elapsed` the age of the light as far as it is known.
+/// The ray of `order` from a point to the camera. `along` is the point's offset from the camera along the axis, `across` its distance from
+/// the axis, `height` its distance from the hole along the axis, `side` the unit vector across the axis towards it (given apart, because on
+/// the axis the offset does not tell it). `elapsed` is the age of the light as far as it is known.
 fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elapsed: f32) -> Sight {
     let ray = method_ray(along, across, height, order, elapsed);
     let turn = select(1.0, -1.0, order == 2u);
     let n = frame.radial.xyz;
-    // The direction, at the camera, in which the ray sweeps backwards round the hole; even orders go the other way.
+    // The direction from which light comes at the camera; even orders come from the other side.
     let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
 
     var result: Sight;
@@ -38,7 +38,7 @@ fn sight(along: f32, across: f32, height: f32, side: vec3<f32>, order: u32, elap
     return result;
 }
 
-/// The unit vector across the axis towards a place at `across` beside it, along `side_a` and `side_b`.
+/// The unit vector across the axis towards a position with the coordinates `across` along `side_a` and `side_b`.
 fn side_towards(across: vec2<f32>) -> vec3<f32> {
     let distance = length(across);
     if distance > 0.0 {
@@ -77,7 +77,7 @@ fn shaped(instance: Instance, body: vec3<f32>) -> vec3<f32> {
     return instance.shape_x.xyz * body.x + instance.shape_y.xyz * body.y + instance.shape_z.xyz * body.z;
 }
 
-/// What is asked of the table: a body point, to be found at its own emission time, or a place given outright.
+/// What is to be projected: a body point, at its own emission time, or a fixed position.
 struct Query {
     body: vec3<f32>,
     fixed: bool,
@@ -90,9 +90,10 @@ struct Query {
 
 struct Answer {
     ray: Sight,
-    /// The place of emission by the axis of hole and camera. x, y: across it, along `side_a` and `side_b`; z: along it, from the camera outward.
+    /// The position of emission by the axis of hole and camera. x, y: across it, along `side_a` and `side_b`; z: along it, from the camera
+    /// outward.
     by_axis: vec3<f32>,
-    /// The same place from the hole.
+    /// The same position, from the hole.
     position: vec3<f32>,
 }
 
@@ -100,19 +101,21 @@ fn query_body(body: vec3<f32>) -> Query {
     return Query(body, false, 0.0, 0.0, 0.0, vec3<f32>(0.0));
 }
 
-/// Most steps on the emission time. Newton squares the error, which starts as the part of c at which the object turns or accelerates while light
-/// crosses it, so two or three do; next to the horizon the first guesses may have no ray at all, and halving comes before Newton. Of what falls
-/// inside beside the camera, seen by light of hardly any energy, most points of a ship need eight to 18, and a few between 24 and 40: the delay goes
-/// there as the root of the time that is left until there is no ray, so halving alone comes near it.
+/// Most steps of the search for the emission time. Newton's method squares the error, which starts as the share of c at which the object
+/// turns or accelerates while light crosses it; so two or three steps are usual. Next to the horizon the first guesses may have no ray at
+/// all, and bisection comes before Newton. For what falls inside the horizon beside the camera, seen by light of hardly any energy, most
+/// points of a ship need 8 to 18 steps and a few between 24 and 40: the delay goes there as the root of the time that is left until there
+/// is no ray.
 const EMISSION_STEPS: u32 = 40u;
 /// The longest step back in search of a ray, in r_s/c: beyond it f32 overflows in the fourth power.
 const FARTHEST_BACK: f32 = 1e5;
 /// Before any time, and after all.
 const NEVER: f32 = 3e38;
 
-/// The ray that a query asks for. For a body point: solves s + Δ(x(s)) = T − T₀. The left side increases strictly with s for light of E > 0
-/// and decreases for E < 0, since no emitter outruns light, so there is one solution between what is too early and what is too late; Newton's steps
-/// are held in between. There is one call of the lookup here, and a pass should call this from one place: shader compilers copy functions into every call.
+/// Projects a query: the ray from its point to the camera. For a body point it solves s + Δ(x(s)) = T − T₀. The left side increases
+/// strictly with s for light of E > 0 and decreases for E < 0, since no emitter outruns light. So there is one solution, between times that
+/// are too early and too late; Newton's steps are kept between them. The lookup is called from one place here, and a pass should call this
+/// function from one place: shader compilers copy functions into every call.
 fn answer(instance: Instance, query: Query, order: u32) -> Answer {
     var result: Answer;
     var s = first_guess(instance, query.body);
@@ -141,25 +144,26 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
             side = side_towards(beside);
             result.by_axis = vec3<f32>(beside, along);
         }
-        // What moves is seen by light of one age; what is held, by light of any: its instance says which is meant.
+        // A moving point is seen by light of one age. A held point may be seen by light of two ages: its instance says which is meant.
         let elapsed = select(select(YOUNG, OLD, (instance.triangles.w & INSTANCE_MINUS) != 0u), instance.offset.w - s, moves);
         result.ray = sight(along, across, height, side, order, elapsed);
         if query.fixed || !moves {
             break;
         }
         if !result.ray.valid && i < steps {
-            // Not in the camera's past (any more): earlier. Light crosses the object in about its size.
+            // Not in the camera's past any more: try earlier. Light crosses the object in about its size.
             late = s;
             back = min(select(2.0 * back, 2.0 * distance(result.position, instance.position.xyz), back == 0.0), FARTHEST_BACK);
             s = select(s - back, 0.5 * (early + s), early > -NEVER);
-            // The last look is at a time that has a ray.
+            // The last step is at a time that has a ray.
             s = select(s, early, i + 1u == steps && early > -NEVER);
             continue;
         }
         let missing = elapsed - result.ray.delay;
         let velocity = velocity_at(instance, result.position);
         let speed = length(velocity);
-        // A time in which the image moves less than a fiftieth of a pixel need not be found. Round the axis it moves as the azimuth turns.
+        // The search ends when the image moves by less than a fiftieth of a pixel in the missing time. Round the axis it moves as the
+        // azimuth turns.
         let seen_from = min(result.ray.delay, across);
         if i > 0u && abs(missing) * speed < max(0.02 * frame.size.z * finest * seen_from, instance.axis.z) {
             break;
@@ -168,7 +172,7 @@ fn answer(instance: Instance, query: Query, order: u32) -> Answer {
         let energy = result.ray.energy;
         let step = missing * clamp(energy / (energy - dot(velocity, result.ray.leaving.xyz)), -20.0, 20.0);
         if i == steps {
-            // A point whose time was not found is not drawn: it would stand where it never was.
+            // A point whose emission time was not found is not drawn: it would be seen where it never was.
             result.ray.valid = result.ray.valid && abs(step) * speed < 4.0 * frame.size.z * result.ray.delay;
             break;
         }

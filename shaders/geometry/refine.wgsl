@@ -1,4 +1,4 @@
-// Stage 4: splitting. One thread per piece: if an edge needs more than eight segments it is halved, else the piece goes to the mesh stage.
+// Stage 4: splitting. One thread per piece. If an edge needs more than eight segments it is halved; else the piece goes to the mesh stage.
 // An edge is judged by its end points alone, so both its sides split it alike.
 
 @compute @workgroup_size(64)
@@ -30,23 +30,23 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     hand_over(1u - queue);
 }
 
-/// What was measured of a piece: its points as they are seen, and those of them by the axis that are on the triangle.
+/// What was measured of a piece: the apparent positions of its points; below, those points of them that are on the triangle, by the axis.
 var<private> points: array<vec3<f32>, 17>;
 var<private> by_axis: array<vec3<f32>, 12>;
-/// The sines over the triangle under which light leaves it at the corners.
+/// Sines of the angles to the triangle under which light leaves it at the corners.
 var<private> rising: vec3<f32>;
-/// Whether one of them is not seen.
+/// Whether one of the points is not seen.
 var<private> unseen: bool;
 
 /// `strictness` of the instance, and that of its outlines.
 var<private> strict: f32;
 var<private> limb_strict: f32;
-/// Levels of the model triangle's edges, and whether they may be outlines, from the stage of edges.
+/// Number of segments of the model triangle's edges, from the stage of edges; below, whether they may be outlines.
 var<private> model_levels: vec3<u32>;
 var<private> limb: array<bool, 3>;
 
-/// The level of the edge opposite corner `side` of a measured triangle, or of the outer edge (0) of a fan, and where it is halved: from the ends alone, in
-/// the order that both sides of the edge agree on.
+/// The edge opposite corner `side` of a measured triangle, or the outer edge (0) of a fan: its number of segments, and where it is halved.
+/// From its ends alone, in the order that both sides of the edge agree on.
 struct Side {
     level: u32,
     error: f32,
@@ -68,13 +68,13 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     var result: Side;
     result.middle = corners[i] + (corners[j] - corners[i]) * half;
     result.error = side_error(side);
-    // Beside the axis a small part of an edge may be a large part of the image.
+    // Beside the axis a small part of an edge may have a large part of the image.
     let part = select(1.0, part_between(corners[i], corners[j]), half == 0.5);
     let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
     let fineness = pixel_fineness(points[i], points[j]);
     let pixel = frame.size.z / fineness * length(points[i]);
     let closer = ring_strictness(nearest, pixel, by_axis[i].z, instance.ids.x);
-    // Where light grazes a triangle its image folds inside it.
+    // If light grazes a triangle, its image may fold inside it.
     let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
     result.level = min(result.level, most_segments(instance, by_axis[i], by_axis[j], pixel));
@@ -86,10 +86,11 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     return result;
 }
 
-/// The level of the edge between two corners, which is `part` of one of the model: a whole one has the level that its other triangle knows too.
+/// The number of segments of the edge between two corners, which is `part` of an edge of the model. A whole edge has the number that the
+/// stage of edges found, which its other triangle knows too.
 fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: bool, part: f32) -> u32 {
     let whole = max(a.x, max(a.y, a.z)) == 1.0 && max(b.x, max(b.y, b.z)) == 1.0;
-    // The edge of the model triangle that it lies on, opposite to the corner that has no weight.
+    // The edge of the model triangle on which it lies: opposite the corner without weight.
     let absent = a + b;
     var edge = 3u;
     if absent.x == 0.0 { edge = 0u; } else if absent.y == 0.0 { edge = 1u; } else if absent.z == 0.0 { edge = 2u; }
@@ -100,8 +101,9 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: boo
     return level_for(error * strict * max(least, select(1.0, limb_strict, closer)), part);
 }
 
-/// Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite 0, 1, 2. Fan: apex, outer corners 1 and 2, the outer edge
-/// at ¼, ½, ¾; then from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾, from 10 that at corner 2, from 14 the arc at ¼, ½, ¾.
+/// Measures a piece. Triangle: corners at 0 to 2, then the points at ¼, ½, ¾ of the edges opposite corners 0, 1, 2. Fan: apex, outer
+/// corners 1 and 2, the outer edge at ¼, ½, ¾; from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾; from 10 that at corner 2; from 14 the
+/// arc at ¼, ½, ¾.
 fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
     let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
     let fan = piece.what.z == PIECE_FAN;
@@ -147,8 +149,8 @@ fn side_error(side: u32) -> f32 {
     return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
 }
 
-/// Hands a triangle with these levels to the mesh stage: as a grid, or where its image is narrow as a strip, which takes a third of the vertices. Not
-/// in thin images: a ring of theirs is broken where triangles are too narrow to be drawn.
+/// Hands a triangle with these numbers of segments to the mesh stage: as a grid, or as a strip if its image is narrow, which takes a third
+/// of the vertices. Thin images have no strips: a thin ring breaks where triangles are too narrow to be drawn.
 fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
     let most = max(levels.x, max(levels.y, levels.z));
     // Turned so that the side with most segments is opposite the first corner.
@@ -171,12 +173,12 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
 /// Widest strip, pixels: over so little the image does not bend.
 const STRIP_WIDTH: f32 = 6.0;
 
-/// The most that a point of a strip may be shown beside its place, pixels: beside the axis a step across a cell is a larger part of the distance from it on
-/// one side than on the other, and what lies between is not linear.
+/// Largest displacement of a point of a strip, in pixels. Beside the axis a step across a cell is a larger share of the distance from the
+/// axis on one side than on the other, and what lies between is not linear.
 const STRIP_SHEAR: f32 = 0.1;
 
-/// Whether the image of a measured triangle is narrow between the side opposite corner `turn` and the other two, points of which are compared as a strip joins
-/// them. `levels` from that corner on.
+/// Whether the image of a measured triangle is narrow between the side opposite corner `turn` and the other two sides. Their points are
+/// compared as a strip joins them. `levels` begin with that of the side opposite that corner.
 fn is_narrow(turn: u32, levels: vec3<u32>, order: u32) -> bool {
     let columns = f32(levels.y + levels.z);
     let pixel = frame.size.z / pixel_fineness(points[0], points[1]);
@@ -198,14 +200,14 @@ fn is_narrow(turn: u32, levels: vec3<u32>, order: u32) -> bool {
     return widest < STRIP_WIDTH * pixel && (0.25 * cell * shear < STRIP_SHEAR * pixel || !axis_matters(by_axis[0].z, order));
 }
 
-/// Between two measured points, by their numbers.
+/// A point between two measured points, by their indices.
 struct Between {
     start: u32,
     end: u32,
     t: f32,
 }
 
-/// The point of the side opposite corner `side`, at t from corner side + 1 to side + 2: between those at quarters, straight.
+/// The point of the side opposite corner `side`, at t from corner side + 1 to side + 2: linear between the measured quarters.
 fn point_of_side(side: u32, t: f32) -> Between {
     let k = 3u + 3u * side;
     let quarter = min(u32(4.0 * t), 3u);
@@ -214,10 +216,10 @@ fn point_of_side(side: u32, t: f32) -> Between {
     return Between(start, end, 4.0 * t - f32(quarter));
 }
 
-/// From this depth on a piece may be one of the slivers that splitting only makes thinner.
+/// From this depth on a piece may be a sliver that splitting only makes thinner.
 const SLIVER_DEPTH: u32 = 16u;
 
-/// Where a side turns farther than this about the axis no triangle is halved on all sides, radians.
+/// If a side has a larger turn about the axis than this, in radians, the triangle is not halved on all sides.
 const SLICED: f32 = 0.1;
 
 /// Where the axis meets a measured triangle, as `meets_axis`.
@@ -244,7 +246,7 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     if is_lost(instance, by_axis[0], by_axis[1], by_axis[2]) {
         return;
     }
-    // What moves is not flat when it is seen: the axis may meet a part of a triangle whose corners it passes by.
+    // A moving triangle is not flat when it is seen: the axis may meet a part of it although it passes by the corners.
     let at = met(piece, instance.ids.x);
     if at.x >= 0.0 {
         if depth >= DEEPEST {
@@ -267,7 +269,8 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     }
     let levels = vec3<u32>(sides[0].level, sides[1].level, sides[2].level);
     let most = max(levels.x, max(levels.y, levels.z));
-    // A sliver along a side that is fine as it is would be split for its other two sides for ever: they come ever nearer to that one, and no shorter.
+    // A sliver along a side that needs no splitting would be split for its other two sides for ever: they come nearer to that side and get
+    // no shorter.
     let lengths = vec3<f32>(angle_between(points[1], points[2]), angle_between(points[2], points[0]), angle_between(points[0], points[1]));
     let longest = max(lengths.x, max(lengths.y, lengths.z));
     let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
@@ -283,8 +286,8 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     var split_0 = levels.x > BLOCK;
     var split_1 = levels.y > BLOCK;
     var split_2 = levels.z > BLOCK;
-    // Round the axis the image bends along the ring and hardly across it. Halved on all sides its parts would be as many as the square of what the longest
-    // side needs; so only that side is, and the parts lie side by side.
+    // Round the axis the image bends along the ring and hardly across it. Halving all sides would make as many parts as the square of what
+    // the longest side needs. So only that side is halved, and the parts lie side by side.
     let farthest = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
     if split_0 && split_1 && split_2 && farthest > SLICED {
         split_0 = sides[0].turn == farthest;

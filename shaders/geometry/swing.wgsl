@@ -1,10 +1,10 @@
-// Where the points of a body are: it flies and turns as a whole.
+// Worldlines of the points of a body that flies and turns as a whole.
 
-/// The farthest turn that is believed, radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
+/// The largest turn that is used, in radians: the polynomials of `swing_at` are right to 1.3 % there and to 1e-7 at half a radian.
 const FARTHEST_TURN: f32 = 2.0;
 
-/// Where the body point is, away from its centre at T₀, `s` after the emission time T₀ of that centre: it turns with the body, is contracted by
-/// the momentum of that moment, and goes where the centre goes, to fourth order. The twin of src/render/instances/swing.rs.
+/// Offset of the body point from the centre at T₀, `s` after the emission time T₀ of that centre. It turns with the body, is contracted by
+/// the momentum of that moment, and follows the centre to fourth order. Twin of src/render/instances/swing.rs.
 fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> vec3<f32> {
     let scale = instance.velocity.w;
     if scale == 0.0 {
@@ -26,12 +26,12 @@ fn swing_at(instance: Instance, body: vec3<f32>, s: f32) -> vec3<f32> {
     return contracted + (instance.velocity.xyz + (acceleration + (jerk + instance.snap.xyz * (0.25 * s)) * (s / 3.0)) * (0.5 * s)) * s;
 }
 
-/// Where the search for the emission time of a point begins, after T₀: it is hardly any other than the centre's.
+/// First guess of the emission time of a point, after T₀: nearly that of the centre.
 fn first_guess(instance: Instance, body: vec3<f32>) -> f32 {
     return 0.0;
 }
 
-/// dx/dT of what is at `position`: the centre's, for a body turns slowly.
+/// dx/dT of the matter at `position`: that of the centre, since a body turns slowly.
 fn velocity_at(instance: Instance, position: vec3<f32>) -> vec3<f32> {
     return instance.velocity.xyz;
 }
@@ -39,10 +39,11 @@ fn velocity_at(instance: Instance, position: vec3<f32>) -> vec3<f32> {
 /// Whether an edge inside the surface may be an outline of its image.
 const MAY_FOLD: bool = true;
 
-/// Whether the surface ends at an edge of the model, which is `alone` and runs from `a` to `b`.
+/// Whether the surface ends at an edge of the model, which has one triangle (`alone`) and runs from `a` to `b`.
 fn is_rim(instance: Instance, alone: bool, a: vec3<f32>, b: vec3<f32>) -> bool {
     return alone;
 }
 
-/// Whether slivers are left as they are from some depth on: pixels would be missed beside them, where a neighbour has more segments.
+/// Whether slivers are not split any more from some depth on. Not here: pixels beside them would be missed, where a neighbour has more
+/// segments.
 const KEEPS_SLIVERS: bool = false;

@@ -1,5 +1,5 @@
-// Stage 3, the object stage: one thread per model triangle and order. Culls, cuts at the axis, draws what is flat enough as it is, and hands
-// the rest on: to the mesh stage if eight segments a side are enough, else to be split.
+// Stage 3, the object stage: one thread per model triangle and image order. Culls, cuts at the axis, draws what is flat enough as it is,
+// and hands the rest on: to the mesh stage if eight segments a side are enough, else to be split.
 
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
@@ -43,14 +43,15 @@ fn decide(chunk: Chunk, lane: u32) {
     let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
     let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
 
-    // Where the axis meets the triangle, its image opens into an arc: it is cut there into fans, from `apex` over those of its edges in `fans`.
+    // Where the axis meets the triangle, its image opens into an arc. It is cut there into fans, from `apex` over those of its edges that
+    // are in `fans`.
     var apex = vec3<f32>(0.0);
     var fans = vec3<bool>(false);
     let on_axis = vec3<bool>(o0.w == VERTEX_ON_AXIS, o1.w == VERTEX_ON_AXIS, o2.w == VERTEX_ON_AXIS);
     let cuts = vec3<bool>((bitcast<u32>(e0.y) & EDGE_CUT) != 0u, (bitcast<u32>(e1.y) & EDGE_CUT) != 0u, (bitcast<u32>(e2.y) & EDGE_CUT) != 0u);
     if any(on_axis) {
         apex = select(vec3<f32>(0.0), vec3<f32>(1.0), on_axis);
-        // Along an edge that is on the axis there is no surface to see.
+        // Of an edge on the axis no surface is visible.
         if dot(apex, vec3<f32>(1.0)) > 1.0 || any(cuts) {
             return;
         }
@@ -99,13 +100,14 @@ fn decide(chunk: Chunk, lane: u32) {
     emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
 }
 
-/// How far behind its plane, as a sine, light must leave a triangle to be held back by the body. Between the corners light leaves within about the
-/// spread of its directions there; this is for what a turning body and curvature add.
+/// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of
+/// light vary about as much as among them; this is for what a turning body and curvature add.
 const TURNED_AWAY: f32 = 0.05;
-/// Nearer to the horizon nothing is left out: static observers there see the body drawn out without bound.
+/// Nearer to the horizon than this radius, in r_s, nothing is left out: static observers there see the body stretched without bound.
 const LEAST_RADIUS_TURNED: f32 = 1.05;
 
-/// Whether all light that a triangle of a lone closed body sends to the camera leaves on its inner side, so that the body itself hides it.
+/// Whether all light that a triangle of a closed body of one part sends to the camera leaves on its inner side, so that the body itself
+/// hides it.
 fn turned_away(instance: Instance, triangle: ModelTriangle, slots: vec3<u32>, offset: vec3<f32>) -> bool {
     let l0 = seen[slots.x].leaving;
     let l1 = seen[slots.y].leaving;

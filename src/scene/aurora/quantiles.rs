@@ -132,7 +132,7 @@ impl Quantiles {
         Quantiles { heights, photons, delays, ends }
     }
 
-    /// All of them in the order in which shaders/aurora/streaks.wgsl reads them.
+    /// All tables in the order in which shaders/aurora/streaks.wgsl reads them.
     pub fn laid_out(&self) -> Vec<f32> {
         let photons = self.photons.iter().flatten();
         photons.chain(self.delays.iter().flatten()).chain(&self.heights).copied().collect()
@@ -147,7 +147,7 @@ struct Part {
     made: [f64; 4],
 }
 
-/// Heights (km) between which all but the part `outside` of the light of each of some lines is made, at either end and in every row.
+/// Heights (km) between which all but the share `outside` of the light of each of some lines is made, at either end and in every row.
 fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4], outside: f64) -> [f32; 2] {
     let parts = (1.0 / outside).round() as usize;
     let [mut highest, mut lowest] = [HEIGHTS[1], HEIGHTS[0]];
@@ -162,7 +162,7 @@ fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4], outside: f64) -> [f32; 2] {
     [highest.min(HEIGHTS[0]) as f32, lowest.max(HEIGHTS[1]) as f32]
 }
 
-/// Equal parts of the light of some lines, from sums of each line at [`STEP`]s down from the first of [`HEIGHTS`]: the ends of so many parts.
+/// The ends of so many equal parts of the light of some lines, from sums of each line at [`STEP`]s down from the first of [`HEIGHTS`].
 fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4], parts: usize) -> impl Iterator<Item = Part> {
     let of = move |sum: &[f64; 4]| -> f64 { sum.iter().zip(&lines).map(|(sum, line)| sum * line).sum() };
     let total = sums.last().map_or(0.0, of);

@@ -7,7 +7,8 @@ pub fn hash(value: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// A number in [0, 1) with 24 bits, from three counters: seed, particle and step. Twin: `uniform_random` in shaders/functions/random.wgsl.
+/// A number in [0, 1) with 24 bits, from three counters: seed, particle and step. In shaders it is `unit` of a nested `hash`
+/// (shaders/functions/random.wgsl).
 pub fn uniform(seed: u32, particle: u32, step: u32) -> f32 {
     (hash(step.wrapping_add(hash(particle.wrapping_add(hash(seed))))) >> 8) as f32 * (1.0 / 16_777_216.0)
 }
