@@ -2,8 +2,8 @@
 
 @group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
 
-/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing. It stands here once more, as what one stage hands to the
-/// next may hold no structures, and polygons have no use for the rest.
+/// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing. It is repeated here
+/// because what one stage hands to the next may hold no structures, and polygons do not need the rest.
 struct ArcGas {
     @builtin(position) position: vec4<f32>,
     @location(0) even: vec4<f32>,
@@ -15,12 +15,12 @@ struct ArcGas {
     @location(6) @interpolate(flat) bend: vec3<f32>,
 }
 
-/// Where in its ring a pixel is.
+/// Position of a pixel in its ring.
 struct AcrossRing {
     /// 0 on one of the ring's circles and 1 on the other.
     @location(5) across: f32,
-    /// By how much the ring's middle is beyond the straight line between its circles: height in the pattern, log₂ of light over its slope, optical depth over that of the line. An arc's
-    /// triangles begin with a vertex of the inner circle, which has it.
+    /// How far the ring's middle deviates from the straight line between its circles: height in the pattern, log₂ of light over its slope,
+    /// optical depth over that of the line. An arc's triangles begin with a vertex of the inner circle, which has it.
     @location(6) @interpolate(flat) bend: vec3<f32>,
 }
 
@@ -33,25 +33,25 @@ fn vertex(@builtin(vertex_index) index: u32) -> ArcGas {
     return ArcGas(gas.position, gas.even, gas.odd, gas.light, vec4<f32>(gas.slope.xyz, seen.gas.y), gas.seen, seen.bend.w, bend);
 }
 
-/// What of a ring's gas a pixel has.
+/// The gas of a ring at a pixel.
 struct OfRing {
     /// Height in the pattern.
     height: f32,
-    /// log₂ of its light beyond what the vertices say, over its slope.
+    /// log₂ of its light beyond that of the vertices, over its slope.
     brighter: f32,
-    /// Optical depth: along the ray, close by straight through.
+    /// Optical depth along the ray; from near, straight through.
     depth: f32,
 }
 
-/// Between a ring's two circles gas goes as parabolas that are right on both and in the middle.
+/// The gas between a ring's two circles: parabolas that are right on both circles and in the middle.
 fn of_ring(in: Gas, ring: AcrossRing) -> OfRing {
-    // A sliver that hardly touches a pixel may have anything at its centre.
+    // A sliver that hardly touches a pixel may have any value at its centre.
     let t = saturate(ring.across);
     let bent = 4.0 * (t - t * t) * ring.bend;
     return OfRing(max(in.slope.w + bent.x, 0.0), bent.y, max(in.light.w * (1.0 + bent.z), 0.0));
 }
 
-/// From far: the slant is in the vertices. Order 1 is wide; where gaps are closed gas has a part of its place.
+/// Order 1 from far: the slant is in the vertices. Where gaps are closed gas has a share of the area.
 @fragment
 fn far_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     return far_colour(in, ring) * in.seen.x;
@@ -63,25 +63,26 @@ fn thin_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     return far_colour(in, ring) * (coverage(in.seen.x, in.seen.y) * disk.gas.y);
 }
 
-/// What the orbits have turned the gas by does not go straight: each pixel follows them.
+/// The turning by the orbits is not linear over a triangle: each pixel computes it.
 fn far_colour(in: Gas, ring: AcrossRing) -> vec4<f32> {
     let here = of_ring(in, ring);
     return bent_colour(in.light.rgb, in.slope.xyz, here.depth, two_looks(streaks_of(in, here.height, 2.0 * STEP)), here.brighter);
 }
 
-/// Columns and rows of the finest level of the pattern without its finest octaves: powers of two, so that a place is brought back into it by a mask.
+/// Columns and rows of the finest level of the near pattern: powers of two, so that a position is wrapped by a mask.
 const NEAR_SIZE: vec2<i32> = vec2<i32>(1024, 512);
-/// The coarsest level of it, of two columns and one row.
+/// Its coarsest level, of two columns and one row.
 const NEAR_LEVELS: f32 = 9.0;
 
-/// The pattern without its finest octaves, without a grain: between texels by weights 3t² − 2t³. Those are the same, eight times finer.
+/// The near pattern, which lacks its finest octaves, smooth: between texels by weights 3t² − 2t³. The finest octaves are the same pattern,
+/// eight times finer.
 fn close_pattern(place: vec2<f32>, level: f32) -> f32 {
     let which = u32(clamp(level + 0.5, 0.0, NEAR_LEVELS));
     let size = NEAR_SIZE >> vec2<u32>(which);
     let texel = place * vec2<f32>(size) - 0.5;
     let whole = floor(texel);
     let straight = texel - whole;
-    // A texel that is smaller than a pixel is filtered as it is.
+    // A texel smaller than a pixel is interpolated linearly.
     let t = select(straight, straight * straight * (3.0 - 2.0 * straight), level < 0.0);
     // The first level is on the left, the others one below the other beside it.
     let corner = vec2<i32>(select(0, NEAR_SIZE.x, which > 0u), max(NEAR_SIZE.y - 2 * size.y, 0));
@@ -90,22 +91,22 @@ fn close_pattern(place: vec2<f32>, level: f32) -> f32 {
     return mix(row.x, row.y, t.y);
 }
 
-/// Places along a pixel that streaks are looked up at, at most, from near: low over the plane pixels are longest.
+/// Most positions along a pixel from near: low over the plane pixels are longest.
 const CLOSE_TAPS: u32 = 16u;
-/// Lengths of a pixel, in texels of the pattern, between which the look without a grain goes over to places along it from far: over a longer one no grain
-/// is left to be seen, and each place costs half as much.
+/// Lengths of a pixel, in texels of the pattern, between which the smooth pattern goes over to positions along the pixel in the far
+/// pattern. In a longer pixel no grain is visible, and each position costs half as much.
 const LONG: vec2<f32> = vec2<f32>(1.5, 3.0);
 
-/// From one place along a pixel to the next that the finest octaves are looked up at without a grain, in texels of the pattern: their cells are half a texel
-/// by a quarter, and one place in a longer pixel is a coincidence, which made stairs and dashes of streaks.
+/// Distance of positions along a pixel at which the finest octaves are looked up smoothly, in texels of the pattern. Their cells are half a
+/// texel by a quarter; one position in a longer pixel shows chance, which turned streaks into stairs and dashes.
 const FINE_STEP: f32 = 0.5;
-/// Such places, at most.
+/// Most such positions.
 const FINE_TAPS: f32 = 4.0;
-/// The finest octaves over the others.
+/// Strength of the finest octaves over the others.
 const FINE: f32 = 0.35;
 
-/// The streaks of both generations without a grain: once, and the finest octaves at `taps` places along a pixel. What differs there has one colour, by its
-/// mean and its variance.
+/// The streaks of both generations by the smooth pattern: once, and the finest octaves at `taps` positions along a pixel. What differs
+/// there has one colour, by its mean and its variance.
 fn near_along(at: Streaks, taps: u32) -> Cooling {
     let level = 0.5 * log2(max(at.square, 1e-12));
     let share = 1.0 / f32(max(taps, 1u));
@@ -124,17 +125,17 @@ fn near_along(at: Streaks, taps: u32) -> Cooling {
     return Cooling(power + mean, unseen_of(at, unseen_variance(level)) + 0.48045301 * max(squares * share - mean * mean, 0.0));
 }
 
-/// Order 1 says that it is wider than this, in pixels.
+/// Half width, in pixels, above which an image is of order 1.
 const WIDE: f32 = 1e5;
 
-/// From near: the slant in each pixel, streaks without a grain.
+/// From near: the slant is computed in each pixel; streaks by the smooth pattern.
 @fragment
 fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     let here = of_ring(in, ring);
     let at = streaks_of(in, here.height, STEP * f32(CLOSE_TAPS));
     let long = sqrt(at.long);
     let share = smoothstep(LONG.x, LONG.y, long);
-    // Places that do not count are not looked at.
+    // Positions that do not count are not looked up.
     let far = far_along(at, select(0u, taps_of(at, CLOSE_TAPS), share > 0.0));
     let near = near_along(at, select(0u, u32(clamp(ceil(long / FINE_STEP), 1.0, FINE_TAPS)), share < 1.0));
     let cooling = Cooling(mix(near.power, far.power, share), mix(near.unseen, far.unseen, share));
@@ -143,7 +144,7 @@ fn near_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     return bent_colour(in.light.rgb, in.slope.xyz, depth, cooling, here.brighter) * part;
 }
 
-/// What of order 1 is farther away than a close look reaches, of a disk that is seen from near: the slant in each pixel, streaks as from far.
+/// For a close camera, the part of order 1 that is far: the slant is computed in each pixel, streaks as from far.
 @fragment
 fn beyond_fragment(in: Gas, ring: AcrossRing) -> @location(0) vec4<f32> {
     let here = of_ring(in, ring);

@@ -7,14 +7,15 @@ struct GasLight {
     slope: vec3<f32>,
 }
 
-/// Gas of this ln T seen at this ln g: the black body at gT. With the shift of colour or of brightness switched off the other stays as it is.
+/// Light of gas of this ln T seen at this ln g: a black body at gT. If the shift of colour or of brightness is switched off, that one is as
+/// at rest.
 fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
     let doppler = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let beaming = (frame.switches.x & FLAG_BEAMING) != 0u;
     let shifted = ln_temperature + ln_g;
     let shown = select(ln_temperature, shifted, doppler);
     let rgb = blackbody_rgb(exp(shown));
-    // The temperature that brightness follows, and with it the slope: another than that of the colour where one of both is switched off.
+    // The temperature that determines brightness, and with it the slope: another than that of the colour if one of both is switched off.
     let felt = select(ln_temperature, shifted, beaming);
     var gain = disk.light.x;
     var glow = rgb;
@@ -22,11 +23,12 @@ fn gas_light(ln_temperature: f32, ln_g: f32) -> GasLight {
         glow = blackbody_rgb(exp(felt));
         gain *= luminance(glow) / max(luminance(rgb), 1e-30);
     }
-    // Over a tenth of T: where light falls off fast, the mean slope over what streaks do to the temperature.
+    // Mean slope over a tenth of T: where light falls off fast, the mean over what streaks do to the temperature.
     let above = blackbody_rgb(exp(felt + 0.1));
-    // Cold gas is black, whatever its slope: 45 is that of blue light at 700 K. Where there is hardly any green or blue the table holds it above zero, and its
-    // slope there is none of Planck's: it stays below what these are over red's from 2,500 to 9,000 K, where light is then right to 2 % of its luminance over
-    // what streaks do. By the channels' inverse wavelengths, 1.12 and 1.33, bright streaks lacked 6 % of their green and 16 % of their blue.
+    // The slope is limited. Cold gas is black whatever its slope; 45 is that of blue light at 700 K. Where there is hardly any green or
+    // blue, the table keeps them above zero and its slope is not Planck's. So they stay below the ratios to the slope of red that hold from
+    // 2,500 to 9,000 K; light is then right to 2 % of its luminance over what streaks do. With the ratios of inverse wavelengths, 1.12 and
+    // 1.33, bright streaks lacked 6 % of their green and 16 % of their blue.
     let steep = min(log(max(above, vec3<f32>(1e-30)) / max(glow, vec3<f32>(1e-30))) / (1.0 - exp(-0.1)), vec3<f32>(45.0));
     let slope = min(steep, steep.x * vec3<f32>(1.0, 1.22, 1.8));
     return GasLight(min(rgb * gain, vec3<f32>(6e4)), slope);

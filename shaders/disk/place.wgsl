@@ -1,16 +1,17 @@
-// Where a point of the disk is seen, and what its light becomes.
+// Projection of a point of the disk, and its light.
 
 /// Thin images are drawn this many pixels wider on either side than their coverage reaches, so that the rasteriser cuts nothing off.
 const SOFT: f32 = 0.25;
 
-/// Widths in pixels between which a gap between two rings opens. Narrower, it is closed from both sides: in rows of pixels that hit it or not it would be moiré.
+/// Widths, in pixels, between which a gap between two rings opens. A narrower gap is closed from both sides: rows of pixels that hit or
+/// miss it would show moiré.
 const SEEN_GAP: vec2<f32> = vec2<f32>(2.0, 4.0);
 /// A ring between gaps is drawn this many pixels wide at least: what is narrower than a pixel would be dashes.
 const LEAST_RING: f32 = 1.5;
-/// The step, in rad at the hole, by which the way of a circle on the screen is told.
+/// The step, in rad at the hole, by which the direction of a circle on the screen is found.
 const ALONG_STEP: f32 = 0.01;
 
-/// Circles whose mean a thin image shows, for each of so many azimuths; as in src/render/disk/view.rs.
+/// Number of circles over which the mean gas of a thin image is taken, for each of so many azimuths; as in src/render/disk/view.rs.
 const THIN_SAMPLES: u32 = 8u;
 const THIN_AZIMUTHS: u32 = 12u;
 /// The first of these azimuths, and what is left from the last to half a turn: π(½/12)² and π(1 − (11½/12)²), in rad.
@@ -20,25 +21,25 @@ const FROM_LAST_AZIMUTH: f32 = 0.25634524;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f32 = 26160.0;
 
-/// Of light behind the second image as much is taken to pass at least: what was stopped is made up for by no more than one over that.
+/// Least transmission of the second image that is assumed: the correction below is at most one over it.
 const LEAST_PASSED: f32 = 0.1;
 
 /// The variance of the pattern and its finest octaves: 1 and 0.35².
 const VARIANCE: f32 = 1.1225;
 
-/// ln of the light that streaks, by which ln T has the variance `v`, make in the mean of gas at GREEN/T = `x`: exp(x(1 − e^{−y})) weighs ln T by a normal
-/// distribution moved to `brightest`.
+/// ln of the mean light of gas at GREEN/T = `x` with streaks that give ln T the variance `v`: the normal distribution of ln T, weighted by
+/// light exp(x(1 − e^{−y})), is approximated by one moved to `brightest`.
 fn mean_light(x: f32, v: f32) -> f32 {
     return 0.5 * v * (x * x - x) / (1.0 + v * x) - x;
 }
 
-/// The inverse: x of gas whose light has the logarithm `light` in the mean.
+/// The inverse: x of gas whose mean light has the logarithm `light`.
 fn mean_light_of(light: f32, v: f32) -> f32 {
     let b = 1.0 + v * (0.5 + light);
     return -2.0 * light / (b + sqrt(b * b - 2.0 * v * light));
 }
 
-/// By how much ln T is above that of mean gas where streaks make most of the light.
+/// How far ln T is above that of mean gas where streaks make most of the light.
 fn brightest(x: f32, v: f32) -> f32 {
     return v * x / (1.0 + v * x);
 }
@@ -48,31 +49,33 @@ fn streak_variance() -> f32 {
     return VARIANCE * 0.0625 * disk.gas.x * disk.gas.x;
 }
 
-/// Gas between the mean of a thin image (x: ln of the temperature that is seen, y: optical depth along the ray; no streaks) and a circle's own, whose share is
-/// `share`: what goes over is the light, and what is stopped. By logarithms the image lost up to 40 % of its light where it is one to two pixels wide.
+/// A mix of the mean gas of a thin image (x: ln of the seen temperature, y: optical depth along the ray; without streaks) and a circle's
+/// own gas, of which the share is `share`. Light and the stopped share are mixed: mixing logarithms lost up to 40 % of the light of an
+/// image one to two pixels wide.
 fn between(mean: vec2<f32>, own: vec2<f32>, share: f32) -> vec2<f32> {
     let v = streak_variance();
     let stops = 1.0 - exp(-vec2<f32>(mean.y, own.y));
     let x = min(GREEN / exp(vec2<f32>(mean.x, own.x)), vec2<f32>(80.0));
     let light = stops * exp(vec2<f32>(-x.x, mean_light(x.y, v)));
     let stopped = mix(stops.x, stops.y, share);
-    // Streaks by which ln T has the variance share·v are laid over it.
+    // Streaks that give ln T the variance share·v are laid over it.
     let all = mean_light_of(log(clamp(mix(light.x, light.y, share) / max(stopped, 1e-6), 1e-37, 0.999)), share * v);
     return vec2<f32>(log(GREEN / max(all, 1e-3)), -log(1.0 - min(stopped, 0.999)));
 }
 
-/// Between which of THIN_AZIMUTHS azimuths one is, in rad from the camera's: the one before (x), and how far it is to the next (y). They are closest where the disk
-/// comes closest to the camera.
+/// Between which of THIN_AZIMUTHS azimuths an azimuth (rad from the camera's) lies: the one before (x), and the share of the way to the
+/// next (y). They are closest together where the disk comes closest to the camera.
 fn among_azimuths(azimuth: f32) -> vec2<f32> {
     let place = clamp(f32(THIN_AZIMUTHS) * sqrt(azimuth / HALF_TURN) - 0.5, 0.0, f32(THIN_AZIMUTHS) - 1.0);
     let before = min(floor(place), f32(THIN_AZIMUTHS - 2u));
     return vec2<f32>(before, place - before);
 }
 
-/// The gas without streaks that is as bright as an image is in the mean over its width and over streaks, where that is thin: all of it is seen by the same
-/// ray. x: ln of the temperature that is seen, in K; y: optical depth along the ray; z: ln g. `arriving` is the light's rain-frame momentum at the camera,
-/// `observed` its frequency there; the image has `first` and what follows for its circles at all azimuths, and of those at `azimuth` (rad from the camera's)
-/// `count` are taken. What of the light the second image should let through and does not, by `before` (see [`second_before`]), is made up for.
+/// The mean gas of a thin image, whose width is seen by one ray: gas without streaks that is as bright as the image in the mean over its
+/// width and over streaks. Returns x: ln of the seen temperature in K; y: optical depth along the ray; z: ln g. `arriving` is the light's
+/// rain-frame momentum at the camera, `frequency` its frequency there, `observed` that in the camera's frame. The image has the circles
+/// from `first` on, for all azimuths; of those at `azimuth` (rad from the camera's) `count` are used. The transmission of the second image
+/// as it is drawn (`before`, see [`second_before`]) is corrected to the exact one.
 fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32, before: vec2<f32>) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
@@ -91,7 +94,7 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         there.gas = mix(there.gas, next.gas, t);
         there.motion = mix(there.motion, next.motion, t);
         there.place = mix(there.place, next.place, t);
-        // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from within.
+        // Light of these orders has been round the hole: it left inward from outside the photon sphere and outward from inside.
         let found = disk_frequency(energy, angular, there.gas.x, there.gas.x < 1.5, there.motion.xy);
         let ratio = clamp(observed / found.x, 1e-3, 1e3);
         let temperature = exp(there.gas.z) * select(1.0, ratio, shifts);
@@ -101,9 +104,9 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         let nearer = there.place;
         let slanted = disk_frequency(energy, angular, nearer.w, nearer.w < 1.5, nearer.yz).y;
         let through = nearer.x / max(slanted, LEAST_COSINE);
-        // In the mean over streaks, by three places of a normal distribution.
+        // The mean over streaks, by three points of a normal distribution.
         let denser = exp(4.0 * sqrt(3.0 * v));
-        // Of the second image gas has `share` of the place.
+        // In the second image gas has `share` of the area.
         let passed = 1.0 - share * (1.0 - (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0);
         let drawn = 1.0 - before.x - before.y * (1.0 - passed);
         let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
@@ -121,19 +124,19 @@ fn drawn_half(half: f32) -> f32 {
     return half + (disk.gas.w + SOFT) * (1.0 - own_share(half));
 }
 
-/// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles: x of all light, y of the light that this gas
-/// itself stops. Light of the third image comes through one place of the second, where that passes the photon sphere, and a pixel has the mean of
-/// the second's gas and covers with it what is beside the image as well. The third is so thin that all of it is `d` pixels from the middle of the second, of
-/// the half width `half`, under a tent; the second's gas has the mean optical depth `depth`.
+/// What the second image, where it is drawn thin, stops of light that comes through the gas of its circles: x of all light, y of the light
+/// that this gas itself stops. Light of the third image crosses the second at one point, near the photon sphere; but a pixel shows the mean
+/// of the second's gas, and covers what is beside the image as well. The third image is so thin that all of it is `d` pixels from the
+/// middle of the second, which has the half width `half`, under a tent, and whose gas has the mean optical depth `depth`.
 fn second_before(d: f32, half: f32, depth: f32) -> vec2<f32> {
-    // Over the tent by three places with its variance, 1/6.
+    // Over the tent by three points with its variance, 1/6.
     let aside = 0.57735027 * disk.gas.w;
     let covered = 0.5 * coverage(d, half) + 0.25 * (coverage(d - aside, half) + coverage(d + aside, half));
     let own = own_share(half);
     return covered * vec2<f32>((1.0 - own) * (1.0 - exp(-depth)), own);
 }
 
-/// A ray between two that are so near to each other that all goes straight.
+/// A ray between two rays that are so close that everything is linear.
 fn between_rays(a: LensRay, b: LensRay, t: f32) -> LensRay {
     var ray = b;
     ray.cos_psi = mix(a.cos_psi, b.cos_psi, t);
@@ -157,24 +160,24 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let halves = select(vec2<f32>(0.5 - 0.5 * c, 0.5 * s * s / (1.0 - c)), vec2<f32>(0.5 * s * s / (1.0 + c), 0.5 + 0.5 * c), c > 0.0);
     let turn = select(1.0, -1.0, order == 2u);
 
-    // The same for all radii: the half plane, bounded by the axis, that holds the ray.
+    // The same for all radii: the half plane, bounded by the axis, that contains the ray.
     let up = -disk.towards.w * c;
     let reach = sqrt(up * up + s * s);
     let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
 
     var ray: LensRay;
-    // Where this circle lies if the gap beside it is closed.
+    // The ray of this circle if the gap beside it is closed.
     var in_gap: LensRay;
     let gap = circle.place.z;
     var psi = vec3<f32>(0.0);
     var valid = true;
-    // Where the second image begins and ends beside the third: the same ray has crossed the plane on the other side of the hole.
+    // Where the second image begins and ends beside the third: the same ray crosses the plane on the other side of the hole.
     var second = vec2<f32>(0.0);
     var behind_second = order == 3u;
     // Away from the axis, where the circle is near it.
     let step = select(-ALONG_STEP, ALONG_STEP, c > 0.0);
-    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. A gap has another side, and needs to know how aslant it is seen: the
-    // third place is a little aside. The lookup is called from this one place.
+    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. A gap has another side, and its slant must
+    // be known: the third point is a little aside. The lookup is called from this one place.
     for (var k = 0u; k < select(select(3u, select(1u, 3u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
         let beside = k == 1u && order == 1u;
         let aside = select(0.0, step, k == 2u && order == 1u);
@@ -204,11 +207,11 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         }
     }
 
-    // What of the place that a ring takes has gas: less by as much as it has grown over its gaps.
+    // Share of the ring's area that has gas: less, by as much as it has grown over its gaps.
     var share = 1.0 - gap;
     if gap > 0.0 && order == 1u {
         let pixel = frame.size.z * pixel_of(n * ray.cos_psi + side * ray.sin_psi, side * ray.cos_psi - n * ray.sin_psi);
-        // Across the circle, which goes so far towards the axis and round it for each radian of θ.
+        // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
         let way = vec2<f32>((psi.z - psi.x) / step * disk.sideways.w * s / max(reach, 1e-12), ray.sin_psi * disk.upwards.w / max(reach * reach, 1e-12));
         let dark = circle.place.w * abs(psi.x - psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
         let ring = dark * share / gap;
@@ -218,11 +221,11 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     }
 
     var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
-    // Of order 1, which is wide, the place that gas has is told; in the others, whose gaps are closed, it is the same everywhere.
+    // For order 1, which is wide, the share of the area with gas; in the others, whose gaps are closed, it is the same everywhere.
     var thin = vec2<f32>(share, 1e6);
     // Where all of a thin image is seen.
     var all_at = seen_at;
-    // The same of the second image behind which the third is: from the middle of the one to that of the other, and half its width, in pixels.
+    // For the third image: distance of its middle from that of the second image, and half the width of the second, in pixels.
     var nearer = vec2<f32>(0.0, 1e6);
     if order > 1u {
         // Pixels by the size of one at this place of the picture.
@@ -272,7 +275,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     let azimuth = angle(abs(s), c, 1.0);
     let coming = -all_at * ray.frequency;
     let seen_as = camera_doppler_of(all_at) * ray.frequency;
-    // A loop over nothing is all that software drivers skip: a branch is run through by all.
+    // Software drivers skip a loop without steps, but run through every branch.
     let is_behind = behind_second && own_share(nearer.y) < 1.0;
     let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, order == 3u);
     let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
@@ -283,7 +286,7 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
         ln_g = mix(mean.z, ln_g, own);
     }
-    // Close by, the slant is worked out in each pixel.
+    // From near, the slant is computed in each pixel.
     let along_ray = select(slant, 1.0, order <= disk.room.y);
     vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * along_ray);
     vertex.more = vec4<f32>(ln_g, cosine, thin);

@@ -1,6 +1,7 @@
-// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (Yamashita 2025, section 3) says into how
-// many segments it is cut; both arcs that share the circle take the same points, so no gap opens. A halving divides δ by four, and n segments by n²: the paper
-// halves until δ is small enough, here it is the least n, for which triangles are fewer by a quarter.
+// Stage 2, the object stage: one thread per arc of a circle. The error δ of its middle against the middle of its seen ends (Yamashita 2025,
+// section 3) gives the number of segments. Both arcs that share the circle take the same points, so no gap opens. Halving divides δ by
+// four, and n segments by n². Yamashita 2025 halves until δ is small enough; here the least n is taken, which makes a quarter fewer
+// triangles.
 
 /// Most segments of an arc.
 const MOST_SEGMENTS: u32 = 128u;
@@ -28,9 +29,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         segments[id.x] = vec4<u32>(1u, 0u, bitcast<u32>(error), beyond);
         return;
     }
-    // Thin images are grown to lines: their chords are held closer, as their sag shows against their own width. With half the budget a line half a pixel to two
-    // wide was uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the disk is narrow in them: with all of the budget
-    // gas is moved so far that a ball behind it had 0.52 of its light left for 0.64.
+    // Thin images are widened to lines, so their chords are held closer: the sag shows against their own width. With half the budget a line
+    // half a pixel to two wide was uneven by a tenth, with this by a sixteenth. Wide images of orders 2 and 3 are not lines, but all of the
+    // disk is narrow in them: with the whole budget gas was moved so far that a ball behind it had 0.52 of its light left instead of 0.64.
     let half = min(min(disk_vertices[first].more.w, disk_vertices[first + 1u].more.w), disk_vertices[first + 2u].more.w);
     let budget = disk.gas.z * select(mix(0.35, 0.6, own_share(half)), 1.0, circles[row].rows.x == 1u);
     var count = u32(clamp(ceil(sqrt(error / budget)), 1.0, f32(MOST_SEGMENTS)));
@@ -39,7 +40,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         extra = atomicAdd(&disk_counters.vertices, count - 1u);
         let grid = disk.sizes.x * disk.sizes.z;
         if grid + extra + count - 1u > disk.room.x {
-            // No room: the arc is drawn by its middle. Nothing is given back, as another thread may have asked since.
+            // No room: the arc is drawn with its middle only. Nothing is given back, as another thread may have asked since.
             atomicAdd(&disk_counters.coarse, 1u);
             count = 2u;
         } else {
@@ -51,7 +52,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     segments[id.x] = vec4<u32>(count, extra, bitcast<u32>(error), 0u);
 }
 
-/// The sides of the screen that an arc is beyond for sure, its ends and middle all by more than it bends; as bits.
+/// The sides of the screen, as bits, that an arc is surely beyond: its ends and its middle all by more than it bends.
 fn sides_beyond(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, error: f32) -> u32 {
     let fx = frame.projection.x;
     let fy = frame.projection.y;

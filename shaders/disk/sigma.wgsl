@@ -1,16 +1,17 @@
-// The parameter in which an image of the disk is smooth all round: σ, the mean of the azimuth θ from the camera's and of the angle α round the axis of hole
-// and camera at which the point is seen, tan α = tan θ/h. Where the disk passes behind the hole the one hardly moves while the other takes half a turn; in σ
-// the image is smooth everywhere. The twin of src/render/disk/sigma.rs.
+// The parameter in which an image of the disk is smooth all round: σ, the mean of the azimuth θ from the camera's and of the angle α round
+// the axis of hole and camera at which the point is seen, tan α = tan θ/h. Where the disk passes behind the hole θ hardly changes while α
+// takes half a turn; as a function of σ the image is smooth everywhere. The twin of src/render/disk/sigma.rs.
 
-/// Where on its circle a point is: θ in rad, its cosine and its sine.
+/// Position of a point on its circle: θ in rad, its cosine and its sine.
 struct Bearing {
     theta: f32,
     cosine: f32,
     sine: f32,
 }
 
-/// That at σ, for a camera whose height over the plane has the sine h > 0: tan 2σ = tan(θ + α) is a quadratic equation for tan θ. Cosine and sine come of it and not of θ: from next to the plane θ, rounded, has only some
-/// forty values near half a turn while α takes half a turn, and what should be a ring were chords.
+/// The position at σ, for a camera whose height over the plane has the sine h > 0: tan 2σ = tan(θ + α) is a quadratic equation for tan θ.
+/// Cosine and sine come from it and not from θ: for a camera close to the plane, θ in f32 has only some forty values near half a turn while
+/// α takes half a turn, and a ring would become chords.
 fn bearing(sigma: f32, h: f32) -> Bearing {
     // θ, α and σ are the same at each quarter turn.
     let half_turns = round(sigma / HALF_TURN);

@@ -29,7 +29,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let end = end_of(list);
     var slot = disk.regions[list] + atomicAdd(&disk_counters.indices[list], 3u * total);
     if slot + 3u * total > end {
-        // No room. What is left of it becomes triangles of nothing: the draw goes to the end.
+        // No room. What is left of the list becomes empty triangles, since the draw goes to its end.
         for (; slot < end; slot++) {
             disk_indices[slot] = 0u;
         }

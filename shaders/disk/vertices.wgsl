@@ -1,5 +1,5 @@
-// Stages 1 and 3, in two dispatches of one pipeline: one thread per vertex. The first works out the places of the grid, the ends and the middle of
-// every arc on both its circles; the second, the mesh stage, the places that halving asks for.
+// Stages 1 and 3, in two dispatches of one pipeline: one thread per vertex. The first projects the grid: the ends and the middle of every
+// arc on both its circles. The second, the mesh stage, projects the vertices that segments ask for.
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -14,7 +14,7 @@ struct Arguments {
 }
 
 
-/// Before each pass of splitting: takes up the queue that was filled, and empties the other.
+/// Before each pass of splitting: switches to the queue that was filled, and empties the other.
 @compute @workgroup_size(1)
 fn next_pieces() {
     let filled = 1u - counters.turn;

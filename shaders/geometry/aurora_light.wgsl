@@ -5,20 +5,20 @@ struct GroundLight {
     dipole_x: vec4<f32>,
     dipole_y: vec4<f32>,
     dipole_z: vec4<f32>,
-    /// Linear colour of a curtain; w: how far back from the newer map to the older it is.
+    /// Linear colour of a curtain; w: share of the older map in the mix of both.
     colour: vec4<f32>,
-    /// xy: where the pole is on the map, z: a radian of colatitude, w: half a texel, all over the map's side.
+    /// xy: position of the pole on the map, z: a radian of colatitude, w: half a texel; all over the map's side.
     map: vec4<f32>,
     /// x: object id of the planet, 0 for none; y: whether the south has an aurora as well.
     planet: vec4<u32>,
 }
 
 @group(2) @binding(6) var<uniform> ground: GroundLight;
-/// How bright a white ground is over a curtain, by the newest row of its history (x) and the one before (y).
+/// Brightness of white ground over that of a curtain, by the newest row of the history (x) and by the one before (y).
 @group(2) @binding(7) var ground_map: texture_2d<f32>;
 
-/// Where on the map the ground is whose normal is n (rain axes); z: greater than nothing on a side that has an aurora, less for all but the planet. Around the pole
-/// opposite to the map's middle places lie in all directions, and what is between three of them may be anywhere: there z is less than nothing.
+/// Position on the map of the ground with the normal n (rain axes). z: above 0 on a side that has an aurora, below 0 for everything but the
+/// planet. Round the pole opposite to the map's middle positions lie in all directions and cannot be interpolated: there z is below 0.
 fn ground_place(instance: Instance, n: vec3<f32>) -> vec3<f32> {
     let body = vec3<f32>(dot(instance.turn_x.xyz, n), dot(instance.turn_y.xyz, n), dot(instance.turn_z.xyz, n));
     let from_dipole = ground.dipole_x.xyz * body.x + ground.dipole_y.xyz * body.y + ground.dipole_z.xyz * body.z;
@@ -28,9 +28,10 @@ fn ground_place(instance: Instance, n: vec3<f32>) -> vec3<f32> {
     return select(vec3<f32>(-1.0), vec3<f32>(place, up), instance.ids.y == ground.planet.x);
 }
 
-/// The light of the aurora on the ground at a place of the map, as `irradiance` has it.
+/// The light of the aurora on the ground at a position of the map, as `irradiance` has it.
 fn aurora_light(place: vec3<f32>) -> vec3<f32> {
-    // Most of what is drawn is off the map, and reads nothing. The sampler, which is for surfaces, goes on at the other edge beyond the last texel's middle.
+    // Most of what is drawn is off the map, and reads nothing. The sampler, which is made for surfaces, wraps beyond the middle of the last
+    // texel.
     let half = ground.map.w;
     if place.z <= 0.0 || any(place.xy <= vec2<f32>(half)) || any(place.xy >= vec2<f32>(1.0 - half)) {
         return vec3<f32>(0.0);

@@ -3,13 +3,13 @@
 /// Instances, as geometry/instance.wgsl reads them.
 @group(1) @binding(0) var instances: texture_2d<u32>;
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
-/// Two vertices, and those opposite to the edge in its two triangles, or `ALONE`.
+/// The two vertices of an edge, and those opposite to it in its two triangles, or `ALONE`.
 @group(1) @binding(2) var<storage, read> model_edges: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
 /// Chunks of 64 threads of one instance, filled up to the size of the dispatch with NO_INSTANCE.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
-/// Place at emission of each model vertex by the axis, as `Answer.by_axis`; w: VERTEX_*.
+/// Position at emission of each model vertex by the axis, as `Answer.by_axis`; w: VERTEX_*.
 @group(1) @binding(6) var<storage, read_write> emitted: array<vec4<f32>>;
 /// x: level (bits of a u32), y: EDGE_* (bits of a u32), z: where the axis cuts, as a fraction, w: error in radians.
 @group(1) @binding(7) var<storage, read_write> edge_states: array<vec4<f32>>;
@@ -21,9 +21,9 @@
 @group(1) @binding(12) var<storage, read_write> counters: Counters;
 
 struct ThinVertex {
-    /// Clip position, grown to at least a pixel.
+    /// Clip position, widened to at least a pixel.
     position: vec4<f32>,
-    /// x: seen vertex (bits of a u32), y: coverage, the part of that pixel that is truly covered.
+    /// x: seen vertex (bits of a u32), y: coverage, the share of the drawn area that is covered.
     data: vec4<f32>,
 }
 
@@ -32,14 +32,14 @@ struct Counters {
     indices: atomic<u32>,
     work: atomic<u32>,
     thin: atomic<u32>,
-    /// Lengths of the two queues of pieces, and which one is read now.
+    /// Lengths of the two queues of pieces; below, which one is read now.
     pieces: array<atomic<u32>, 2>,
     turn: u32,
     /// Patches drawn coarser than asked because a buffer was full or the splitting too deep.
     coarse: atomic<u32>,
     /// Triangles cut at the axis.
     cut: atomic<u32>,
-    /// Results that were not finite, caught.
+    /// Results that were not finite and were left out.
     caught: atomic<u32>,
     /// Seen vertices before those of the mesh stage.
     model_vertices: u32,
@@ -55,7 +55,7 @@ const VERTEX_PLAIN: f32 = 0.0;
 const VERTEX_ON_AXIS: f32 = 1.0;
 const VERTEX_UNSEEN: f32 = -1.0;
 
-/// Of an edge that is not between two triangles, where a surface ends or several meet: no vertex is opposite.
+/// For an edge that is not between two triangles, where a surface ends or several meet: no vertex is opposite.
 const ALONE: u32 = 0xffffffffu;
 
 const EDGE_CUT: u32 = 1u;

@@ -1,6 +1,6 @@
 // The rasteriser's part: opaque triangles with depth, then thin ones, summed with their coverage.
 
-/// `SeenVertex` from the vertex buffer; `surface` as bits, since two of them are no numbers.
+/// `SeenVertex` from the vertex buffer; `surface` as bits, since two of its numbers are integers.
 struct SeenInput {
     @location(0) apparent: vec4<f32>,
     @location(1) normal: vec4<f32>,
@@ -49,14 +49,15 @@ fn thin_surface(index: u32, shares: vec2<f32>) -> Surface {
     return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * shares);
 }
 
-/// The part of those alone whose light crosses the disk's plane so often on its way; and that of the same images whose light crosses it once less.
+/// The coverage of those parts of the triangle whose light crosses the disk's plane `crossings` times; and that of the parts of the same
+/// image whose light crosses it once less.
 fn thin_across(index: u32, crossings: f32) -> Surface {
     let data = thin[index].data;
     var shares = vec2<f32>(0.0);
     if crossings == data.z { shares = vec2<f32>(data.w, 1.0 - data.w); }
     if crossings == data.z - 1.0 { shares.x = 1.0 - data.w; }
     if all(shares == vec2<f32>(0.0)) {
-        // All three corners at one place, beyond the nearest depth.
+        // All three corners at one point, in front of the nearest depth.
         var nothing: Surface;
         nothing.position = vec4<f32>(0.0, 0.0, 2.0, 1.0);
         return nothing;
@@ -87,11 +88,11 @@ fn thin_vertex_3(@builtin(vertex_index) index: u32) -> Surface {
 struct Thin {
     /// Colour times coverage, and coverage.
     @location(0) light: vec4<f32>,
-    /// Coverage with the sign of its object; and what the nearer part of the same image covers.
+    /// Coverage with the sign of its object; and the coverage of the nearer part of the same image.
     @location(1) coverages: vec2<f32>,
 }
 
-/// All is added, and the sum is laid over the picture once. The order does not matter.
+/// Everything is added, and the sum is laid over the picture once, so the order does not matter.
 @fragment
 fn thin_fragment(in: Surface) -> Thin {
     if hidden(in) {

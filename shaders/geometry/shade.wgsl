@@ -10,7 +10,8 @@
 
 struct ThinVertex {
     position: vec4<f32>,
-    /// x: seen vertex (bits), y: coverage, z: image order, w: the part whose light crosses the disk's plane as often, and not once less.
+    /// x: seen vertex (bits), y: coverage, z: image order, w: the share whose light crosses the disk's plane as often as the order says,
+    /// and not once less.
     data: vec4<f32>,
 }
 
@@ -19,12 +20,12 @@ struct Surface {
     @location(0) normal: vec4<f32>,
     @location(1) leaving: vec4<f32>,
     @location(2) uv: vec3<f32>,
-    /// What it covers; y: what the nearer part of the same image covers, which is laid over it later.
+    /// x: what it covers; y: what the nearer part of the same image covers, which is laid over it later.
     @location(3) coverage: vec2<f32>,
     @location(4) fan: vec3<f32>,
     /// Object id and image order; z: texture layer + 1.
     @location(5) @interpolate(flat) which: vec3<u32>,
-    // What the instance and the material say, read once a vertex: software drivers pay for each word that each pixel reads from a buffer.
+    // Data of the instance and the material, read once per vertex: software drivers pay for each word that each pixel reads from a buffer.
     @location(6) @interpolate(flat) light_red: vec4<f32>,
     @location(7) @interpolate(flat) light_green: vec4<f32>,
     @location(8) @interpolate(flat) light_blue: vec4<f32>,
@@ -42,7 +43,7 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
     let ids = instance.ids;
     let kind = materials[material].surface;
     let filled = fill(instance);
-    // Only nozzles (w of `kind`) burn with the engines.
+    // Only nozzles (w of `kind`) shine with the engines.
     let glow = vec4<f32>(vec3<f32>(1.0 - kind.w * instance.position.w), 1.0);
     return Surface(position, vertex.normal, vertex.leaving, vec3<f32>(vertex.surface.xy, vertex.apparent.w), coverage, vertex.fan.xyz,
         vec3<u32>(ids.y, ids.x, u32(kind.y + 1.0)), instance.light_red * filled, instance.light_green * filled,
@@ -50,8 +51,8 @@ fn surface_of(vertex: SeenVertex, position: vec4<f32>, coverage: vec2<f32>) -> S
         ground_place(instance, vertex.normal.xyz));
 }
 
-/// By how much the light on the player's own ship is more or less than what falls on it: so that middle grey, as it was exposed in the frame before, is neither
-/// too dark nor too light. Elsewhere 1. The exposure moves smoothly, and so does this.
+/// Factor on the light that falls on the player's own ship, so that middle grey, at the exposure of the frame before, is neither too dark
+/// nor too light; 1 for all else. It changes as smoothly as the exposure.
 fn fill(instance: Instance) -> f32 {
     if (instance.triangles.w & INSTANCE_OWN) == 0u || frame.fill.w == 0.0 {
         return 1.0;
@@ -61,7 +62,7 @@ fn fill(instance: Instance) -> f32 {
     return clamp(grey, frame.fill.x, frame.fill.y) / grey;
 }
 
-/// What middle grey reflects.
+/// Share of light that middle grey reflects.
 const MIDDLE_GREY: f32 = 0.18;
 
 /// `texture_point` at a pixel.
@@ -72,7 +73,7 @@ fn texture_place(in: Surface) -> vec2<f32> {
 fn shaded(in: Surface) -> vec3<f32> {
     var base = in.base.rgb;
     var emitted = in.emissive.rgb;
-    // Sampled by all pixels, so that the level comes from differences between them.
+    // Sampled by all pixels, because the mip level comes from differences between them.
     let texel = textureSample(surface_textures, surface_sampler, texture_place(in), i32(max(in.which.z, 1u) - 1u)).rgb;
     if in.which.z > 0u {
         base *= texel;
@@ -87,7 +88,7 @@ fn shaded(in: Surface) -> vec3<f32> {
     let metallic = in.base.w;
     let roughness = max(in.emissive.w, 0.08);
     var colour = emitted + base * (light + aurora_light(in.ground)) * (1.0 - metallic);
-    // What a glossy surface mirrors: the surroundings in the mirrored direction, sharpened towards the side the light comes from.
+    // The reflection on a glossy surface: the surroundings in the mirrored direction, sharpened towards the side of the light.
     let mirrored = reflect(-leaving, n);
     let fresnel = mix(vec3<f32>(0.04), base, vec3<f32>(metallic));
     let grazing = 1.0 - max(dot(n, leaving), 0.0);

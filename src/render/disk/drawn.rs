@@ -5,7 +5,7 @@ use crate::scene::config;
 use crate::scene::disk::arcs::Arcs;
 use crate::scene::disk::{Gas, PATTERN_HEIGHT};
 
-/// Radii in the table that sprites and polygons look their gas up in.
+/// Number of radii in the table of gas for sprites and polygons.
 const RADII: usize = 512;
 
 /// A disk ready to be drawn.

@@ -1,7 +1,8 @@
 //! The accretion disk on the GPU: arcs by default, polygons and sprites for comparison.
 //!
-//! [`view`] says in f64 what a frame needs to know (which circles, seen from where, which generations of streaks); [`arcs`] runs the stages of
-//! `shaders/disk/` over it; [`polygons`] and [`sprites`] are the other two ways of Yamashita 2025; [`textures`] holds the pattern of the gas.
+//! [`view`] computes in f64 what a frame needs: which circles, how they are seen, which generations of streaks. [`arcs`] runs the stages of
+//! `shaders/disk/` on it. [`polygons`] and [`sprites`] are the two other representations of Yamashita 2025. [`textures`] holds the pattern
+//! of the gas.
 
 pub mod arcs;
 pub mod bench;
@@ -48,7 +49,7 @@ pub struct DiskPasses {
     gas_group: wgpu::BindGroup,
     arcs: ArcPass,
     representation: Representation,
-    /// What stands for it while light is drawn straight: arcs and sprites know bent light alone. Made when first asked for.
+    /// Polygons at rest, which are drawn in its place while lensing is off: arcs and sprites know bent light only. Made when first needed.
     straight: Option<Box<PolygonPass>>,
     /// Whether light is drawn straight.
     is_straight: bool,
@@ -72,7 +73,7 @@ impl DiskPasses {
         passes
     }
 
-    /// Takes up another disk, and the way it is to be drawn.
+    /// Takes up another disk and its representation.
     pub fn set(&mut self, gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, disk: Disk) {
         let radial = || storage(gpu, "radial", &disk.radial_table());
         self.representation = match disk.config.representation.as_str() {
@@ -153,7 +154,7 @@ impl DiskPasses {
         !self.is_straight && matches!(self.representation, Representation::Arcs)
     }
 
-    /// Whether its orders are laid over what is behind them one by one, and nothing of it stays in the depth.
+    /// Whether its image orders are blended one by one over what is behind them and leave no depth.
     pub fn is_laid_over(&self) -> bool {
         !self.is_straight && !matches!(self.representation, Representation::Polygons(_))
     }

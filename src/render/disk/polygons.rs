@@ -1,5 +1,5 @@
-//! The disk of polygons: triangles through the stages of geometry, as any other model. As rings that turn with the gas they are those of Yamashita 2025;
-//! at rest they are places that gas flows through, as arcs are.
+//! The disk of polygons: triangles through the stages of geometry, like any other model. As rings that turn with the gas they are those of
+//! Yamashita 2025; at rest they are fixed in place and gas flows through them, as with arcs.
 
 use crate::spacetime::Observer;
 use std::f64::consts::TAU;
@@ -21,7 +21,7 @@ use crate::scene::disk::polygons::{Ring, model, rings};
 
 use crate::render::disk::Disk;
 
-/// Two-sided triangles whose light is told by what hovers where they are, as the gas's own motion comes in with its colour.
+/// Two-sided triangles, with the frequency ratio of static observers; the gas's own motion comes in with its colour.
 const HELD_TWO_SIDED: u32 = HELD | TWO_SIDED;
 
 /// Stages of geometry of their own, and the draw.
@@ -39,7 +39,7 @@ pub struct PolygonPass {
     group: Option<wgpu::BindGroup>,
 }
 
-/// What is placed by itself: one ring, or all that is at rest.
+/// One instance: a ring, or everything at rest.
 #[derive(Debug)]
 struct Part {
     range: ModelRange,
@@ -48,12 +48,13 @@ struct Part {
     rims: [Option<f64>; 2],
 }
 
-/// How far from the axis of hole and camera the triangles are kept behind the hole, in pixels: far against the rounding of f32, and not seen.
+/// How far from the axis of hole and camera the triangles are kept behind the hole, in pixels: much more than the rounding of f32, and
+/// invisible.
 const OFF_AXIS: f64 = 0.12;
 
-/// The height over the plane z = 0 at which the triangles are drawn, in r_s: none but for a camera that is nearly in that plane. From behind the hole light comes round it
-/// on all sides, and of a disk seen edge on that is all of the image; but where the axis lies in the triangles there is no place from which it could be opened. So
-/// they are kept beside the axis, on the side on which they are anyway: that of the camera.
+/// The height over the plane z = 0 at which the triangles are drawn, in r_s: 0 unless the camera is nearly in that plane. From behind the
+/// hole light comes round it on all sides; of a disk seen edge on that is all of the image. But if the axis lies in the triangles, there is
+/// no point at which they could be opened. So they are kept beside the axis, on the side of the camera.
 fn beside_the_axis(camera: &Observer, width: u32, extent: [f64; 2]) -> f64 {
     let (l, z) = (camera.radius(), camera.position.z);
     let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(width.max(1));
@@ -108,7 +109,7 @@ impl PolygonPass {
         let bends = input.settings.method.bends();
         let height = if bends { beside_the_axis(&input.camera, width, self.extent) } else { 0.0 };
         let p = height * DVec3::Z - input.camera.position;
-        // T less T₀: about as long as light from the hole's surroundings takes.
+        // T − T₀: about the time that light takes from the hole's surroundings.
         let elapsed = input.camera.radius();
         let offset = [p.x as f32, p.y as f32, p.z as f32, elapsed as f32];
         let momentum = [0.0, 0.0, 0.0, 1.0];
@@ -130,7 +131,7 @@ impl PolygonPass {
                     shape: unit,
                     spin: [inner, outer, rate as f32, azimuth as f32],
                     turn: unit,
-                    // Light may cross a ring in several orders, so each order covers what is behind by itself (`coverage_sign`).
+                    // Light may cross a ring in several orders, so each order has its own id for coverage (`coverage_sign`).
                     ids: [order, order, 0, 0],
                     triangles: [0, 0, 0, HELD_TWO_SIDED],
                     ..Instance::default()

@@ -13,7 +13,7 @@ use crate::render::disk::Disk;
 use crate::render::disk::types::SEEN_SPRITE_BYTES;
 use crate::render::disk::view::DiskView;
 
-/// Which share of the sprites orders 1, 2 and 3 are drawn with: one of so many. The images behind the first are many times as narrow.
+/// Orders 1, 2 and 3 are drawn with one sprite in so many: images behind the first are many times narrower.
 const SHARES: [u32; 3] = [1, 4, 4];
 
 /// The sprites and the two passes over them.
@@ -21,13 +21,14 @@ const SHARES: [u32; 3] = [1, 4, 4];
 pub struct SpritePass {
     project: wgpu::ComputePipeline,
     draw: wgpu::RenderPipeline,
-    /// Of orders 1, 2 and 3.
+    /// One for each of orders 1, 2 and 3.
     images: [Image; 3],
     /// Which of them are drawn in this frame.
     drawn: [bool; 3],
 }
 
-/// The sprites of one order, and room for them as it shows them. Each has its place in it, whether it is seen or not: so what lies over what is the same in every frame.
+/// The sprites of one order, and room for their seen vertices. Each sprite has its fixed place there, seen or not, so which lies over which
+/// is the same in every frame.
 #[derive(Debug)]
 struct Image {
     count: u32,
@@ -86,7 +87,7 @@ impl SpritePass {
         self.drawn = [1, 2, 3].map(|order| view.rings.iter().any(|ring| ring[2] == order));
     }
 
-    /// Those of these orders that are drawn, the farthest first.
+    /// The images of these orders that are drawn, the farthest first.
     fn drawn(&self, orders: RangeInclusive<u32>) -> impl Iterator<Item = &Image> {
         let all = self.images.iter().zip(self.drawn).zip([1, 2, 3]).rev();
         all.filter_map(move |((image, drawn), order)| (drawn && orders.contains(&order)).then_some(image))

@@ -6,16 +6,16 @@ use std::sync::LazyLock;
 use crate::scene::disk::DETAIL;
 use crate::scene::disk::noise::{HEIGHT, LATTICE, WIDTH, streaks};
 
-/// The greatest value of the pattern with its finest octaves, either way: what is beyond, one texel of 10⁴, counts as that.
+/// The greatest value of the pattern with its finest octaves, in both directions; one texel in 10⁴ is beyond and is clamped.
 const GREATEST: f32 = 4.0;
 
 /// The pattern with all its halvings, twice.
 #[derive(Debug)]
 pub struct Textures {
-    /// With the finest octaves, in 8 bits, (value + 4)/8, all levels side by side: each texel with its next to the right, below and across, so that one fetch
-    /// does for a bilinear sample.
+    /// The far pattern: with the finest octaves, in 8 bits, as (value + 4)/8, all levels in one picture. Each texel also holds its next
+    /// neighbours to the right, below and across, so that one fetch is enough for bilinear interpolation.
     pub far: wgpu::TextureView,
-    /// Without them, in 16-bit floats, for close looks; as the other is laid out.
+    /// The near pattern: without the finest octaves, in 16-bit floats, laid out in the same way.
     pub near: wgpu::TextureView,
 }
 
@@ -38,15 +38,15 @@ impl Textures {
 /// One level: width, height, values.
 type Level = (u32, u32, Vec<f32>);
 
-/// What the texture from far holds: [`finer`], and below it [`narrower`] with its halvings.
+/// The levels of the far pattern: [`finer`], then [`narrower`] with its halvings.
 static FAR: LazyLock<Vec<Level>> = LazyLock::new(|| std::iter::once(finer()).chain(halvings(narrower())).collect());
 
-/// The pattern with its finest octaves in texels half as large as those of [`narrower`]: so that from ten r_s, where a close look takes over, as much is
-/// seen on either side.
+/// The pattern with its finest octaves in texels half as large as those of [`narrower`], so that at ten r_s, where the near pattern takes
+/// over, both show the same detail.
 fn finer() -> Level {
     let (width, height) = (WIDTH, 2 * HEIGHT);
     let finer = DETAIL.0 as usize;
-    // A texel holds the mean of as many lattice points of the finest octaves: so many columns, half as many rows.
+    // A texel is a mean over lattice points of the finest octaves: so many columns, half as many rows.
     let (columns, rows) = (finer, finer / 2);
     let (w, h) = (WIDTH / columns, HEIGHT / rows);
     let mean = |k: usize| -> f32 {
@@ -62,11 +62,12 @@ fn finer() -> Level {
     (width as u32, height as u32, (0..width * height).map(|k| at(k % width, k / width).clamp(-GREATEST, GREATEST)).collect())
 }
 
-/// The pattern with its finest octaves, halved round the hole: its cells are long that way, and the less memory, the more of it stays near the processor.
+/// The pattern with its finest octaves, halved round the hole: its cells are long that way, and a smaller texture stays in the processor's
+/// cache.
 fn narrower() -> Level {
     let narrow = |values: &[f32]| -> Vec<f32> { values.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect() };
     let (width, height) = (WIDTH / 2, HEIGHT);
-    // The finest octaves are the pattern again, so many times finer: a texel holds the mean of as many of theirs, both ways.
+    // The finest octaves are the pattern again, so many times finer: a texel is a mean over as many of their texels, both ways.
     let finer = DETAIL.0 as usize;
     let (mut w, mut h, mut detail) = (width as u32, height as u32, narrow(&LATTICE));
     while w as usize > width / finer {
@@ -77,7 +78,7 @@ fn narrower() -> Level {
     (width as u32, height as u32, (0..width * height).map(|k| at(k % width, k / width).clamp(-GREATEST, GREATEST)).collect())
 }
 
-/// A level, and halved again and again.
+/// A level and all its halvings.
 fn halvings(finest: Level) -> Vec<Level> {
     let mut levels = vec![finest];
     while let Some(level) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
@@ -96,13 +97,14 @@ fn halved((width, height, values): &Level) -> Level {
     (width / 2, height / 2, mean.collect())
 }
 
-/// Width of the pictures that hold all levels, in texels: those of the first two, and 16 more. From far a row
-/// is an odd number of lines of 64 bytes then, from near twice one: rows a power of two apart get in one another's way in a processor's cache, where streaks are
-/// looked up one above the other.
+/// Width of the pictures that hold all levels, in texels: that of the first two levels, and 16 more. Then a row of the far pattern is an
+/// odd number of lines of 64 bytes, of the near pattern nearly twice one. Rows a power of two apart would share cache lines of a processor
+/// where streaks are looked up one above the other.
 const FAR_WIDTH: u32 = 1552;
 
-/// All levels in one picture, the first on the left, the others one below the other beside it: a level of a texture that is chosen anew in each pixel costs a
-/// software driver more than the sum that finds its corner. Each texel has its next to the right, below and across; values are written `as_bits`.
+/// All levels in one picture, the first on the left, the others below one another beside it. Choosing a mip level of a texture anew in each
+/// pixel costs a software driver more than computing a corner. Each texel also holds its next neighbours to the right, below and across;
+/// values are written `as_bits`.
 fn side_by_side<T: Copy + Default>(levels: &[Level], as_bits: impl Fn(f32) -> T) -> Vec<[T; 4]> {
     let mut texels = vec![[T::default(); 4]; (FAR_WIDTH * levels[0].1) as usize];
     let (mut left, mut top) = (0, 0);

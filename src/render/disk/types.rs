@@ -55,7 +55,7 @@ pub struct DiskCounters {
 }
 
 impl DiskCounters {
-    /// What a person should know of these counts, in words; None if all is well.
+    /// A warning about these counts, in words; None if all is well.
     pub fn complaint(&self) -> Option<String> {
         let coarse =
             (self.coarse > 0).then(|| format!("{} arcs of the disk are drawn coarser than asked: raise disk.error_budget", self.coarse));
