@@ -1,7 +1,7 @@
 // Second pass of the aurora: the ends of each streak's chords, from what was projected beside them. One thread per end and image order.
 
-/// Values of the rays' noise, a power of two; the seconds after which both its drifts have passed a multiple of them stand in show.rs, the kilometres in
-/// motion.rs (RAYS_LENGTH).
+/// Number of values of the rays' noise, a power of two. The time after which both its drifts have passed a multiple of them is in
+/// animation.rs (RAYS_PERIOD), the length in motion.rs (RAYS_LENGTH).
 const RAYS_CELLS: i32 = 512;
 
 /// Smooth noise in [0, 1], of period RAYS_CELLS in x: the clock may start again without a jump.
@@ -14,19 +14,20 @@ fn ray_noise(x: f32, channel: u32) -> f32 {
     return mix(a, b, s * s * (3.0 - 2.0 * s));
 }
 
-/// The part of noise that is left where places so many of its values apart are looked at: what is finer than those is its mean.
+/// Share of noise that is left at positions so many of its values apart: what is finer is replaced by its mean.
 fn resolved(apart: f32) -> f32 {
     return 1.0 - smoothstep(1.0, 3.0, apart);
 }
 
-/// Rays: brightness `along` km of the curtain, a kilometre and three wide, drifting, at a time in s; seen at places `apart` km from one another.
+/// Rays: brightness at `along` km of the curtain at a time in s: noise of one and of three kilometres, drifting; seen at positions `apart`
+/// km from one another.
 fn rays(along: f32, time: f32, apart: f32) -> f32 {
     let fine = mix(0.5, ray_noise(along * 1.2 + 0.11 * time, 3u), resolved(1.2 * apart));
     let coarse = mix(0.5, ray_noise(along * 0.3 - 0.07 * time, 4u), resolved(0.3 * apart));
     return fine * coarse * 4.0;
 }
 
-/// Brightness of a place by its local time: strokes.zw point to magnetic midnight.
+/// Brightness of a position by its local time: strokes.zw point to magnetic midnight.
 fn night(place: vec2<f32>) -> f32 {
     return 1.0 + dot(place, aurora.strokes.zw) / max(length(place), 1.0);
 }

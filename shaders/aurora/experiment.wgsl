@@ -1,4 +1,4 @@
-// What the walks and the splats of the aurora's experiment share (src/measure/aurora): lengths in km in the axes of the patch, x east, y north,
+// What the walks and the splats of the aurora's experiment share (lab/src/aurora): lengths in km in the axes of the patch, x east, y north,
 // z up, or in r_s where light is bent. Filled by src/render/aurora/race.rs.
 
 struct Experiment {

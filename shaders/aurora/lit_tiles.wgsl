@@ -1,5 +1,5 @@
-// The numbers that are kept of each image of the aurora while it is drawn, and the lit tiles that the screen is divided into: only those that have light are cleared,
-// enlarged into and coloured. Twin of src/render/aurora/rooms.rs.
+// The numbers of each image of the aurora while it is drawn, and the lit tiles into which the screen is divided: only tiles with light are
+// cleared, enlarged into and coloured. Twin of src/render/aurora/rooms.rs.
 
 /// Levels of the pyramid, each of half the size of the one before.
 const PYRAMID: u32 = 7u;

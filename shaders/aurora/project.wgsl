@@ -1,8 +1,8 @@
-// First pass of the aurora: for each part of a curtain and each end of its chords, a place amid them and three beside it go through the lensing lookup, and
-// nothing else does. One thread per end, pole and image order. (In flat space apparent places are linear in places, so that nothing is lost; through bent light
-// a part is short.)
+// First pass of the aurora. For each part of a curtain and each end of its chords, its middle and three points beside it go through the
+// lensing lookup; nothing else does. One thread per end, pole and image order. In flat space apparent positions are linear in positions, so
+// nothing is lost; through bent light a part is short enough.
 
-/// How far from the place its neighbours are taken, km: far against the rounding of the lookup, near against its bending.
+/// Distance of the points beside it, in km: large against the rounding of the lookup, small against its bending.
 const ASIDE: f32 = 20.0;
 
 @compute @workgroup_size(64)

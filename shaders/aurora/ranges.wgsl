@@ -1,5 +1,5 @@
-// Before the aurora's walk: the least and the greatest depth of what is drawn, by depth tiles of 8 × 8 pixels, of 16 × 16, and so on. A wide stroke that is before or
-// behind all of its box need not be tested pixel by pixel, so it may be added where pixels are coarse.
+// Before the aurora's walk: the least and the greatest depth of what is drawn, by depth tiles of 8 × 8 pixels, of 16 × 16, and so on. A
+// wide stroke that is in front of or behind everything in its box need not be tested pixel by pixel, so it may be added in coarse pixels.
 
 @group(1) @binding(0) var depths: texture_depth_2d;
 @group(1) @binding(1) var finer: texture_2d<f32>;

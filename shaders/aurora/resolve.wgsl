@@ -6,7 +6,7 @@
 @group(2) @binding(1) var coarse: texture_2d<f32>;
 @group(2) @binding(2) var linear: sampler;
 
-/// Colours go along from the vertices, straight over a tile: a software driver reads a uniform in every pixel anew.
+/// Colours come from the vertices, linear over a tile: a software driver reads a uniform anew in every pixel.
 struct Screen {
     @builtin(position) position: vec4<f32>,
     @location(0) @interpolate(linear) green: vec3<f32>,
@@ -29,12 +29,12 @@ fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32)
 }
 
 fn coloured(in: Screen, lines: vec4<f32>) -> vec4<f32> {
-    // Where there is no light nothing need be read back and added to.
+    // Without light nothing need be read back and added to.
     if !(lines.x + lines.y + lines.z + lines.w > 0.0) {
         discard;
     }
     let rgb = lines.x * in.green + lines.y * in.blue + lines.z * in.red + lines.w * in.crimson;
-    // Single lines lie outside sRGB; what is negative is cut off here at the end, which keeps their hue strong.
+    // Single lines are outside sRGB; negative values are cut off at the end, which keeps their hue strong.
     return vec4<f32>(clamp(rgb, vec3<f32>(0.0), vec3<f32>(6e4)), 0.0);
 }
 

@@ -1,7 +1,8 @@
-// Where strokes are kept: two levels share a room, one from its beginning and one from its end, so that it does not matter which of them they go to. The rooms
-// of coarser pairs are half as large each. Twin of `Rooms` in src/render/aurora/rooms.rs.
+// Where strokes are stored. Two levels share a room, one from its beginning and one from its end, so the split between them need not be
+// known. The room of the next coarser pair is half as large. Twin of `Rooms` in src/render/aurora/rooms.rs.
 
-/// There may be light in a box of pixels (left, top, right, bottom) of a screen of a size: from the finest level, or from a coarser one.
+/// Notes that there may be light in a box of pixels (left, top, right, bottom) of a screen of a size, from the finest level or from a
+/// coarser one.
 fn light_up(instance: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
     let tiles = vec2<f32>(f32(LIT_TILE_COLUMNS), f32(LIT_TILE_ROWS));
     let box = vec4<u32>(clamp(pixels / ceil(size / tiles).xyxy, vec4<f32>(0.0), (tiles - 1.0).xyxy));
@@ -11,8 +12,8 @@ fn light_up(instance: u32, pixels: vec4<f32>, size: vec2<f32>, finest: bool) {
     }
 }
 
-/// Room for a stroke in a level, as the place of its first vertex; the finest takes over from a coarse one that is full. 0xffffffff: there is none.
-/// `level` is where it went.
+/// Takes room for a stroke in a level, as the index of its first vertex; if a coarse level is full, in the finest. 0xffffffff: there is
+/// none. `level` is where it went.
 fn room_of(instance: u32, level: ptr<function, u32>) -> u32 {
     let draws = numbers_of(instance);
     for (var attempt = 0u; attempt < 2u; attempt++) {

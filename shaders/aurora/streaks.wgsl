@@ -1,14 +1,17 @@
-// What the passes of the aurora share: streaks, each the light of all electrons that come down on a small part of a curtain; where they are, how they fall. Lengths in km and heights above the
-// planet, in the axes of its magnetic dipole (+z north); see src/scene/aurora for the physics, and src/render/aurora for who fills what.
+// What the passes of the aurora share: streaks, each the light of all electrons that come down on a small part of a curtain; where they
+// are, and their light over height. Lengths in km and heights above the planet, in the axes of its magnetic dipole (+z north). The physics
+// is in src/scene/aurora; src/render/aurora fills the buffers.
 
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
     /// x: which row of the history is the newest, y: segments, z: room for strokes of one instance in the two finest levels (see room_of), w: AURORA_*.
     history: vec4<u32>,
-    /// x: s between rows, y: by how many s the newest row is ahead of what is seen, z: time in s for the rays (mod RAYS_PERIOD), w: contrast.
+    /// x: seconds between rows, y: by how many seconds the newest row is ahead of the time that is seen, z: time in s for the rays (mod
+    /// RAYS_PERIOD), w: contrast.
     clock: vec4<f32>,
-    /// x: spread of a luminous point in km, y: levels of the pyramid that are in use, zw: to magnetic midnight, as long as it is brighter there.
+    /// x: standard deviation of a luminous point in km, y: levels of the pyramid in use, zw: direction to magnetic midnight; its length is
+    /// by how much an oval is brighter there.
     strokes: vec4<f32>,
     /// Greatest and least height in km of green light (xy) and of red (zw).
     heights: vec4<f32>,
@@ -27,11 +30,11 @@ struct Segment {
     light: vec4<f32>,
 }
 
-/// A place amid a part of a curtain, at the height of an end of chords, as the camera sees it.
+/// The middle of a part of a curtain, at the height of an end of chords, as the camera sees it.
 struct Reference {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
     apparent: vec4<f32>,
-    /// Change of it for a km in two directions across the field and in one along it (across_field); w: x, y and z of the place itself.
+    /// Its change per km in two directions across the field and in one along it (across_field); w: x, y and z of the position itself.
     east: vec4<f32>,
     north: vec4<f32>,
     up: vec4<f32>,
@@ -41,16 +44,17 @@ struct Reference {
 struct ChordEnd {
     /// Apparent place, camera axes, in r_s; w: 1 where there is one.
     apparent: vec4<f32>,
-    /// Change of it for a km along the curtain; w: energy flux over its mean, with the rays, when the green or red light seen there was made.
+    /// Its change per km along the curtain; w: energy flux over its mean, with the rays, when the green or red light seen there was made.
     along: vec4<f32>,
-    /// Change of it for a km across the curtain and the field; w: the flux for blue and crimson light, which does not wait.
+    /// Its change per km across the curtain and the field; w: the flux for blue and crimson light, which has no delay.
     across: vec4<f32>,
 }
 
 @group(1) @binding(0) var<uniform> aurora: AuroraSettings;
 @group(1) @binding(1) var<storage, read> aurora_instances: array<Instance>;
-/// A ring of HISTORY_ROWS rows of nodes, each older than the one before it, but for the newest: x, y: place in the plane across the field in km, z: energy flux over its mean,
-/// w: place along the curtain at rest in km. Each curve has a node more at either end (between_nodes).
+/// A ring buffer of HISTORY_ROWS rows of nodes; from the newest on, each is older than the one before. x, y: position in the plane across
+/// the field in km, z: energy flux over its mean, w: position along the curtain at rest in km. Each curve has one more node at either end
+/// (between_nodes).
 @group(1) @binding(2) var<storage, read> nodes: array<vec4<f32>>;
 @group(1) @binding(3) var<storage, read> segments: array<Segment>;
 /// Photons (ROWS × (PARTS + 1) × 4), delays (DELAYS × 2), heights (ROWS × KINDS × (PARTS + 1)): scene::aurora::quantiles.
@@ -64,7 +68,7 @@ struct ChordEnd {
 /// x: least, y: greatest depth of what is drawn, in depth tiles of 8 × 8 pixels and upwards.
 @group(1) @binding(9) var ranges: texture_2d<f32>;
 
-/// Rows of the history; as ROWS in src/render/aurora/rows.rs.
+/// Rows of the history; as ROWS in src/render/aurora/node_history.rs.
 const HISTORY_ROWS: u32 = 128u;
 const ROWS: u32 = 32u;
 const LEAST_FLUX: f32 = 0.05;
@@ -86,7 +90,7 @@ fn height_range(kind: u32) -> vec2<f32> {
     return select(aurora.heights.xy, aurora.heights.zw, kind == RED);
 }
 
-/// Chords of a streak. Red light has twice as many: it waits, and how long changes fast with height.
+/// Chords of a streak. Red light has twice as many: it is delayed, and the delay changes fast with height.
 fn chords_of(kind: u32) -> u32 {
     return select(aurora.counts.y, 2u * aurora.counts.y, kind == RED);
 }
@@ -96,7 +100,8 @@ fn chord_room() -> u32 {
     return 2u * aurora.counts.y + 1u;
 }
 
-/// Height of the end `k` of `count` chords: evenly spaced, those of red closer together further down, where it waits seconds and not minutes.
+/// Height of the end `k` of `count` chords: evenly spaced; those of red closer together further down, where the delay is seconds and not
+/// minutes.
 fn chord_height(kind: u32, k: u32, count: u32) -> f32 {
     let range = height_range(kind);
     let left = 1.0 - f32(k) / f32(count);
@@ -110,12 +115,12 @@ fn chord_at(kind: u32, height: f32, count: u32) -> u32 {
     return min(u32((1.0 - select(left, sqrt(left), kind == RED)) * f32(count)), count - 1u);
 }
 
-/// Ends of chords at which a part of a curtain is projected: first those of green, then those of red.
+/// Number of ends of chords at which a part of a curtain is projected: first those of green, then those of red.
 fn reference_room() -> u32 {
     return 3u * aurora.counts.y + 2u;
 }
 
-/// The first of them for a part, in the north or in the south, in one instance.
+/// Index of the first of them for a part, in the north or in the south, in one instance.
 fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
     let poles = select(1u, 2u, (aurora.history.w & AURORA_BOTH_POLES) != 0u);
     return ((instance * aurora.history.y + segment) * poles + select(0u, 1u, south)) * reference_room();
@@ -123,30 +128,30 @@ fn first_reference(segment: u32, south: bool, instance: u32) -> u32 {
 
 struct Streak {
     segment: u32,
-    /// Of the segment from its first node.
+    /// Share of the segment's length from its first node.
     along: f32,
-    /// How far the next of its kind is, of the segment.
+    /// Distance to the next of its kind, as a share of the segment.
     apart: f32,
     /// Square of the standard deviation of its light along the curtain and across it, km².
     spread: vec2<f32>,
     kind: u32,
-    /// Its part of the light of its kind in the segment.
+    /// Its share of the light of its kind in the segment.
     share: f32,
     south: bool,
-    /// In [0, 1): which part of the light that is made at its place is seen so late.
+    /// In [0, 1): quantile of the delay of its light.
     wait: f32,
-    /// In [−½, ½): by how much of a part those in which it is drawn begin elsewhere than its neighbours'.
+    /// In [−½, ½): offset of the parts in which it is drawn against those of its neighbours, as a share of a part.
     phase: f32,
 }
 
 /// Distance between two streaks over the least standard deviation at which a row of Gaussians shows no ripple (2 exp(−2π²/1.6²) is 1/1000).
 const SMOOTH: f32 = 1.6;
-/// Streaks of which one is red; as in src/render/aurora/show.rs.
+/// One streak in so many is red; as in src/render/aurora/animation.rs.
 const TURN: u32 = 5u;
-/// Steps of a sequence that is even in two dimensions: one over the plastic number, and its square.
+/// Steps of a sequence that is even in two dimensions: one over the plastic number, and its square (Roberts 2018).
 const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
 
-/// A streak by its number. Those of a kind lie evenly along their segment, and evenly in their waits and phases over a few of them.
+/// A streak by its number. Streaks of a kind lie evenly along their segment; any few of them are also even in delay and phase.
 fn streak_of(index: u32) -> Streak {
     var low = 0u;
     var high = aurora.history.y - 1u;
@@ -162,13 +167,13 @@ fn streak_of(index: u32) -> Streak {
     let number = index - range.x;
     var streak: Streak;
     streak.segment = low;
-    // Of five, one is red, which is faint and blurred by its wait.
+    // One in five is red, which is faint and blurred by its delay.
     let turn = number % TURN;
     let many = TURN - 1u;
     streak.kind = select(GREEN, RED, turn == many);
     let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
     streak.south = both & (((number / TURN) & 1u) == 1u);
-    // Which of how many of its kind and pole.
+    // Its number among those of its kind and pole, and their number.
     let turns = TURN * select(1u, 2u, both);
     let own = select(many * (number / turns) + turn, number / turns, turn == many);
     let all = select(many, 1u, turn == many) * max(range.z / turns, 1u);
@@ -185,7 +190,7 @@ fn streak_of(index: u32) -> Streak {
     return streak;
 }
 
-/// Mean time in s that green or red light waits at a height.
+/// Mean delay, in s, of green or red light at a height.
 fn mean_wait(kind: u32, height: f32) -> f32 {
     let x = clamp((height - 80.0) / 420.0, 0.0, 1.0) * f32(DELAYS - 1u);
     let k = min(u32(x), DELAYS - 2u);
@@ -193,23 +198,23 @@ fn mean_wait(kind: u32, height: f32) -> f32 {
     return mix(falls[column + 2u * k], falls[column + 2u * k + 2u], x - f32(k));
 }
 
-/// No streak waits longer than so many lives of its light: the last fiftieth of all would stand one by one where the curtain long was.
+/// Largest delay of a streak, in mean lives of its light: the last fiftieth would be single streaks where the curtain was long before.
 const LATEST: f32 = 4.0;
-/// Lives in that time of the decay that has the same mean when it ends there: 1/x − 1/(eˣ − 1) = 1/4.
+/// Decay rate, in lives over that time, of an exponential that is cut off there and has the same mean: 1/x − 1/(eˣ − 1) = 1/4.
 const DECAY: f32 = 3.5934;
 
-/// The same for one streak: over all of them as light decays.
+/// The delay of one streak: over all streaks they are distributed as the light decays.
 fn waits(streak: Streak, height: f32) -> f32 {
     return -LATEST / DECAY * log(1.0 - streak.wait * (1.0 - exp(-DECAY))) * mean_wait(streak.kind, height);
 }
 
-/// Row of the table of falls where the energy flux is so many times its mean.
+/// Row of the table of falls at so many times the mean energy flux.
 fn fall_at(flux: f32) -> f32 {
     let first = sqrt(LEAST_FLUX);
     return (sqrt(clamp(flux, LEAST_FLUX, MOST_FLUX)) - first) / (sqrt(MOST_FLUX) - first) * f32(ROWS - 1u);
 }
 
-/// Photons of each line that a fall has made when `part` (0 to 1) of the light of a kind has been passed.
+/// Photons of each line above the height at which the share `part` (0 to 1) of the light of a kind has been made.
 fn photons_of(row: f32, kind: u32, part: f32) -> vec4<f32> {
     let y = clamp(part, 0.0, 1.0) * f32(PARTS);
     let j = min(u32(y), PARTS - 1u);
@@ -263,7 +268,7 @@ fn across_field(body: vec3<f32>) -> mat3x3<f32> {
     return mat3x3<f32>(east, cross(up, east), up);
 }
 
-/// A node's place and flux `age` seconds ago; before the oldest row it stays there.
+/// A node's position and flux `age` seconds ago; before the oldest row it rests.
 fn node_at(node: u32, age: f32) -> vec4<f32> {
     let x = clamp(age / aurora.clock.x, 0.0, f32(HISTORY_ROWS - 1u));
     let row = min(u32(x), HISTORY_ROWS - 2u);
@@ -272,13 +277,13 @@ fn node_at(node: u32, age: f32) -> vec4<f32> {
     return mix(newer, older, x - f32(row));
 }
 
-/// As long as `long` in the direction of `v`; nothing where that has none.
+/// A vector of length `long` in the direction of `v`; zero if `v` is.
 fn as_long(v: vec2<f32>, long: f32) -> vec2<f32> {
     return v * (long / max(length(v), 1e-6));
 }
 
-/// Between two nodes of a curtain, beside the one before them and the one after: the place at `t` of the way (xy) and its derivative by t (zw);
-/// twin of scene::aurora::curve::between_nodes.
+/// The point at `t` of the way from one node of a curtain to the next (xy) and its derivative by t (zw), given also the node before and the
+/// node after; twin of scene::aurora::curve::between_nodes.
 fn between_nodes(before: vec2<f32>, a: vec2<f32>, b: vec2<f32>, after: vec2<f32>, t: f32) -> vec4<f32> {
     let chord = b - a;
     let at_a = as_long(b - before, length(chord));
@@ -288,7 +293,7 @@ fn between_nodes(before: vec2<f32>, a: vec2<f32>, b: vec2<f32>, after: vec2<f32>
     return vec4<f32>(place, step);
 }
 
-/// The place amid a part of a curtain `age` seconds ago; twin of `middle_of` in src/render/aurora/rows.rs.
+/// The middle of a part of a curtain `age` seconds ago; twin of `middle_of` in src/render/aurora/node_history.rs.
 fn middle_of(segment: Segment, age: f32) -> vec2<f32> {
     let node = segment.range.y + (segment.range.w - 1u) / 2u;
     let t = select(1.0, 0.5, segment.range.w % 2u == 1u);

@@ -1,22 +1,22 @@
-// Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through parts of its light; between the
-// ends of a chord the apparent place is linear in height, so a step is a few products and one reciprocal. (Sekiguchi et al. step linearly on the
-// screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
+// Third pass of the aurora: the walk on the screen. One thread per streak and image order steps through parts of its light. Between the
+// ends of a chord the apparent position is linear in height, so a step is a few products and one reciprocal. (Sekiguchi et al. step
+// linearly on the screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
-/// Variance that a pixel itself has, and the least that a stroke may have: light must not depend on where in its pixel a point is.
+/// Variance of a pixel, and the least variance of a stroke: light must not depend on where in its pixel a point is.
 const PIXEL_VARIANCE: f32 = 0.35;
-/// The brightest that a stroke may be, kR, before its ends are blurred: it is handed on in half floats.
+/// Greatest brightness of a stroke, in kR, before its ends are blurred: it is stored in half floats.
 const BRIGHTEST: f32 = 1e4;
 /// Fainter strokes are left out, kR.
 const FAINTEST: f32 = 1e-4;
 
-/// Pixels that the apparent place `c` moves by when it changes by `v`.
+/// By how many pixels the apparent position `c` moves when it changes by `v`.
 fn screen_step(c: vec3<f32>, v: vec3<f32>, focal: vec2<f32>) -> vec2<f32> {
     let inverse = -1.0 / c.z;
     return focal * (v.xy + c.xy * (v.z * inverse)) * inverse;
 }
 
-/// Strokes whose lesser standard deviation is less than this are added pixel by pixel; wider ones where it is half of this and more: less would be too narrow for
-/// the coarse pixels once what enlarging adds has been taken off.
+/// Strokes whose lesser standard deviation, in pixels, is below this are added pixel by pixel. Wider ones go to the level where it is half
+/// of this or more; with less it would be too narrow for the coarse pixels once the widening by enlarging has been taken off.
 const NARROW: f32 = 1.5;
 /// Sizes of the depth tiles, whose least and greatest depths are known: 8 pixels, 16, and so on. As in src/render/aurora/levels.rs.
 const DEPTH_TILES: u32 = 6u;
@@ -39,7 +39,7 @@ fn depths_in(pixels: vec4<f32>) -> vec2<f32> {
     return range;
 }
 
-/// Km around the ends of a streak that its strokes may reach, beside their spread: the longest stretch goes half its length beyond them.
+/// By how many km strokes may reach beyond the ends of a streak, apart from their spread: the longest goes half its length beyond them.
 const BEYOND: f32 = 30.0;
 
 /// Whether nothing of a streak can be seen: all its ends are beyond one edge of the screen, or behind what is drawn there.
@@ -73,23 +73,24 @@ fn unseen(spread: vec2<f32>, first: u32, count: u32) -> bool {
     return nearest < depths_in(around).x;
 }
 
-/// Parts of a streak are one stroke as long as they reach over no more than this many standard deviations.
+/// Parts of a streak are one stroke as long as they extend over no more than this many standard deviations.
 const MERGED: f32 = 2.0;
 /// Half the width of a parabola over its standard deviation, √5: the blur of a stroke's ends.
 const END: f32 = 2.236068;
-/// A stroke's length over the half width of that blur, at least: a shorter one looks no different.
+/// Least length of a stroke over the half width of that blur: a shorter one looks no different.
 const SHORTEST: f32 = 0.25;
-/// Nearer ends of a stroke are cut off, as a part of the farther one's distance: one may be behind the camera.
+/// An end of a stroke nearer than this share of the farther end's distance is cut off: it may be behind the camera.
 const NEAREST: f32 = 0.1;
 
-/// Km along the fall that are as long on the screen as a stroke is wide there (one standard deviation), about the upper end of the chord at a height.
+/// Length along the fall, in km, that is as long on the screen as a stroke is wide there (one standard deviation), about the upper end of
+/// the chord at a height.
 fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<f32>) -> f32 {
     let kind = streak.kind;
     let chord = chord_at(kind, height, count);
     let a = chords[first + chord];
     let b = chords[first + chord + 1u];
     let per_chord = chord_height(kind, chord, count) - chord_height(kind, chord + 1u, count);
-    // Whichever end is before the camera.
+    // Whichever end is in front of the camera.
     let c = select(b.apparent.xyz, a.apparent.xyz, a.apparent.z < -frame.projection.z);
     let fallen = length(screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal));
     let along = screen_step(c, a.along.xyz, focal);
@@ -98,21 +99,22 @@ fn width_along(streak: Streak, height: f32, first: u32, count: u32, focal: vec2<
     return sqrt(wide) / max(fallen, 1e-6);
 }
 
-/// The part of a streak's light that is above the beginning of its part `k` of `count`: less in the first and the last, where it is thin and they are long.
-/// `phase` lets parts of neighbours begin at different heights, so that no layers are seen.
+/// The share of a streak's light that is above the beginning of its part `k` of `count`. The first and the last part have less, because
+/// light is thin there and they are long. `phase` lets parts of neighbours begin at different heights, so that no layers are visible.
 fn light_above(k: u32, count: u32, phase: f32) -> f32 {
     return smoothstep(0.0, f32(count), f32(k) + select(phase, 0.0, (k == 0u) | (k >= count)));
 }
 
-/// Where a streak begins. Its first part is evenly bright and long: if all began at the greatest height, curtains would end there in an edge. Tops that lie the
-/// more densely the higher, as 2t over [0, 1), make the mean of strokes as bright as 1/t fall off linearly, and no light is lost.
+/// Where a streak begins. Its first part is evenly bright and long: if all began at the greatest height, curtains would end there in an
+/// edge. With tops distributed as 2t over [0, 1), denser the higher, and strokes brighter by 1/t, the mean brightness falls off linearly,
+/// and no light is lost.
 fn top_of(streak: Streak, fall: f32, count: u32) -> f32 {
     let t = sqrt(fract(streak.wait + streak.phase + 0.5));
     let lower = height_of(fall, streak.kind, light_above(1u, count, streak.phase));
     return mix(lower, height_of(fall, streak.kind, 0.0), t);
 }
 
-/// Where a streak is seen at a height: apparent place, homogeneous; w is 0 where it is not.
+/// Where a streak is seen at a height: apparent position, homogeneous; w is 0 where it is not seen.
 fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     let chord = chord_at(kind, height, count);
     let above = chord_height(kind, chord, count);
@@ -122,7 +124,7 @@ fn apparent_at(kind: u32, height: f32, first: u32, count: u32) -> vec4<f32> {
     return vec4<f32>(mix(a.xyz, b.xyz, s), a.w * b.w);
 }
 
-/// How a stroke is laid out on the screen, in pixels.
+/// A stroke on the screen, in pixels.
 struct Shape {
     /// From its middle to its end along it, with its blur there, and to its side.
     half: vec2<f32>,
@@ -133,7 +135,8 @@ struct Shape {
     sigma: f32,
 }
 
-/// Of a stroke along the unit vector `u`, of that length, in a level; the blur's covariances (along, across, both) are those that it shall have on the screen.
+/// The layout of a stroke of a length along the unit vector `u`, in a level. `blur` has the covariances (along, across, both) that it shall
+/// have on the screen.
 fn shape_of(level: u32, u: vec2<f32>, seen: f32, blur: vec3<f32>) -> Shape {
     // Enlarging widens it, so it is added narrower by that.
     let widening = 0.25 * (f32(1u << (2u * level)) - 1.0);
@@ -147,7 +150,8 @@ fn shape_of(level: u32, u: vec2<f32>, seen: f32, blur: vec3<f32>) -> Shape {
     return shape;
 }
 
-/// The pixels (left, top, right, bottom) that it lights, with its middle at `pixel`: two pixels of its level further where that is enlarged.
+/// The pixels (left, top, right, bottom) that a stroke with its middle at `pixel` lights: two pixels of its level further, where that is
+/// enlarged.
 fn box_of(pixel: vec2<f32>, shape: Shape, level: u32) -> vec4<f32> {
     let reach = abs(shape.half) + abs(shape.side) + select(1.0, 2.0 * f32(1u << level), level > 0u);
     return vec4<f32>(pixel - reach, pixel + reach);
@@ -166,7 +170,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let segment = segments[streak.segment];
-    // How hard its electrons are, by the flux when those of the middle came down; rays are where more of them come, and harder ones.
+    // How hard its electrons are, by the flux when those of its middle came down. In rays there are more of them, and harder ones.
     let fall = fall_at(chords[first + chord_count / 2u].along.w);
     let count = min(aurora.counts.z, arrayLength(&strokes));
     // Collisions of 35 eV, in kR km².
@@ -181,14 +185,14 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var upper = top_of(streak, fall, count);
     var made = photons_of(fall, streak.kind, 0.0);
-    // Parts of the light, the next of them `k`; those that are near one another on the screen, seen along the streak, are one stroke.
+    // Parts of the light; `k` is the next one. Parts close together on the screen, as seen along the streak, are one stroke.
     var k = 0u;
     while k < count {
         let start = upper;
         // A width holds for its own chord.
         let end = chord_height(streak.kind, chord_at(streak.kind, start, chord_count) + 1u, chord_count);
         let most_km = min(MERGED * width_along(streak, start, first, chord_count, focal), start - end);
-        // Light of the parts that are one, times their heights from here and the squares of those.
+        // Moments of the joined parts: light, light times height from here, light times its square.
         var sums = vec3<f32>(0.0);
         loop {
             let passed = light_above(k, count, streak.phase);
@@ -224,7 +228,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
         high = vec4<f32>(select(high.xy, screen.xy * -high.z, is_linear), high.zw);
         low = vec4<f32>(select(low.xy, screen.zw * -low.z, is_linear), low.zw);
-        // What is behind the camera, or much nearer than the rest, is cut off.
+        // What is behind the camera or much nearer than the rest is cut off.
         let least = max(frame.projection.z, NEAREST * max(-high.z, -low.z));
         if max(-high.z, -low.z) <= least {
             continue;
@@ -262,11 +266,11 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
         let uu = blur.x * u.x * u.x + 2.0 * blur.y * u.x * u.y + blur.z * u.y * u.y;
         let vv = blur.x * v.x * v.x + 2.0 * blur.y * v.x * v.y + blur.z * v.y * v.y;
         let uv = blur.x * u.x * v.x + blur.y * (u.x * v.y + u.y * v.x) + blur.z * u.y * v.y;
-        // How narrow all of it is at its narrowest: the lesser eigenvalue, with the variance of the line.
+        // The least width of the stroke: the lesser eigenvalue, with the variance of the line.
         let total = uu + seen * seen / 12.0;
         let gap = sqrt(0.25 * (total - vv) * (total - vv) + uv * uv);
         let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
-        // The level at which it is three quarters to one and a half pixels narrow.
+        // The level at which its standard deviation is 0.75 to 1.5 pixels.
         let coarsest = max(u32(aurora.strokes.y), 1u) - 1u;
         var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
         let clip = clip_position(c);

@@ -15,7 +15,7 @@
 //! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
 //! player = true                    # flown from the keyboard when there is one, else by its AI
-//! model = "ships/quarry.glb"
+//! model = "quarry.glb"
 //! ```
 //! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos χ),
 //! 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its motion)
