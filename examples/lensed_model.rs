@@ -1,7 +1,7 @@
 //! A glTF model seen past the hole, in an App of one's own: `cargo run --release --example lensed_model`.
 //!
-//! Three things make a picture: [`RelativisticRenderPlugin`]; once, a [`Stage`] of the scene, with its models in [`SceneToDraw`]; and each frame a
-//! `FrameInput` in [`FrameToDraw`].
+//! Three things make a picture: [`RelativisticRenderPlugin`]; once, a [`Stage`] of the scene, with its models in [`SceneToDraw`]; and each
+//! frame a `FrameInput` in [`FrameToDraw`].
 
 use std::sync::Arc;
 

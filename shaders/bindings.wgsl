@@ -1,7 +1,7 @@
 // One number, one meaning everywhere. Group 0: the frame and its tables. Group 1: geometry. Group 2: images.
 //
-// Tables are textures of numbers, row after row of TABLE_ROW texels (render/gpu/layout.rs): a texel of four numbers is fetched at once, where a
-// software driver reads a storage buffer number by number and lane by lane.
+// Tables are textures of numbers, row after row of TABLE_ROW texels (render/gpu/layout.rs): a texel of four numbers is fetched at once,
+// where a software driver reads a storage buffer number by number and lane by lane.
 
 /// Texels in a row of a table.
 const TABLE_ROW: u32 = 1024u;

@@ -1,4 +1,5 @@
-// The types that every pass shares. Each has a Rust mirror of the same name in src/render/gpu/types.rs; tests/render/types.rs holds sizes, offsets and constants equal.
+// The types that every pass shares. Each has a Rust mirror of the same name in src/render/gpu/types.rs; tests/render/types.rs holds sizes,
+// offsets and constants equal.
 //
 // Frames: "rain" axes are the flat axes of the slice T = const carried by observers who fall from rest at infinity; "camera" axes are
 // (right, up, back) in the rest frame of the camera. Lengths in r_s, times in r_s/c.
@@ -10,8 +11,8 @@ struct Frame {
     rain_from_camera: mat4x4<f32>,
     /// Unit vector from the hole to the camera (rain axes); w: the camera's radius L.
     radial: vec4<f32>,
-    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: least width of a thin image in pixels, of the second:
-    /// the river's speed β = √(1/L).
+    /// Two unit vectors that complete `radial` to a right-handed frame; w of the first: least width of a thin image in pixels, of the
+    /// second: the river's speed β = √(1/L).
     side_a: vec4<f32>,
     side_b: vec4<f32>,
     /// x, y: cotangents of half the field of view across and down; z: near distance in r_s; w: time T since the start, for what twinkles.
@@ -24,18 +25,18 @@ struct Frame {
     exposure: vec4<f32>,
     /// x: bits of FLAG_*; y: how often an edge may be halved; z: unused; w: number of image orders drawn.
     switches: vec4<u32>,
-    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to, with the disk if there is one; standard deviation of a
-    /// star's spot in pixels; least flux of a star.
+    /// Rotation from rain axes to the axes of the sky (ICRS), columns. w: the light that the picture is brought to, with the disk if there
+    /// is one; standard deviation of a star's spot in pixels; least flux of a star.
     sky_x: vec4<f32>,
     sky_y: vec4<f32>,
     sky_z: vec4<f32>,
-    /// Capacities: x vertices, y indices, z work items, w thin vertices. Of each but the last a fifth is kept for what is drawn coarsely when
-    /// the rest is full.
+    /// Capacities: x vertices, y indices, z work items, w thin vertices. Of each but the last a fifth is kept for what is drawn coarsely
+    /// when the rest is full.
     capacity: vec4<u32>,
     /// x, y: least and greatest light of middle grey on the own ship; z: exposure of the frame before, w: 1 once that is known.
     fill: vec4<f32>,
-    /// What the meter leaves out, the own ship's circle: x, y: its middle, in widths of the picture from its middle, y down; z: its radius, 0 for none.
-    /// w: the light that the picture is brought to while no disk is in it.
+    /// What the meter leaves out, the own ship's circle: x, y: its middle, in widths of the picture from its middle, y down; z: its radius,
+    /// 0 for none. w: the light that the picture is brought to while no disk is in it.
     unmetered: vec4<f32>,
     /// Indices of the disk's triangles in the picture, as DiskCounters has them; some number if it is not drawn from arcs.
     disk: vec4<u32>,
@@ -50,8 +51,9 @@ const FLAG_HOLD_EXPOSURE: u32 = 32u;
 struct Instance {
     /// The object's centre at its own emission time T₀, minus the camera's position; w: T − T₀.
     offset: vec4<f32>,
-    /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the digits that it takes.
-    /// z: how far a point may be put beside its place by the rounding of f32; all in r_s. w: how much closer chords of a slim image are held, else 1.
+    /// x, y: where the centre is across the axis of hole and camera, along `side_a` and `side_b`: near the axis the offset has lost the
+    /// digits that it takes. z: how far a point may be put beside its place by the rounding of f32; all in r_s. w: how much closer chords
+    /// of a slim image are held, else 1.
     axis: vec4<f32>,
     /// The centre from the hole: near the hole a far camera's offset has lost the digits that r − 1 needs.
     /// w: what its engines lack of their full light, as a share.
@@ -81,8 +83,9 @@ struct Instance {
     light_red: vec4<f32>,
     light_green: vec4<f32>,
     light_blue: vec4<f32>,
-    /// Caps of directions, camera axes, that the image keeps to: by its farthest from outwards, its nearest, and about its middle. xyz: the cap's middle; w: the square of
-    /// the chord from there to its rim, positive if the image lies inside, negative if outside, 0 if it may lie anywhere.
+    /// Caps of directions, camera axes, that the image keeps to: by its farthest from outwards, its nearest, and about its middle. xyz: the
+    /// cap's middle; w: the square of the chord from there to its rim, positive if the image lies inside, negative if outside, 0 if it may
+    /// lie anywhere.
     bound_high: vec4<f32>,
     bound_low: vec4<f32>,
     bound_look: vec4<f32>,
@@ -132,7 +135,8 @@ struct ModelTriangle {
     edges: vec4<u32>,
 }
 
-/// Which side of a triangle is outside: none (a part of an open sheet), that to which the cross product of its sides 0–1 and 0–2 points, or the other.
+/// Which side of a triangle is outside: none (a part of an open sheet), that to which the cross product of its sides 0–1 and 0–2 points, or
+/// the other.
 const SIDE_OPEN: u32 = 0u;
 const SIDE_ALONG: u32 = 1u;
 const SIDE_AGAINST: u32 = 2u;
@@ -154,8 +158,8 @@ struct SeenVertex {
     leaving: vec4<f32>,
     /// x, y: texture coordinates; z: instance, w: material (bits).
     surface: vec4<f32>,
-    /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer edge
-    /// that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
+    /// z: how far from the axis, of a fan (1 elsewhere): between the axis, with the texture coordinates x, y, and the point of the outer
+    /// edge that `surface` tells. The product is left to the pixels: over a cell that narrows to a point of the surface it is not linear.
     /// w: height over the disk's plane at emission, in r_s.
     fan: vec4<f32>,
 }
@@ -185,9 +189,11 @@ const PIECE_STRIP: u32 = 2u;
 /// One block of at most 8 × 8 cells for a workgroup of the mesh stage.
 struct WorkItem {
     piece: Piece,
-    /// Levels of the sides. Triangle and strip: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at corner 1 and 2.
+    /// Levels of the sides. Triangle and strip: of the edge opposite corner 0, 1, 2. Fan: arc at the axis, outer edge, radial sides at
+    /// corner 1 and 2.
     levels: vec4<u32>,
-    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y, a strip one row along the edge opposite corner 0), z, w: first row and column of the block.
+    /// x, y: cells of the whole grid (from the axis, along the edge; a triangle has x = y, a strip one row along the edge opposite corner
+    /// 0), z, w: first row and column of the block.
     grid: vec4<u32>,
     /// x: first seen vertex, y: first index, z: vertices, w: triangles.
     place: vec4<u32>,

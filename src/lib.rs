@@ -16,8 +16,9 @@
 //!
 //! - `orbit`: a ship's path, from [`spacetime::matter::step`] alone;
 //! - `judge`: one exact picture, by [`judge::case::trace_to_file`];
-//! - `lensed_model`: a glTF model on the screen of an App of one's own. It adds Bevy's `DefaultPlugins` and `render::plugin::RelativisticRenderPlugin`, makes a
-//!   `render::stage::Stage` from a scene, and hands on a frame each time. Ships that fly need [`sim::SimulationPlugins`] too, and [`sim::start`] with a scene.
+//! - `lensed_model`: a glTF model on the screen of an App of one's own. It adds Bevy's `DefaultPlugins` and
+//!   `render::plugin::RelativisticRenderPlugin`, makes a `render::stage::Stage` from a scene, and hands on a frame each time. Ships that
+//!   fly need [`sim::SimulationPlugins`] too, and [`sim::start`] with a scene.
 //!
 //! Units are r_s = c = 1 throughout; T is Painlevé–Gullstrand time.
 

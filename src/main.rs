@@ -157,12 +157,13 @@ struct ProjectArgs {
 
 /// Bakes a lensing table with a progress bar; prints its size, the time, and its error on fresh random points.
 ///
-/// Errors are those of the direction (rain frame, degrees), of the travel time (r_s/c, and as a share of what is allowed: 0.002 + 3e-7 of the
-/// travel time, 0.02 nearer than r = 1.05) and of the direction at emission. Adversarial points crowd where methods fail: at the camera, at the
-/// axis, at the horizon and the photon sphere; friendly ones are spread evenly. The game draws with tables/default.lut.
+/// Errors are those of the direction (rain frame, degrees), of the travel time (r_s/c, and as a share of what is allowed: 0.002 + 3e-7 of
+/// the travel time, 0.02 nearer than r = 1.05) and of the direction at emission. Adversarial points crowd where methods fail: at the
+/// camera, at the axis, at the horizon and the photon sphere; friendly ones are spread evenly. The game draws with tables/default.lut.
 #[derive(Args)]
 struct BakeArgs {
-    /// Size of the table, 5 to 128: nodes along each axis for the schemes of Yamashita 2012, along Φ for the scheme residual (L and r take fewer).
+    /// Size of the table, 5 to 128: nodes along each axis for the schemes of Yamashita 2012, along Φ for the scheme residual (L and r take
+    /// fewer).
     #[arg(long, value_name = "N", default_value_t = lensing::FULL_NODES as u8, value_parser = clap::value_parser!(u8).range(5..=128))]
     nodes: u8,
     /// What is stored.

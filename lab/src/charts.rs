@@ -87,7 +87,8 @@ pub struct ChartTraceArgs {
     pixels: u32,
 }
 
-/// Tracers of straight rays on one thread: ours, those of Sei 2008, the crates obvhs and bvh, and Embree in a build with the feature embree.
+/// Tracers of straight rays on one thread: ours, those of Sei 2008, the crates obvhs and bvh, and Embree in a build with the feature
+/// embree.
 #[derive(Args)]
 pub struct ChartBvhArgs {
     #[command(flatten)]

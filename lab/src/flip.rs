@@ -1,6 +1,6 @@
 //! ꟻLIP, the difference that an eye sees between two pictures shown in turn: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and
-//! Fairchild, *FLIP: A Difference Evaluator for Alternating Images*, Proc. ACM Comput. Graph. Interact. Tech. 3(2) 2020, article 15. Sections
-//! and constants below are those of the paper; pictures come in as linear light.
+//! Fairchild, *FLIP: A Difference Evaluator for Alternating Images*, Proc. ACM Comput. Graph. Interact. Tech. 3(2) 2020, article 15.
+//! Sections and constants below are those of the paper; pictures come in as linear light.
 
 use rayon::prelude::*;
 

@@ -12,12 +12,12 @@ use lensrunner_lab::contestant::Contestant;
 
 use crate::fail;
 
-/// Judges the game's picture of a scene by the exact one: for each object and image order how far surface points are displaced, which pixels
-/// differ, the difference in colour (FLIP); ends with code 1 where a limit is passed.
+/// Judges the game's picture of a scene by the exact one: for each object and image order how far surface points are displaced, which
+/// pixels differ, the difference in colour (FLIP); ends with code 1 where a limit is passed.
 ///
-/// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified beyond
-/// f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin images are
-/// narrower than a pixel: their area to the judge and as shown.
+/// Displacements are in pixels: mean, 99 of 100, greatest, and how many pixels were counted apart because what they show is magnified
+/// beyond f32. Mismatched pixels are given in per cent of the object's pixels and its rim, and those inside, away from any edge. Thin
+/// images are narrower than a pixel: their area to the judge and as shown.
 #[derive(Args)]
 pub struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
@@ -37,8 +37,8 @@ pub struct CompareArgs {
     /// Judges case files, as --random leaves them, and those of folders: scene files whose first comment lines say size and T.
     #[arg(long, value_name = "FILE|DIR", num_args = 1.., conflicts_with_all = ["flight", "size", "at", "samples", "table"])]
     case: Vec<PathBuf>,
-    /// Judges chases of this scene, flown by the autopilot, at many moments: half of them those at which another ship is seen behind the hole. Or at the one
-    /// moment --at. Moments that fail are left in the folder -o as scenes of their own.
+    /// Judges chases of this scene, flown by the autopilot, at many moments: half of them those at which another ship is seen behind the
+    /// hole. Or at the one moment --at. Moments that fail are left in the folder -o as scenes of their own.
     #[arg(long, value_name = "NAME|FILE", conflicts_with_all = ["samples", "table"])]
     flight: Option<String>,
     /// How many chases --flight flies.
@@ -50,11 +50,12 @@ pub struct CompareArgs {
     /// Leaves what fails as it was drawn, instead of making it smaller for as long as it fails, which takes up to three minutes a case.
     #[arg(long, conflicts_with = "scene")]
     whole: bool,
-    /// Adds what came of --random or --flight to this table, in the place of an earlier run of the same cases, and writes FILE.md beside it.
+    /// Adds what came of --random or --flight to this table, in the place of an earlier run of the same cases, and writes FILE.md beside
+    /// it.
     #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["scene", "case"])]
     collect: Option<PathBuf>,
-    /// Seconds that the judge may take over a picture; one not traced by then is given up, and it is said how far it came [default: none, with --random,
-    /// --case and --flight 60]
+    /// Seconds that the judge may take over a picture; one not traced by then is given up, and it is said how far it came [default: none,
+    /// with --random, --case and --flight 60]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     limit: Option<f64>,
     /// Width and height in pixels [default: 1280x720, with --flight 160x90].
@@ -70,16 +71,16 @@ pub struct CompareArgs {
     /// [default: 1e-12, with --random, --case and --flight 1e-10]
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// The game's configuration [default: game.toml here, else the one that the game comes with; with --random, --case and --flight every value its
-    /// default].
+    /// The game's configuration [default: game.toml here, else the one that the game comes with; with --random, --case and --flight every
+    /// value its default].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
-    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it. `all` has a table of
-    /// its own, in its folder.
+    /// Adds the verdict to this table, in the place of an earlier one of the same scene, T and rays, and writes FILE.md beside it. `all`
+    /// has a table of its own, in its folder.
     #[arg(long, value_name = "FILE.csv")]
     table: Option<PathBuf>,
-    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md. For --random,
-    /// --case and --flight a folder for what fails.
+    /// The game's picture, the judge's and their difference, side by side. For `all` a folder: a picture each, verdict.csv and verdict.md.
+    /// For --random, --case and --flight a folder for what fails.
     #[arg(short, value_name = "FILE.png|DIR", required_unless_present_any = ["random", "case", "flight"])]
     output: Option<PathBuf>,
 }

@@ -130,8 +130,8 @@ fn by_exact_ray(eye: &Eye, point: DVec3) -> DVec3 {
 fn luminous_length_is_right_through_bent_light() {
     let streaks = Sheet::numbered(4).streaks(40);
     let streak = &streaks[7];
-    // The middle of the streak's light nearly behind the hole, so that its image is drawn out far along the Einstein ring, in both orders: no one chord is
-    // right there. Turned so that field and line of sight make every angle.
+    // The middle of the streak's light nearly behind the hole, so that its image is drawn out far along the Einstein ring, in both orders:
+    // no one chord is right there. Turned so that field and line of sight make every angle.
     let target = DVec3::new(0.06, 0.0, -24.0);
     let lit = streak.top.as_dvec3().lerp(streak.end.as_dvec3(), 0.9);
     let (toward, axis) = (DVec3::new(-0.06, 0.0, 36.0).normalize(), DVec3::new(0.3, 1.0, 0.0).normalize());
@@ -232,8 +232,8 @@ fn the_experiment_makes_its_table() {
         let difference = |method: &str| of(method).difference;
         println!("{view}: exact {}, with pyramid {}, linear {}", difference("exact"), difference("exact-pyramid"), difference("linear"));
         assert_eq!(["particles", "particles-no-table", "particles-pyramid"].map(difference), [0.0; 3], "{view}");
-        // In flat space rounding, in splats that are tabulated a step of the table here and there: 1.2e-4 of these 50 electrons from below. Through bent light the
-        // lattice's tolerance, a quarter of a pixel: 0.005 of splats that are as wide as these.
+        // In flat space rounding, in splats that are tabulated a step of the table here and there: 1.2e-4 of these 50 electrons from below.
+        // Through bent light the lattice's tolerance, a quarter of a pixel: 0.005 of splats that are as wide as these.
         let allowed = if view == "bent" { 0.01 } else { 3e-4 };
         assert!(difference("exact") < allowed && difference("exact-pyramid") < allowed, "{view}: {}", difference("exact"));
         assert!(view != "below" || difference("linear") > 0.1, "linear, {view}: {}", difference("linear"));

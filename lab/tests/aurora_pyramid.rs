@@ -69,9 +69,10 @@ fn worst(got: &Picture, want: &Picture) -> f32 {
 
 #[test]
 fn one_splat_of_the_pyramid_is_a_gaussian() {
-    // Half-pixel Gaussians vary by 1.4 % along each side with their place, as the pyramid's do not, half a step of the tabulated width is 1.2 % of
-    // them, and the cut-off of the narrowest is seen: 6 % of the peak. Where a layer begins, what the humps of its pixels cannot tell is 5.5 %, and half a step of
-    // the tabulated place as much as 1 %. A widening of the Gaussian that is not taken off beforehand is 20 %.
+    // Half-pixel Gaussians vary by 1.4 % along each side with their place, as the pyramid's do not, half a step of the tabulated width is
+    // 1.2 % of them, and the cut-off of the narrowest is seen: 6 % of the peak. Where a layer begins, what the humps of its pixels cannot
+    // tell is 5.5 %, and half a step of the tabulated place as much as 1 %. A widening of the Gaussian that is not taken off beforehand is
+    // 20 %.
     for k in 0..2400 {
         let sigma = 0.5 * 80f32.powf(k as f32 / 2399.0);
         let place = |step: f32| 128.0 + (step * k as f32).fract() * 64.0;

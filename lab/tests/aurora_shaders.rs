@@ -86,7 +86,8 @@ fn streaks_of_the_shader_are_the_mean_of_electrons_of_the_physics() {
             assert!((0.0..=31.0).contains(&index), "{row:?}: row {index}");
             let lines: &[usize] = if red { &[2] } else { &[0, 1, 3] };
             let of = |sums: &[f64; 4]| lines.iter().map(|&line| sums[line]).sum::<f64>();
-            // The part of the electrons' light that is above that height: to 2 %, for 32 rows and 32 parts and what chance makes of so many.
+            // The part of the electrons' light that is above that height: to 2 %, for 32 rows and 32 parts and what chance makes of so
+            // many.
             let above_it = |line: usize| {
                 let x = (TOP - f64::from(height)) / LEVEL;
                 let k = (x as usize).min(made.len() - 2);
@@ -114,7 +115,8 @@ const TOP: f64 = 500.0;
 
 const LEVEL: f64 = 1.0;
 
-/// Photons of each line above levels down to 80 km, for each 35 eV that 16,000 electrons drawn one by one bring down, each falling by itself.
+/// Photons of each line above levels down to 80 km, for each 35 eV that 16,000 electrons drawn one by one bring down, each falling by
+/// itself.
 fn light_of_electrons(spectrum: &Spectrum) -> Vec<[f64; 4]> {
     // What falls between two levels shines as in their middle.
     let levels = (0..=420).map(|k| TOP - LEVEL * f64::from(k)).map(|z| (air::overhead(z), lines::photons(z + 0.5 * LEVEL)));
@@ -156,8 +158,8 @@ fn red_lags_in_the_shader_as_its_lifetime_says() {
                 waits.iter().all(|wait| f64::from(wait[0]) <= 4.0 * (1.05 * want + 0.01)),
                 "{line:?} at {height} km: one waits too long"
             );
-            // The mean of 8,000 draws of what decays within four lives is good to 1 %; between its 64 heights the table is off by a few per cent, and by milliseconds
-            // where the life is that short.
+            // The mean of 8,000 draws of what decays within four lives is good to 1 %; between its 64 heights the table is off by a few per
+            // cent, and by milliseconds where the life is that short.
             assert!((mean - want).abs() <= 0.05 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
         }
     }
@@ -171,7 +173,8 @@ fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
                 let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
                 twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
     let heights = heights(SPECTRUM);
-    // So many chords, and by how much the straight line between their ends may be off, in parts of the wait: a curtain moves some 100 m in a second.
+    // So many chords, and by how much the straight line between their ends may be off, in parts of the wait: a curtain moves some 100 m in
+    // a second.
     for (count, part) in [(4.0, 1.0), (8.0, 0.3)] {
         let rows: Vec<[f32; 4]> = (150..400).step_by(10).map(|z| [z as f32, count, 0.0, 0.0]).collect();
         for (row, got) in rows.iter().zip(run_with(Pass::AuroraWalk, body, [&[], &[]], &[(0, &heights), (4, &falls)], &rows, 1)) {
@@ -242,7 +245,8 @@ fn the_adapter_draws_the_experiment_as_the_processor_does() {
             let like = if runner.name() == "exact-gpu" { "exact" } else { "particles" };
             let want = draw(*VARIANTS.iter().find(|variant| variant.name == like).unwrap(), &job, &tables).picture;
             let got = runner.draw(&job).expect("the adapter draws");
-            // Rounding of f32 moves a collision here and there to the next level, and steps of the processor's tabulated Gaussian differ from the adapter's own.
+            // Rounding of f32 moves a collision here and there to the next level, and steps of the processor's tabulated Gaussian differ
+            // from the adapter's own.
             let off = got.picture.error(&want);
             assert!(off < 0.02, "{view}, {}: off by {off} (chords allow {TOLERANCE} px)", runner.name());
             let light = |pixels: &[[f32; 4]]| pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>();
@@ -261,7 +265,8 @@ fn light_crosses_the_plane_of_the_disk_where_its_ray_does() {
         let position = DVec3::new(14.0 * turn.cos(), 14.0 * turn.sin(), 5.0 * (1.7 * turn).sin());
         for order in [1, 2].map(|order| Order::new(order).unwrap()) {
             for radius in veil::crossings(&camera, position, order, true) {
-                // The place of the crossing lies in the ray's plane and in that of the disk, on one side or the other; its light comes the same way.
+                // The place of the crossing lies in the ray's plane and in that of the disk, on one side or the other; its light comes the
+                // same way.
                 let line = camera.position.cross(position).cross(DVec3::Z).normalize();
                 let seen = |place: DVec3| {
                     let (l, r) = (camera.radius(), place.length());
@@ -314,7 +319,8 @@ fn rooms_of_strokes_do_not_overlap() {
 
 #[test]
 fn the_box_of_a_stroke_holds_it() {
-    // In units of a level's pixel: a blur that goes aslant, as narrow as is added there at all (the lesser eigenvalue is 0.6), and more and more drawn out.
+    // In units of a level's pixel: a blur that goes aslant, as narrow as is added there at all (the lesser eigenvalue is 0.6), and more and
+    // more drawn out.
     let body = "let level = u32(row.x); let pixel = f32(1u << level); let u = vec2<f32>(cos(row.y), sin(row.y)); \
                 let shape = shape_of(level, u, row.w * pixel, vec3<f32>(row.z * row.z / 0.4 + 0.6, 1.0, row.z) * pixel * pixel); \
                 let around = box_of(vec2<f32>(0.0), shape, level); \

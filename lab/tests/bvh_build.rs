@@ -29,7 +29,8 @@ fn every_number_of_boxes() {
 
 #[test]
 fn the_heuristic_weighs_two_to_one() {
-    // Two far boxes: one split costs 2·2 and saves nearly all of the area; with n = 2 a leaf (cost 2) is cheaper than 4, with n = 20 it is not.
+    // Two far boxes: one split costs 2·2 and saves nearly all of the area; with n = 2 a leaf (cost 2) is cheaper than 4, with n = 20 it is
+    // not.
     let far = |number: usize| {
         let boxes: Vec<_> = (0..number).map(|i| cube(if i % 2 == 0 { 0.0 } else { 1e6 }, 0.0, 0.0, 1.0)).collect();
         build(&boxes, &Settings { max_leaf: 100, ..Settings::default() }).nodes.len()

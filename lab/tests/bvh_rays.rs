@@ -7,7 +7,8 @@ use rand::rngs::StdRng;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 
-/// Nearest hit by trying every triangle in f64 (Möller–Trumbore), and how near to an edge the nearest miss or hit came, in shares of a triangle.
+/// Nearest hit by trying every triangle in f64 (Möller–Trumbore), and how near to an edge the nearest miss or hit came, in shares of a
+/// triangle.
 fn brute(triangles: &[Triangle], ray: &Ray) -> (f64, u32, f64) {
     let origin = Vec3::from(ray.origin).as_dvec3();
     let direction = Vec3::from(ray.direction).as_dvec3();

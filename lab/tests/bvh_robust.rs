@@ -281,7 +281,8 @@ fn thin_triangles_are_hit_only_where_they_are() {
         // The longest edge and the width of 1e−4 around it hold the triangle: the ray must pass there.
         let between = direction.cross(along).normalize();
         assert!((a - origin).dot(between).abs() < 2e-4, "{ray:?} {hit:?}");
-        // And the hit must lie there, as far as f32 can tell: its edge functions carry errors of 2⁻²³ of the products that make the area seen.
+        // And the hit must lie there, as far as f32 can tell: its edge functions carry errors of 2⁻²³ of the products that make the area
+        // seen.
         let seen = along.cross(across).dot(direction.normalize()).abs();
         let noise = 2.0 * 2f64.powi(-23) * along.length().powi(3) / seen;
         let s = ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
@@ -362,8 +363,8 @@ fn axis_rays_visit_few_nodes() {
 }
 
 fn triangles_and_rays() -> impl Strategy<Value = (Vec<Triangle>, Vec<Ray>)> {
-    // Small whole numbers, and directions whose slopes are exact: rays through corners, along edges and in faces are common, and f32 makes no
-    // error but in t.
+    // Small whole numbers, and directions whose slopes are exact: rays through corners, along edges and in faces are common, and f32 makes
+    // no error but in t.
     let point = || prop::array::uniform3((-4i8..5).prop_map(f32::from));
     let way = || prop::array::uniform3(prop::sample::select(vec![-4f32, -2.0, -1.0, -0.0, 0.0, 1.0, 2.0, 4.0]));
     let ray = (point(), way().prop_filter("a direction", |d| d.iter().any(|&c| c != 0.0))).prop_map(|(o, d)| Ray::new(o, d));

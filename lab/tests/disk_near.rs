@@ -15,8 +15,8 @@ const SIZE: [u32; 2] = [1280, 720];
 /// T, in r_s/c.
 const TIME: f64 = 100.0;
 
-/// The mean difference over the mean light in each part (where it begins, and its size in pixels) of the picture, against the exact one of 64 samples a
-/// pixel: lines of less than a pixel fall between 16.
+/// The mean difference over the mean light in each part (where it begins, and its size in pixels) of the picture, against the exact one of
+/// 64 samples a pixel: lines of less than a pixel fall between 16.
 fn errors<const N: usize>(camera: Observer, parts: [[[u32; 2]; 2]; N]) -> [f64; N] {
     let mut renderer = renderer(SIZE);
     let config = GameConfig::default();
@@ -39,8 +39,8 @@ fn errors<const N: usize>(camera: Observer, parts: [[[u32; 2]; 2]; N]) -> [f64; 
     })
 }
 
-/// The thin second and third image of the scene `disk-inner`: behind falling gas, which lets a hundredth of their light through and whose streaks must be
-/// where they are; a few pixels wide; and less than one.
+/// The thin second and third image of the scene `disk-inner`: behind falling gas, which lets a hundredth of their light through and whose
+/// streaks must be where they are; a few pixels wide; and less than one.
 #[test]
 fn thin_images_from_near_are_lines_where_they_are() {
     let camera = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());
@@ -62,8 +62,8 @@ fn long_streaks_from_near_are_smooth() {
     assert!(streaks < 0.030, "{streaks}");
 }
 
-/// A disk of few and wide arcs is drawn with more circles where gas is no parabola between its own: the picture of many arcs, without a rim at the inner edge, where light rises a
-/// millionfold over half an r_s.
+/// A disk of few and wide arcs is drawn with more circles where gas is no parabola between its own: the picture of many arcs, without a rim
+/// at the inner edge, where light rises a millionfold over half an r_s.
 #[test]
 fn few_arcs_draw_the_picture_of_many() {
     let size = [320, 180];
@@ -85,8 +85,8 @@ fn few_arcs_draw_the_picture_of_many() {
     }
 }
 
-/// The thin second image as it is seen from within the plane, falling at r = 1.6: across it light rises and falls once. It had a row of holes in its middle, as long as what a ring's
-/// middle lacks of optical depth was told for the slant at one of its circles.
+/// The thin second image as it is seen from within the plane, falling at r = 1.6: across it light rises and falls once. It had a row of
+/// holes in its middle, as long as what a ring's middle lacks of optical depth was told for the slant at one of its circles.
 #[test]
 fn thin_images_from_within_the_plane_have_no_holes() {
     const WIDTH: u32 = 960;

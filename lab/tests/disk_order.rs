@@ -1,4 +1,5 @@
-//! Images of bodies before and behind the disk, of every order, thin or wide: what the gas between them and the camera leaves of their light.
+//! Images of bodies before and behind the disk, of every order, thin or wide: what the gas between them and the camera leaves of their
+//! light.
 
 use glam::{DQuat, DVec3};
 use lensrunner::render::Renderer;
@@ -114,8 +115,8 @@ fn left_at_all(renderer: &mut Renderer, eye: DVec3, degrees: f64, size: f64, con
     left(renderer, camera, &PLACES.map(|place| (place, size)), config, &settings)
 }
 
-/// Thin images of ships were laid over the disk, whatever of it was before them. The gas takes as much from thin ones as from wide ones (balls of 0.05 to 1 r_s), of every
-/// order: an image of order n is behind n − 1 or n images of the disk.
+/// Thin images of ships were laid over the disk, whatever of it was before them. The gas takes as much from thin ones as from wide ones
+/// (balls of 0.05 to 1 r_s), of every order: an image of order n is behind n − 1 or n images of the disk.
 #[test]
 fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
     let mut renderer = renderer(SIZE);
@@ -126,11 +127,12 @@ fn images_are_dimmed_by_what_of_the_disk_is_before_them() {
     {
         let config = dark(representation);
         for size in [0.05, 0.3, 1.0] {
-            // Third images of large balls are arcs far narrower than a pixel: what crosses the plane before and beyond them at a pixel's middle is not what does in them.
+            // Third images of large balls are arcs far narrower than a pixel: what crosses the plane before and beyond them at a pixel's
+            // middle is not what does in them.
             let seen = |left: &&Left| left.order <= orders && (left.order < 3 || size < 1.0);
             for left in left_at_all(&mut renderer, eye, degrees, size, &config).iter().filter(seen) {
-                // The exact gas is that at the middle of a pixel, the drawn one the mean over the pixel where the disk's image is as thin, as those of order 3 are, and of
-                // falling gas, which thins out within a tenth of r_s, the mean between two circles.
+                // The exact gas is that at the middle of a pixel, the drawn one the mean over the pixel where the disk's image is as thin,
+                // as those of order 3 are, and of falling gas, which thins out within a tenth of r_s, the mean between two circles.
                 let off = if left.order > 1 { 0.08 } else { 0.04 };
                 let place = PLACES[left.number - 1];
                 println!("{representation} from {eye} under {degrees}°, ball of {size} at {place}: {left:?}");
@@ -164,11 +166,12 @@ fn nearer(camera: &Observer, at: [f64; 2], times: f64) -> Observer {
     Observer { attitude: camera.attitude * turn, field_of_view: 2.0 * (0.5 * width * pixel / times).atan(), ..*camera }
 }
 
-/// Of a thin body that stands astride the disk's plane each part keeps what the gas before it leaves. The nearer part was laid over the farther one as if it stood before it,
-/// and hid as much of that as it covers of the pixel itself.
+/// Of a thin body that stands astride the disk's plane each part keeps what the gas before it leaves. The nearer part was laid over the
+/// farther one as if it stood before it, and hid as much of that as it covers of the pixel itself.
 ///
-/// A pixel with light of both parts has no one path. So what is right is counted by the exact gas in a picture in which such a body is some fifty pixels wide. And a triangle
-/// that is drawn a pixel wide meets the middle of one pixel or of none: its light is right only in the mean over the places in a pixel where it may be.
+/// A pixel with light of both parts has no one path. So what is right is counted by the exact gas in a picture in which such a body is some
+/// fifty pixels wide. And a triangle that is drawn a pixel wide meets the middle of one pixel or of none: its light is right only in the
+/// mean over the places in a pixel where it may be.
 #[test]
 fn a_thin_body_astride_the_disk_keeps_the_light_of_both_its_parts() {
     let mut renderer = renderer(SIZE);

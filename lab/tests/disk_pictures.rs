@@ -32,7 +32,8 @@ fn the_picture_is_the_exact_one() {
     }
 }
 
-/// A ball between camera and disk hides it; one behind it shines through weakly; in both cases the light adds up as the rule of composition says.
+/// A ball between camera and disk hides it; one behind it shines through weakly; in both cases the light adds up as the rule of composition
+/// says.
 #[test]
 fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
     let size = [64, 36];
@@ -94,11 +95,13 @@ fn without_streaks_the_picture_is_the_exact_one_to_a_hundredth() {
     let truth = disk::picture(&disk.gas, &eye, size, 100.0, 2, 3);
     let error = disk::compare(&got, &truth, size, disk::peak(&truth));
     println!("without streaks: {error:?}");
-    // It has 54.9 dB. When thin images were coarser it had 41.7, gas with g off by a hundredth 39.7, images of orders 2 and 3 half a pixel aside 40.9.
+    // It has 54.9 dB. When thin images were coarser it had 41.7, gas with g off by a hundredth 39.7, images of orders 2 and 3 half a pixel
+    // aside 40.9.
     assert!(error.psnr > 52.0, "PSNR is {} dB", error.psnr);
 }
 
-/// With straight light the disk is the annulus that the eye's straight lines meet, whatever it is otherwise drawn from, and the hole hides nothing.
+/// With straight light the disk is the annulus that the eye's straight lines meet, whatever it is otherwise drawn from, and the hole hides
+/// nothing.
 #[test]
 fn without_lensing_the_disk_is_a_flat_annulus() {
     use lensrunner::render::method::Method;
@@ -172,8 +175,8 @@ fn drawn_and_exact(renderer: &mut Renderer, disk: &Disk, camera: Observer, size:
     [got, disk::picture(&disk.gas, &camera, size, time, orders, 2)]
 }
 
-/// Where one generation of streaks dies and the next is born, at light that left at a whole number of renewals, the picture is as near to the truth as
-/// elsewhere: no seam.
+/// Where one generation of streaks dies and the next is born, at light that left at a whole number of renewals, the picture is as near to
+/// the truth as elsewhere: no seam.
 #[test]
 fn no_seam_shows_where_a_generation_of_streaks_dies() {
     let size = [320, 180];
@@ -241,8 +244,8 @@ fn a_small_picture_has_the_light_of_a_large_one() {
     }
 }
 
-/// Gas of mean temperature has nearly no blue below 1,900 K, its hotter streaks have: a picture has the exact one's colour wherever the gas is cold. Compared by blocks of 8 × 8
-/// pixels, over which streaks that fall beside one another weigh nothing.
+/// Gas of mean temperature has nearly no blue below 1,900 K, its hotter streaks have: a picture has the exact one's colour wherever the gas
+/// is cold. Compared by blocks of 8 × 8 pixels, over which streaks that fall beside one another weigh nothing.
 #[test]
 fn cold_gas_has_the_colour_of_its_streaks() {
     const SIDE: u32 = 8;

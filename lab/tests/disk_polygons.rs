@@ -22,7 +22,8 @@ fn polygons(representation: &str) -> Disk {
     Disk::new(config.disk.clone(), &config)
 }
 
-/// Every corner of every ring is drawn where it was when its light left it: there the exact ray through that point of the picture meets the plane.
+/// Every corner of every ring is drawn where it was when its light left it: there the exact ray through that point of the picture meets the
+/// plane.
 #[test]
 fn a_ring_is_seen_where_it_was() {
     let size = [1280, 720];
@@ -76,8 +77,8 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
             renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect::<Vec<_>>()
         });
         let error = disk::compare(&turning, &resting, size, disk::peak(&resting));
-        // Where those at rest are seen, and the rings all round, so are the rings: no gap opens between them. Not at the outer rim, where it is dark: the corners of
-        // that are elsewhere.
+        // Where those at rest are seen, and the rings all round, so are the rings: no gap opens between them. Not at the outer rim, where
+        // it is dark: the corners of that are elsewhere.
         let brightest = resting.iter().map(|p| p[1]).fold(0.0, f32::max);
         let shines = |picture: &[[f32; 3]], k: usize| picture[k][1] > 0.05 * brightest;
         let width = size[0] as usize;
@@ -91,8 +92,9 @@ fn rings_that_turn_show_the_gas_of_those_at_rest() {
     }
 }
 
-/// Of a disk seen exactly edge on light comes round the hole on all sides, from the places behind it. Where the axis lay in the triangles, that is from nearly the plane on, they had no
-/// image or a part of it; and rings that turn had all their sides taken for outlines from there, so that most of their vertices found no room.
+/// Of a disk seen exactly edge on light comes round the hole on all sides, from the places behind it. Where the axis lay in the triangles,
+/// that is from nearly the plane on, they had no image or a part of it; and rings that turn had all their sides taken for outlines from
+/// there, so that most of their vertices found no room.
 #[test]
 fn polygons_are_seen_from_within_their_plane() {
     let size = [480, 270];
@@ -107,7 +109,8 @@ fn polygons_are_seen_from_within_their_plane() {
         total(&renderer.picture(&input, false).unwrap())
     };
     let arcs = light("arcs", 0.0);
-    // Chords, over which the falling gas thins out, and the height at which they are drawn. Not all vertices of rings that turn find room from here; which do not is chance.
+    // Chords, over which the falling gas thins out, and the height at which they are drawn. Not all vertices of rings that turn find room
+    // from here; which do not is chance.
     for (representation, off) in [("polygons-at-rest", 0.06), ("polygons", 0.12)] {
         let in_plane = light(representation, 0.0);
         println!("{representation}: {:.3} of the light of arcs from within the plane", in_plane / arcs);

@@ -37,7 +37,8 @@ fn drawn_at(renderer: &mut Renderer, disk: &Disk, camera: Observer, time: f64, o
     renderer.picture(&input, false).unwrap().linear.iter().map(|p| [p[0], p[1], p[2]]).collect()
 }
 
-/// Where the front of an opaque disk lies before its second image it hides it: there the light is that of arcs, and the same whether the second is drawn or not.
+/// Where the front of an opaque disk lies before its second image it hides it: there the light is that of arcs, and the same whether the
+/// second is drawn or not.
 #[test]
 fn the_front_image_hides_the_ghost() {
     let size = [320, 180];
@@ -69,7 +70,8 @@ fn the_front_image_hides_the_ghost() {
     }
     println!("{pixels} pixels, {other} of another shift: off from arcs by {worst:.4} at most, the ghost adds {through:.4}");
     assert!(pixels > 100 && other > 30, "{pixels} pixels, {other} of another shift");
-    // e⁻⁷ at a slant of 6 is nothing, but spots are flat and the disk's image is bent: what four of them leave to a pixel is not all of it, by as little.
+    // e⁻⁷ at a slant of 6 is nothing, but spots are flat and the disk's image is bent: what four of them leave to a pixel is not all of it,
+    // by as little.
     assert!(through < 0.01, "the ghost adds {through} of the light");
     // Between the middles of spots light goes straight, and of arcs its logarithm; it falls off by 5 % from a ring to the next.
     assert!(worst < 0.05, "off from arcs by {worst}");
@@ -129,7 +131,8 @@ fn the_picture_of_sprites_is_the_exact_one() {
     }
 }
 
-/// Without streaks the whole has its light: what goes straight between spots is 0.04 r_s apart and takes nothing off and adds nothing that counts.
+/// Without streaks the whole has its light: what goes straight between spots is 0.04 r_s apart and takes nothing off and adds nothing that
+/// counts.
 #[test]
 fn sprites_without_streaks_have_their_light() {
     let size = [320, 180];
@@ -145,8 +148,9 @@ fn sprites_without_streaks_have_their_light() {
     }
 }
 
-/// The third image is far thinner than a pixel, and yet it has its light, to a factor of two as that of arcs: from one spot to the next its rings part by
-/// a few roundings of f32 alone. (As if rings went on without end it had five times too much.) At one time alone it is chance which streak of the second image is before it.
+/// The third image is far thinner than a pixel, and yet it has its light, to a factor of two as that of arcs: from one spot to the next its
+/// rings part by a few roundings of f32 alone. (As if rings went on without end it had five times too much.) At one time alone it is chance
+/// which streak of the second image is before it.
 #[test]
 fn the_third_image_of_sprites_has_its_light() {
     let size = [160, 160];

@@ -78,24 +78,25 @@ fn light_over_exact(place: &Place, turbulence: Option<f64>, times: &[f64]) -> [f
     [1, 2].map(|k| (sums[k][0] - sums[k - 1][0]) / (sums[k][1] - sums[k - 1][1]))
 }
 
-/// All the light of the thin images is there, whatever their width in pixels, where the camera hovers (it sees what is below it larger than the rain does)
-/// and where perspective draws pictures out. Gas without streaks: one streak more or less is a tenth of the third image's light.
+/// All the light of the thin images is there, whatever their width in pixels, where the camera hovers (it sees what is below it larger than
+/// the rain does) and where perspective draws pictures out. Gas without streaks: one streak more or less is a tenth of the third image's
+/// light.
 #[test]
 fn thin_images_have_their_light() {
     for place in places() {
         let name = place.name;
         let [second, third] = light_over_exact(&place, Some(0.0), &[TIME]);
         println!("{name}: {second:.3} of the second image's light, {third:.3} of the third's");
-        // From near, the falling gas thins out within a tenth of r_s, and what the second image stops of the third's light goes straight between circles.
-        // They are off by 0.019 and 0.082; the second by 0.052 where all goes straight and is too dark between circles.
+        // From near, the falling gas thins out within a tenth of r_s, and what the second image stops of the third's light goes straight
+        // between circles. They are off by 0.019 and 0.082; the second by 0.052 where all goes straight and is too dark between circles.
         let [less, more] = if name == "at the inner edge" { [0.045, 0.09] } else { [0.03, 0.06] };
         assert!((second - 1.0).abs() < less, "{name}: {second:.3} of the second image's light");
         assert!((third - 1.0).abs() < more, "{name}: {third:.3} of the third image's light");
     }
 }
 
-/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width, which made it
-/// twice as bright from 30°.
+/// Streaks add a third to a half to the light of the third image: its mean counts them, and no single one is drawn over all of its width,
+/// which made it twice as bright from 30°.
 #[test]
 fn the_third_image_has_its_light() {
     for place in &places()[..2] {
@@ -106,8 +107,8 @@ fn the_third_image_has_its_light() {
     }
 }
 
-/// The thin upper arc of the images of order 2 and 3 within the shadow is a line of even light, and not a row of dots: from 48 r_s it is half a pixel to two
-/// wide, and where each circle showed its own gas a pixel had the hot ones or had none.
+/// The thin upper arc of the images of order 2 and 3 within the shadow is a line of even light, and not a row of dots: from 48 r_s it is
+/// half a pixel to two wide, and where each circle showed its own gas a pixel had the hot ones or had none.
 #[test]
 fn thin_images_are_lines_without_a_break() {
     let size = [1280u32, 720];
@@ -138,8 +139,9 @@ fn thin_images_are_lines_without_a_break() {
     assert!(across.iter().all(|&light| light > 0.0) && off < 0.1, "by {off:.3}");
 }
 
-/// The colour of light without its brightness, or the other way round, is a choice of the settings: with both or with neither an image has a certain light in all, and
-/// where only the colour is shifted it has that of neither. So it is in thin images, of which a pixel has the mean.
+/// The colour of light without its brightness, or the other way round, is a choice of the settings: with both or with neither an image has
+/// a certain light in all, and where only the colour is shifted it has that of neither. So it is in thin images, of which a pixel has the
+/// mean.
 #[test]
 fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     let size = [160, 160];
@@ -187,8 +189,9 @@ fn gaps_take_as_much_light_as_gas() {
     }
 }
 
-/// Gaps between rings too narrow to be seen are closed, and rings narrower than a pixel are no dashes: a small picture is what is left of one eight times as large, in which
-/// gaps are open, and nothing goes missing where they open. So it is at the rim too, beyond which there is no ring.
+/// Gaps between rings too narrow to be seen are closed, and rings narrower than a pixel are no dashes: a small picture is what is left of
+/// one eight times as large, in which gaps are open, and nothing goes missing where they open. So it is at the rim too, beyond which there
+/// is no ring.
 #[test]
 fn gaps_too_narrow_to_be_seen_are_closed() {
     let [small, large] = [[160u32, 90], [1280, 720]];

@@ -1,12 +1,13 @@
-//! What is seen where the camera comes to the horizon: light from there climbs slowly, and each point of a ship is seen at a very different time.
+//! What is seen where the camera comes to the horizon: light from there climbs slowly, and each point of a ship is seen at a very different
+//! time.
 
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::Quality;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner_lab::contestant;
 
-/// The camera of `plunge` at r = 1.12, 1.02 and 0.97: which ship a pixel shows is the judge's answer for all but rims. A pixel next to another
-/// ship's is a rim, where a hundredth of a pixel decides; of what is left one in fifty may differ, for parts narrower than a pixel.
+/// The camera of `plunge` at r = 1.12, 1.02 and 0.97: which ship a pixel shows is the judge's answer for all but rims. A pixel next to
+/// another ship's is a rim, where a hundredth of a pixel decides; of what is left one in fifty may differ, for parts narrower than a pixel.
 #[test]
 fn ships_are_whole_where_the_camera_crosses_the_horizon() {
     let size = [96, 54];
@@ -31,8 +32,9 @@ fn ships_are_whole_where_the_camera_crosses_the_horizon() {
     }
 }
 
-/// The camera of `plunge` at r = 0.69, a ship beside it: of its parts, some a hundredth of r_s behind others, the nearest is seen. A point of the ship is
-/// where the judge sees it to a fiftieth of its length but for rims of parts; of the pixels that show ships one in three hundred may differ.
+/// The camera of `plunge` at r = 0.69, a ship beside it: of its parts, some a hundredth of r_s behind others, the nearest is seen. A point
+/// of the ship is where the judge sees it to a fiftieth of its length but for rims of parts; of the pixels that show ships one in three
+/// hundred may differ.
 #[test]
 fn parts_of_a_ship_beside_the_camera_hide_each_other() {
     let size = [160, 90];

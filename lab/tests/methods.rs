@@ -61,8 +61,8 @@ fn rows(l: f64, random: &mut StdRng) -> Vec<[f32; 4]> {
         .collect()
 }
 
-/// Directions within a quarter of a pixel and delays within a thousandth for all rows but few: where a method itself is at the end of single
-/// precision (rays that wind around the photon sphere, brackets that end on a rounding) another order of sums gives another answer.
+/// Directions within a quarter of a pixel and delays within a thousandth for all rows but few: where a method itself is at the end of
+/// single precision (rays that wind around the photon sphere, brackets that end on a rounding) another order of sums gives another answer.
 #[test]
 fn every_method_is_the_same_in_both_languages() {
     let mut race = Race::new(&GPU, TABLE.clone());

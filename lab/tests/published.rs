@@ -1,4 +1,5 @@
-//! The figures that README.md, docs/lab/projection.md and docs/lab/bvh.md print are those of the CSVs in docs/. Where they are not, the test prints what to write.
+//! The figures that README.md, docs/lab/projection.md and docs/lab/bvh.md print are those of the CSVs in docs/. Where they are not, the
+//! test prints what to write.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -263,8 +263,9 @@ fn small_pictures_allow_what_chance_does_to_a_count_and_no_more() {
     let (large, small) = (Limits::default(), Limits::small(2));
     // The plain limit is as it was.
     assert_eq!([large.differing(34860, 1000), large.differing(100, 50)], [0.002 * 35860.0, 1.0]);
-    // An outline of 600 pixels that is off by a hundredth: 6 are expected. Poisson's distribution has 0.00135, a normal one's part beyond three standard
-    // deviations, beyond 15 where 6 are expected, beyond 2 where 0.08 are, beyond 3 where 0.26 are: so many may differ, or one less.
+    // An outline of 600 pixels that is off by a hundredth: 6 are expected. Poisson's distribution has 0.00135, a normal one's part beyond
+    // three standard deviations, beyond 15 where 6 are expected, beyond 2 where 0.08 are, beyond 3 where 0.26 are: so many may differ, or
+    // one less.
     for (pixels, rim, quantile) in [(544, 600, 15.0), (2, 8, 2.0), (20, 26, 3.0)] {
         let allowed = small.differing(pixels, rim).floor();
         assert!(allowed == quantile || allowed == quantile - 1.0, "{allowed} for {quantile}");

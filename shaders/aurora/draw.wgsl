@@ -1,4 +1,5 @@
-// Fourth pass of the aurora: strokes are added up, in kR of each of the four lines; each in its level of the pyramid. Depth is that of the stroke's middle.
+// Fourth pass of the aurora: strokes are added up, in kR of each of the four lines; each in its level of the pyramid. Depth is that of the
+// stroke's middle.
 
 @group(1) @binding(0) var<uniform> level: Level;
 @group(1) @binding(1) var<storage, read> strokes: array<Stroke>;

@@ -32,8 +32,8 @@ fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) instance: u32)
 
 @fragment
 fn fragment(in: Spot) -> @location(0) vec4<f32> {
-    // Sekiguchi et al. tabulate it; an adapter is faster without. As far as the corner of the processor's square, where the triangle reaches so far: what lies between, and
-    // beyond its sides, is less than a hundredth of the peak.
+    // Sekiguchi et al. tabulate it; an adapter is faster without. As far as the corner of the processor's square, where the triangle
+    // reaches so far: what lies between, and beyond its sides, is less than a hundredth of the peak.
     let x = dot(in.place, in.place);
     return select(vec4<f32>(0.0), in.light * exp(-0.5 * x), x <= 2.0 * REACH * REACH);
 }

@@ -1,13 +1,13 @@
-// The walks of the aurora's experiment, one thread per electron: the particle method in space, and the exact walk on the screen. What is dealt out and drawn at
-// random is that of lab/src/aurora/walk.rs.
+// The walks of the aurora's experiment, one thread per electron: the particle method in space, and the exact walk on the screen. What is
+// dealt out and drawn at random is that of lab/src/aurora/walk.rs.
 
 @group(0) @binding(0) var<uniform> frame: Experiment;
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;
 @group(0) @binding(2) var<storage, read> electrons: array<Electron>;
 /// x, y: height of each level and way astray there, km, z: air overhead, g cm⁻², w: the chord that the level lies in.
 @group(0) @binding(3) var<uniform> air: array<vec4<f32>, LEVELS>;
-/// For each row of the table of falls the shares of the energy spent above the level below each, four a texel, and one texel with x: the row's reach,
-/// y: the level where all is spent.
+/// For each row of the table of falls the shares of the energy spent above the level below each, four a texel, and one texel with x: the
+/// row's reach, y: the level where all is spent.
 @group(0) @binding(4) var falls: texture_2d<f32>;
 /// Apparent places on the lattice.
 @group(0) @binding(5) var nodes: texture_2d<f32>;
@@ -136,8 +136,8 @@ fn take(levels: ptr<function, Levels>) -> u32 {
     return min(first + firstTrailingBit(word), LEVELS - 1u);
 }
 
-/// Levels with collisions are found first. So the points' places are reserved at once, and there is work for every thread in each step: in steps from level to
-/// level three threads of four would wait for the others. Points that are not before the camera have no light.
+/// Levels with collisions are found first. So the points' places are reserved at once, and there is work for every thread in each step: in
+/// steps from level to level three threads of four would wait for the others. Points that are not before the camera have no light.
 @compute @workgroup_size(64)
 fn exact(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= arrayLength(&electrons) {

@@ -16,8 +16,8 @@ struct Lines {
 /// Of each image, as in lit_tiles.wgsl.
 @group(1) @binding(1) var<storage, read> numbers: array<u32>;
 
-/// The place on the screen (NDC) of a corner of two triangles for each tile, or of none. The instance is four times the image and the kind of tiles that are
-/// drawn: 1 with light in the finest level alone, 2 in coarser ones alone, 3 in both.
+/// The place on the screen (NDC) of a corner of two triangles for each tile, or of none. The instance is four times the image and the kind
+/// of tiles that are drawn: 1 with light in the finest level alone, 2 in coarser ones alone, 3 in both.
 fn lit_corner(i: u32, instance: u32) -> vec2<f32> {
     let tile = vec2<u32>((i / 6u) % LIT_TILE_COLUMNS, (i / 6u) / LIT_TILE_COLUMNS);
     let image = instance / 4u;

@@ -7,8 +7,8 @@ const PYRAMID: u32 = 7u;
 const LIT_TILE_COLUMNS: u32 = 32u;
 const LIT_TILE_ROWS: u32 = 16u;
 
-/// The first of the numbers of an image: the arguments of each level's drawing, strokes in each pair of levels, a word for each row of lit tiles that the finest level
-/// may light, and one for each that coarser levels may.
+/// The first of the numbers of an image: the arguments of each level's drawing, strokes in each pair of levels, a word for each row of lit
+/// tiles that the finest level may light, and one for each that coarser levels may.
 fn numbers_of(image: u32) -> u32 {
     return image * (4u * (PYRAMID + 1u) + 2u * LIT_TILE_ROWS);
 }

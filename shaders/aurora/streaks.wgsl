@@ -5,7 +5,8 @@
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.
     counts: vec4<u32>,
-    /// x: which row of the history is the newest, y: segments, z: room for strokes of one instance in the two finest levels (see room_of), w: AURORA_*.
+    /// x: which row of the history is the newest, y: segments, z: room for strokes of one instance in the two finest levels (see room_of),
+    /// w: AURORA_*.
     history: vec4<u32>,
     /// x: seconds between rows, y: by how many seconds the newest row is ahead of the time that is seen, z: time in s for the rays (mod
     /// RAYS_PERIOD), w: contrast.

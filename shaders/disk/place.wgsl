@@ -317,11 +317,12 @@ fn camera_doppler_of(look: vec3<f32>) -> f32 {
     return max(m[3].w - (m[0].w * look.x + m[1].w * look.y + m[2].w * look.z), 1e-6);
 }
 
-/// Least cosine of the angle from the camera's axis for the size of a pixel: beyond it, where no picture reaches, pixels stay as large as there.
+/// Least cosine of the angle from the camera's axis for the size of a pixel: beyond it, where no picture reaches, pixels stay as large as
+/// there.
 const LEAST_AHEAD: f32 = 0.1;
 
-/// The rain frame's angle that is one pixel of the middle of a picture long, at `look` in the direction `along` (rain axes) across it: by aberration,
-/// and by the perspective, which draws out what is aside.
+/// The rain frame's angle that is one pixel of the middle of a picture long, at `look` in the direction `along` (rain axes) across it: by
+/// aberration, and by the perspective, which draws out what is aside.
 fn pixel_of(look: vec3<f32>, along: vec3<f32>) -> f32 {
     let m = frame.camera_from_rain;
     let seen = (m * vec4<f32>(look, -1.0)).xyz;

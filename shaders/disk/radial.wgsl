@@ -18,8 +18,8 @@ fn radial_gas(r: f32) -> RadialGas {
     return RadialGas(mix(radial_table[2u * i], radial_table[2u * i + 2u], t), mix(radial_table[2u * i + 1u], radial_table[2u * i + 3u], t));
 }
 
-/// ν_observed/ν_emitted (x) and |cos| to the normal in the gas's frame (y) for gas at r seen in the direction `apparent` (camera axes), from what a
-/// photon conserves, energy and angular momentum, and whether it left outward.
+/// ν_observed/ν_emitted (x) and |cos| to the normal in the gas's frame (y) for gas at r seen in the direction `apparent` (camera axes),
+/// from what a photon conserves, energy and angular momentum, and whether it left outward.
 fn gas_ratio(apparent: vec3<f32>, r: f32, outward: bool, gas: RadialGas) -> vec2<f32> {
     let past = (frame.rain_from_camera * vec4<f32>(normalize(apparent), -1.0)).xyz;
     let k = -past;

@@ -1,5 +1,5 @@
-// The disk of sprites, projected: one thread per spot, one dispatch per image order. A spot is a place that gas flows through, as an arc is. It reaches to
-// its neighbours' middles, as the camera sees them: two lookups beside its own.
+// The disk of sprites, projected: one thread per spot, one dispatch per image order. A spot is a place that gas flows through, as an arc
+// is. It reaches to its neighbours' middles, as the camera sees them: two lookups beside its own.
 
 /// Radius in r_s; where it is on its ring, even in σ, in rad; from there to the next.
 struct Sprite {
@@ -24,7 +24,8 @@ struct SpriteImage {
     end: f32,
 }
 
-/// Rings to the place by which the width of a spot is told, in orders 2 and 3: their images are so narrow that rounding shows between two rings.
+/// Rings to the place by which the width of a spot is told, in orders 2 and 3: their images are so narrow that rounding shows between two
+/// rings.
 const RINGS_APART: f32 = 4.0;
 /// Half the width, in pixels, below which a spot is spread over more than its own: what is narrower would be seen or not seen by chance.
 const LEAST_HALF: f32 = 0.5;
@@ -91,8 +92,8 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     let half = dot(aside, normal);
     let spread = clamp(ceil(LEAST_HALF / max(abs(half), 1e-12)), 1.0, MOST_SPREAD);
     if spread > 1.0 {
-        // Straight across, for where the plane is seen edge on rings lie beside one another along their length; each is whole wherever its spots are. A
-        // narrow spot is so far off that its own depth is nothing, but not so many times that.
+        // Straight across, for where the plane is seen edge on rings lie beside one another along their length; each is whole wherever its
+        // spots are. A narrow spot is so far off that its own depth is nothing, but not so many times that.
         across = vec3<f32>(spread * half * normal / pixels, 0.0);
     }
     let extent = abs(across) + abs(along);

@@ -1,5 +1,6 @@
-// The disk of sprites, drawn. Where the middles of four spots stand round a place, its light goes from one to the other as a bilinear sample does. Spots are
-// drawn in a known order, ring by ring outwards and along each ring, so each knows how much of a pixel those that are drawn later will take.
+// The disk of sprites, drawn. Where the middles of four spots stand round a place, its light goes from one to the other as a bilinear
+// sample does. Spots are drawn in a known order, ring by ring outwards and along each ring, so each knows how much of a pixel those that
+// are drawn later will take.
 
 @group(1) @binding(0) var<storage, read> seen_sprites: array<SeenSprite>;
 
@@ -22,13 +23,14 @@ fn vertex(@builtin(vertex_index) index: u32) -> Spot {
     return Spot(vec4<f32>(place.xy, frame.projection.z, place.z), corner, vec2<f32>(sprite.place.w, sprite.across.w), sprite.colour);
 }
 
-/// The share that the `count` rings beyond its own have in a place `across` from the middle of a spot, of tents that reach over `spread` rings on either side.
+/// The share that the `count` rings beyond its own have in a place `across` from the middle of a spot, of tents that reach over `spread`
+/// rings on either side.
 fn later_rings(across: f32, spread: f32, count: f32) -> f32 {
     return all_later(across * spread, spread) - all_later(across * spread - count, spread);
 }
 
-/// The same of rings without end, for a place so many `rings` from the middle: Σ_{k ≥ 1} max(0, 1 − |rings − k|/spread)/spread, which goes straight between
-/// whole numbers.
+/// The same of rings without end, for a place so many `rings` from the middle: Σ_{k ≥ 1} max(0, 1 − |rings − k|/spread)/spread, which goes
+/// straight between whole numbers.
 fn all_later(from_middle: f32, spread: f32) -> f32 {
     let rings = clamp(from_middle, -spread, spread);
     let whole = floor(rings);

@@ -3,8 +3,8 @@
 struct SeenSprite {
     /// The middle: x, y and w of clip space; w: over how many times its own width across the orbits the spot is spread (a whole number).
     place: vec4<f32>,
-    /// From there to its ends across the orbits and along them, in the same; w of the first: rings beyond its own, of the second unused. Nothing where the spot
-    /// is not seen.
+    /// From there to its ends across the orbits and along them, in the same; w of the first: rings beyond its own, of the second unused.
+    /// Nothing where the spot is not seen.
     across: vec4<f32>,
     along: vec4<f32>,
     /// Light, and opacity, of the gas there.

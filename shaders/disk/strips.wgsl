@@ -1,4 +1,5 @@
-// Stage 4: one thread per arc. Joins the points of its two circles by triangles; its radial sides point to the hole, where they are seen straight.
+// Stage 4: one thread per arc. Joins the points of its two circles by triangles; its radial sides point to the hole, where they are seen
+// straight.
 
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {

@@ -8,7 +8,8 @@ struct DiskFrame {
     sideways: vec4<f32>,
     /// Unit vector across the axis and upwards, which completes (radial, sideways); w: |h|.
     upwards: vec4<f32>,
-    /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of a new-born.
+    /// x: time at the camera since the first generation of streaks, in renewals; y: renewals per r_s/c; z: one renewal in r_s/c; w: age of
+    /// a new-born.
     renewal: vec4<f32>,
     /// x: standard deviation of ln density; y: the share of the area that has gas, in rings whose gaps are closed; z: error budget of an
     /// arc in rad; w: least width of thin images in pixels.
@@ -45,8 +46,8 @@ struct Circle {
 struct DiskVertex {
     /// Direction from the camera times light path, camera axes; w: the light path.
     apparent: vec4<f32>,
-    /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the ray
-    /// (close look: straight through).
+    /// x: azimuth less lead, in turns; y: height in the pattern; z: ln of the temperature that is seen, in K; w: optical depth along the
+    /// ray (close look: straight through).
     gas: vec4<f32>,
     /// x: ln g; y: |cos| to the normal, in the frame of the gas; z: distance from the middle of a thin image, w: its half width, both in
     /// pixels. For order 1, z: share of the area that has gas, w: 10⁶.

@@ -1,7 +1,6 @@
-// Closed approximations of light bending: the twin of src/lensing/closed.rs. Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with the
-// angle α of the ray from the outward radial in the static frame and χ, the angle it still sweeps on its way to infinity; the impact parameter
-// is the same at both ends. The method that includes this file supplies
-//   fn tilt(u: f32, y: f32) -> f32, X
+// Closed approximations of light bending: the twin of src/lensing/closed.rs. Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with
+// the angle α of the ray from the outward radial in the static frame and χ, the angle it still sweeps on its way to infinity; the impact
+// parameter is the same at both ends. The method that includes this file supplies fn tilt(u: f32, y: f32) -> f32, X
 
 /// b² of the ray at 1/u that sweeps `chi` more.
 fn impact(u: f32, lapse2: f32, chi: f32) -> f32 {

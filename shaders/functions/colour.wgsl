@@ -21,9 +21,9 @@ fn luminance(rgb: vec3<f32>) -> f32 {
     return dot(rgb, vec3<f32>(0.2126, 0.7152, 0.0722));
 }
 
-/// Light of a surface that is not a black body, seen at frequency ratio g. The three channels are read as a spectrum over ln λ, linear between
-/// the centres of the channels and falling as a Gaussian outside, which is sampled where the observed light came from. An approximation:
-/// three numbers do not hold a spectrum. Radiance per frequency goes as g³ (Liouville: I_ν/ν³ is conserved).
+/// Light of a surface that is not a black body, seen at frequency ratio g. The three channels are read as a spectrum over ln λ, linear
+/// between the centres of the channels and falling as a Gaussian outside, which is sampled where the observed light came from. An
+/// approximation: three numbers do not hold a spectrum. Radiance per frequency goes as g³ (Liouville: I_ν/ν³ is conserved).
 fn shifted_colour(rgb: vec3<f32>, g: f32, doppler: bool, beaming: bool) -> vec3<f32> {
     var colour = rgb;
     if doppler & (g != 1.0) {

@@ -21,8 +21,9 @@ fn disk_rate(y: f32) -> f32 {
     return exp2(-6.0 * y) * 0.11253954;
 }
 
-/// Of light with this energy and angular momentum, by what a photon conserves: the frequency in the frame of gas at r, which has the rain-frame momentum
-/// per mass `gas` (outward, along the orbit), and |cos| to the disk's normal there. `outward`: whether the light left that way.
+/// Of light with this energy and angular momentum, by what a photon conserves: the frequency in the frame of gas at r, which has the
+/// rain-frame momentum per mass `gas` (outward, along the orbit), and |cos| to the disk's normal there. `outward`: whether the light left
+/// that way.
 fn disk_frequency(energy: f32, angular: vec3<f32>, r: f32, outward: bool, gas: vec2<f32>) -> vec2<f32> {
     let spin = angular / r;
     let beta = inverseSqrt(r);

@@ -18,8 +18,8 @@ fn to_rain_time(u: f32) -> f32 {
     return 2.0 / beta - 2.0 * log(1.0 + beta);
 }
 
-/// The travel time of light along the ray (w, e, w_e) from u = `c` to the camera over `phi`: by parts in closed form, the rest by Gauss's rule
-/// of twelve on panels of up to two radians, each half of the way reached from its own end.
+/// The travel time of light along the ray (w, e, w_e) from u = `c` to the camera over `phi`: by parts in closed form, the rest by Gauss's
+/// rule of twelve on panels of up to two radians, each half of the way reached from its own end.
 fn exact_delay(cam: LensCamera, c: f32, lapse2: f32, phi: f32, ray: Joined) -> f32 {
     let a = cam.a;
     let e = ray.energy;

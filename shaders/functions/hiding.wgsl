@@ -25,8 +25,8 @@ fn direction_of(k: u32) -> vec3<f32> {
     return select(vec3<f32>(long, short, 0.0), vec3<f32>(long, 0.0, short), icosahedron);
 }
 
-/// The part of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one for each direction, weighted by
-/// how near those are, (cos angle)⁸, of all from which the triangle shows its outer side, whose normal is `outward`.
+/// The part of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one for each direction,
+/// weighted by how near those are, (cos angle)⁸, of all from which the triangle shows its outer side, whose normal is `outward`.
 fn seen_part(seen_from: u32, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
     var sum = 0.0;
     var all = 0.0;

@@ -13,8 +13,8 @@
 //   const SEES_INSIDE: bool, false in passes that never look from inside the horizon at what is inside: they compile in half the time
 //   fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32>, of residuals.wgsl or a method's own
 //   fn lens_texel(index: u32) -> vec4<f32>
-// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (tangent of half the
-// turn of w, delay, the same of w_e, unused), r fastest.
+// the slice as `lensing::Slice::texels` has it: four texels with the constants of the camera radius, then the coefficients (tangent of half
+// the turn of w, delay, the same of w_e, unused), r fastest.
 
 const BEND_START: f32 = 3.4;
 const BEND_RANGE: f32 = 1.4;
@@ -120,8 +120,8 @@ fn bent_sweep(sweep: f32) -> f32 {
     return BEND_START + off / (1.0 + x4);
 }
 
-/// (K, h, q) for Stumpff's functions of Φ²/4: 1 − cos Φ; twice cos(Φ/2), kept positive beyond π by the width of the Einstein ring; the square of the
-/// chord between two unit vectors less what the lens takes.
+/// (K, h, q) for Stumpff's functions of Φ²/4: 1 − cos Φ; twice cos(Φ/2), kept positive beyond π by the width of the Einstein ring; the
+/// square of the chord between two unit vectors less what the lens takes.
 fn lens_equation(cam: LensCamera, c: f32, bent: f32, half: vec2<f32>) -> vec3<f32> {
     let x = bent * half.x;
     let square = x * x;
@@ -301,8 +301,8 @@ struct Path {
     lag: f32,
 }
 
-/// `nodes` is 12. It and `steps` below come from the camera and not from constants: compilers unroll loops of a known length, and twelve nodes
-/// in six steps made a minute of compilation of each pass; a camera outside skips loops of length 0.
+/// `nodes` is 12. It and `steps` below come from the camera and not from constants: compilers unroll loops of a known length, and twelve
+/// nodes in six steps made a minute of compilation of each pass; a camera outside skips loops of length 0.
 fn inside_path(q: f32, l: f32, r: f32, zl: f32, zr: f32, dr: f32, nodes: u32) -> Path {
     var d = 0.5;
     if q < INSIDE_ROOT {
@@ -446,8 +446,8 @@ fn swept(at: SourcePoint, order: u32) -> f32 {
     return select(at.phi, select(2.0 * HALF_TURN - at.phi, 2.0 * HALF_TURN + at.phi, order == 3u), order != 1u);
 }
 
-/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is the
-/// time since the light left as far as it is known: where camera and point are both inside it decides between E > 0 and E < 0.
+/// The ray of `order` from the point `along` outward and `across` from the axis, away from the camera; `height` = L + along; `elapsed` is
+/// the time since the light left as far as it is known: where camera and point are both inside it decides between E > 0 and E < 0.
 fn lens_lookup_aged(along: f32, across: f32, height: f32, order: u32, elapsed: f32) -> LensRay {
     // Far from the camera the place is known without it: it must be a number all the same.
     if !finite(along) {

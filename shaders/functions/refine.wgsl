@@ -1,7 +1,7 @@
 // One Newton step on the closed form after the lookup: the twin of src/lensing/shooting.rs.
 
-/// The largest turn of a slope that is believed, radians: more than the table is ever off, and less than half a pixel. Beyond it, what speaks is
-/// the rounding of the closed form.
+/// The largest turn of a slope that is believed, radians: more than the table is ever off, and less than half a pixel. Beyond it, what
+/// speaks is the rounding of the closed form.
 const MOST_REFINED: f32 = 5e-5;
 
 /// `ray` with the slopes that the step gives; its delay stays.

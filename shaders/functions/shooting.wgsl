@@ -1,5 +1,5 @@
-// The ray that meets a point, by Newton's method in a bracket: the twin of src/lensing/shooting.rs. The method that includes this file supplies
-//   fn fire(cam: LensCamera, x: f32, phi: f32) -> Fired
+// The ray that meets a point, by Newton's method in a bracket: the twin of src/lensing/shooting.rs. The method that includes this file
+// supplies fn fire(cam: LensCamera, x: f32, phi: f32) -> Fired
 
 /// A shot from the camera: its fate, u − a and du/dΦ at the end, ∂u/∂x there and the time it took.
 struct Fired {

@@ -1,6 +1,6 @@
 // Light from infinity. Everything depends on one angle, so the table has one dimension and is made anew, in f64, for each frame's camera:
-// Φ∞ is the angle that the ray seen at ψ sweeps on its way to infinity. It grows without bound at the edge of the shadow, as −ln of the gap;
-// so with ψ = ψ_shadow (1 − e^{−s}) both Φ(s) and s(Φ) are smooth. Nodes hold value and slope; between them the cubic of Hermite.
+// Φ∞ is the angle that the ray seen at ψ sweeps on its way to infinity. It grows without bound at the edge of the shadow, as −ln of the
+// gap; so with ψ = ψ_shadow (1 − e^{−s}) both Φ(s) and s(Φ) are smooth. Nodes hold value and slope; between them the cubic of Hermite.
 //
 // sky_slice[i] = (Φ, dΦ/ds at s = i·SKY_S / (n − 1);  s, ds/dΦ at Φ = i·3π / (n − 1)).
 

@@ -162,8 +162,8 @@ fn side_point(a: vec3<f32>, b: vec3<f32>, i: u32, n: u32, level: u32) -> vec3<f3
     return b + (a - b) * snapped(n - i, n, level);
 }
 
-/// A vertex of a fan's grid: the point of its outer edge, barycentric, and w: how far from the axis towards it. Each side has its own level:
-/// the arc at the axis, the outer edge, the two radial sides.
+/// A vertex of a fan's grid: the point of its outer edge, barycentric, and w: how far from the axis towards it. Each side has its own
+/// level: the arc at the axis, the outer edge, the two radial sides.
 fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
     let c1 = item.piece.corner_1.xyz;
     let c2 = item.piece.corner_2.xyz;

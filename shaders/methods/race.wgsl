@@ -11,7 +11,8 @@ const TABLE_ROW: u32 = 1024u;
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;
 /// Along, across, height, and the order, 4 more for light of any age.
 @group(0) @binding(2) var<storage, read> race_rows: array<vec4<f32>>;
-/// Two for each thread: cos ψ, sin ψ, delay, presence; frequency, momentum and frequency at the point, e. Summed over its look-ups, where it makes more than one.
+/// Two for each thread: cos ψ, sin ψ, delay, presence; frequency, momentum and frequency at the point, e. Summed over its look-ups, where
+/// it makes more than one.
 @group(0) @binding(3) var<storage, read_write> race_out: array<vec4<f32>>;
 
 /// How far apart the rows of a thread's look-ups are: a prime, so that neighbours go on being neighbours and all rows have their turn.

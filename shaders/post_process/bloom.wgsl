@@ -14,8 +14,8 @@ fn vertex(@builtin(vertex_index) i: u32) -> Screen {
     return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
 }
 
-/// Four bilinear taps: the mean of 4 × 4 texels, which is a box for a quarter of the size and overlaps for a half. Sums of light that halves cannot hold
-/// are infinite in the picture, and one such pixel would spread.
+/// Four bilinear taps: the mean of 4 × 4 texels, which is a box for a quarter of the size and overlaps for a half. Sums of light that
+/// halves cannot hold are infinite in the picture, and one such pixel would spread.
 @fragment
 fn down(in: Screen) -> @location(0) vec4<f32> {
     let d = 1.0 / vec2<f32>(textureDimensions(source));

@@ -6,8 +6,8 @@
 
 var<workgroup> sums: array<vec2<f32>, 64>;
 
-/// How much a texel counts: not the player's own ship, which is lit for the exposure and not the exposure for it. The circle's edge is soft, so that nothing
-/// jumps as it moves.
+/// How much a texel counts: not the player's own ship, which is lit for the exposure and not the exposure for it. The circle's edge is
+/// soft, so that nothing jumps as it moves.
 fn metered_part(texel: vec2<f32>, size: vec2<f32>) -> f32 {
     let radius = max(frame.unmetered.z, 1e-6);
     let place = (texel + 0.5 - 0.5 * size) / size.x;

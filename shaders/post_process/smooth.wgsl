@@ -1,6 +1,7 @@
-// Smooth: outlines of bodies without steps. The picture for the eye is blurred along its edges, as FXAA does it (Lottes 2009); light is not, for an edge
-// beside a bright one would stay a step. Where no body is within a pixel nothing changes: stars and lines of light have their own ways. It is drawn over the
-// finished picture in tiles, of those alone that have an outline: on a software driver all pixels would take three times as long as their tone mapping.
+// Smooth: outlines of bodies without steps. The picture for the eye is blurred along its edges, as FXAA does it (Lottes 2009); light is
+// not, for an edge beside a bright one would stay a step. Where no body is within a pixel nothing changes: stars and lines of light have
+// their own ways. It is drawn over the finished picture in tiles, of those alone that have an outline: on a software driver all pixels
+// would take three times as long as their tone mapping.
 
 @group(2) @binding(0) var display: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
@@ -16,7 +17,8 @@ const TILE: u32 = 16u;
 /// A tile has an outline if of its depths the nearest is this many times the farthest, or some are nothing's.
 const STEP: f32 = 1.01;
 
-/// Two triangles of the tile `tile`; of one without an outline nothing. Every other pixel is asked, and those beside the tile: outlines are longer.
+/// Two triangles of the tile `tile`; of one without an outline nothing. Every other pixel is asked, and those beside the tile: outlines are
+/// longer.
 @vertex
 fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) tile: u32) -> @builtin(position) vec4<f32> {
     let size = textureDimensions(depth);

@@ -11,7 +11,8 @@ struct Spot {
 @vertex
 fn vertex(@builtin(vertex_index) i: u32) -> Spot {
     let star = seen_stars[i / 3u];
-    // The triangle round the spot: a third more pixels than a square, but half the triangles, and these are what a software driver pays for.
+    // The triangle round the spot: a third more pixels than a square, but half the triangles, and these are what a software driver pays
+    // for.
     let corners = array<vec2<f32>, 3>(vec2<f32>(-1.7320508, -1.0), vec2<f32>(1.7320508, -1.0), vec2<f32>(0.0, 2.0));
     let corner = corners[i % 3u] * star.place.z;
     // A depth just nearer than the sky's: everything solid hides it.

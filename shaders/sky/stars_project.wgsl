@@ -1,5 +1,6 @@
-// Stars, projected forward: eight threads per cluster and order, which go through its stars from the brightest on until they are too faint. Power goes as the black body at gT over the one at T, times the exact ratio of
-// solid angles in the camera's frame, held below that of a star of finite size.
+// Stars, projected forward: eight threads per cluster and order, which go through its stars from the brightest on until they are too faint.
+// Power goes as the black body at gT over the one at T, times the exact ratio of solid angles in the camera's frame, held below that of a
+// star of finite size.
 
 @group(1) @binding(0) var<storage, read> stars: array<Star>;
 @group(1) @binding(1) var<storage, read_write> seen_stars: array<SeenStar>;
@@ -37,8 +38,8 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let n = frame.radial.xyz;
     let flags = frame.switches.x;
     let exposure = frame.fill.z;
-    // Speed makes more of one star than of another: over an angle θ the Doppler factor 1/(γ(1 − β cos)) changes by e^{βγθ} at most, and the light by
-    // its square.
+    // Speed makes more of one star than of another: over an angle θ the Doppler factor 1/(γ(1 − β cos)) changes by e^{βγθ} at most, and the
+    // light by its square.
     let gamma = frame.camera_from_rain[3].w;
     let sure = SURE * exp(2.0 * CLUSTER_WIDTH * sqrt(max(gamma * gamma - 1.0, 0.0)));
     // Two pixels of margin for the spot.

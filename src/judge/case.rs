@@ -201,8 +201,8 @@ impl Case {
         let camera = PixelCamera { observer: view, size };
         let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
         for history in &mut histories {
-            // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest light
-            // that the judge looks for.
+            // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest
+            // light that the judge looks for.
             let mut back = 120.0 + 2.0 * camera.observer.position.length();
             loop {
                 history.reach_back(time - back);

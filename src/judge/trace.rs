@@ -154,7 +154,8 @@ fn meet(ray: &Ray, corners: [DVec3; 3], until: f64) -> Option<(super::ray::RaySa
     None
 }
 
-/// Where a segment crosses the line a·x = c, in order: by its height above the line at many points, so that no case is left out by reasoning.
+/// Where a segment crosses the line a·x = c, in order: by its height above the line at many points, so that no case is left out by
+/// reasoning.
 fn crossings(segment: &Segment, a: DVec2, c: f64) -> Vec<f64> {
     const SAMPLES: usize = 48;
     let height = |s: f64| a.dot(segment.position(s)) - c;

@@ -1,8 +1,8 @@
-//! Closed approximations of light bending in f32: the twins of shaders/functions/closed.wgsl and static_ray.wgsl, line by line. What the GPU's
-//! methods "beloborodov" and "poutanen" do, and how "paper1" gets its momenta.
+//! Closed approximations of light bending in f32: the twins of shaders/functions/closed.wgsl and static_ray.wgsl, line by line. What the
+//! GPU's methods "beloborodov" and "poutanen" do, and how "paper1" gets its momenta.
 //!
-//! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with the angle α of the ray from the outward radial in the static frame and χ, the
-//! angle it still sweeps on its way to infinity; the impact parameter is the same at both ends. Sources: `lensing::methods`.
+//! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with the angle α of the ray from the outward radial in the static frame and χ,
+//! the angle it still sweeps on its way to infinity; the impact parameter is the same at both ends. Sources: `lensing::methods`.
 
 use super::lookup::{LensRay, NOTHING, finite, ray_of};
 use super::single::{HALF_TURN, LensCamera, energy};

@@ -1,5 +1,6 @@
-//! The elementary functions that the lookup calls, for `formulas` in both precisions: in f32 short polynomials without branches, good to the last
-//! place or two, that the compiler can inline, in pairs of terms that do not wait for each other; in f64, for the bake, the library's.
+//! The elementary functions that the lookup calls, for `formulas` in both precisions: in f32 short polynomials without branches, good to
+//! the last place or two, that the compiler can inline, in pairs of terms that do not wait for each other; in f64, for the bake, the
+//! library's.
 
 /// In f32. The coefficients are minimax fits over the ranges given.
 #[allow(clippy::excessive_precision)]

@@ -1,6 +1,6 @@
 // The formulas of the lookup, written once and compiled for both precisions by `mod.rs` (`type Real`): in f64 for the bake, in
-// f32 as the twin of shaders/functions/lensing.wgsl, function for function under the same names. What is needed at the camera and at the point
-// alike is done in two lanes of one register.
+// f32 as the twin of shaders/functions/lensing.wgsl, function for function under the same names. What is needed at the camera and at the
+// point alike is done in two lanes of one register.
 //
 // Symbols: a = 1/L, c = 1/r, Φ the angle swept, w = du/dΦ at the camera, w_e the same at the point, e = 1/b with
 // e² = w² + a² − a³ = w_e² + c² − c³; T is Painlevé–Gullstrand time. Lengths in r_s, times in r_s/c, angles in radians.
@@ -97,8 +97,8 @@ pub fn bent_sweep(sweep: Real) -> Real {
 
 /// What the delay's closed form and the table share of the sweep: K = 1 − cos Φ, h and q, for Stumpff's functions of Φ²/4.
 ///
-/// h is half the chord's fall, cos(Φ/2), doubled and kept positive beyond π: (y + √(y² + s²))/2 with y = 2 cos(Φ/2) and the width s of the Einstein
-/// ring; q is the square of the chord between two unit vectors less what the lens takes.
+/// h is half the chord's fall, cos(Φ/2), doubled and kept positive beyond π: (y + √(y² + s²))/2 with y = 2 cos(Φ/2) and the width s of the
+/// Einstein ring; q is the square of the chord between two unit vectors less what the lens takes.
 #[inline]
 pub fn lens_equation(cam: &LensCamera, c: Real, bent: Real, (sine, cosine): (Real, Real)) -> [Real; 3] {
     let x = bent * sine;
@@ -107,7 +107,8 @@ pub fn lens_equation(cam: &LensCamera, c: Real, bent: Real, (sine, cosine): (Rea
     let y = 2.0 * cosine;
     let quarter = 0.5 * (cam.share + c) * k * k;
     let large = 0.5 * y.abs() + (0.25 * y * y + quarter).sqrt();
-    // x² − excess (h + y), where excess h is a quarter of the softening. Which of the two is h depends on the order: a branch that is foreseen.
+    // x² − excess (h + y), where excess h is a quarter of the softening. Which of the two is h depends on the order: a branch that is
+    // foreseen.
     if y > 0.0 { [k, large, square - quarter - quarter / large * y] } else { [k, quarter / large, square - quarter - large * y] }
 }
 
@@ -119,8 +120,9 @@ pub fn near_axis(sweep: Real) -> Real {
 
 /// The table's first two coordinates, each in 0..=1, from the logarithms of c + `soft`, of [`near_axis`] and of h/2.
 ///
-/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The second runs
-/// over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the Einstein ring.
+/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The
+/// second runs over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the
+/// Einstein ring.
 #[inline]
 pub fn axes(cam: &LensCamera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
     ((point - 2.0 * root_room - cam.start) * cam.scale, (sweep + near - 0.3 * lens) * (1.0 / SWEEP_LENGTH))
@@ -178,9 +180,9 @@ pub fn energy(w: Real, u: Real, lapse2: Real) -> Real {
     (w * w + u * u * lapse2).max(0.0).sqrt()
 }
 
-/// The photon's rain-frame momentum per angular momentum at two places, [camera, point], at u with the river's speed `beta` and `lapse2` = 1 − u, for
-/// slopes w and the energy e: frequency plus outward momentum at both, then frequency less it. Their product is u², the square of the momentum
-/// against the sweep. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
+/// The photon's rain-frame momentum per angular momentum at two places, [camera, point], at u with the river's speed `beta` and `lapse2` =
+/// 1 − u, for slopes w and the energy e: frequency plus outward momentum at both, then frequency less it. Their product is u², the square
+/// of the momentum against the sweep. Regular through the horizon for w ≤ 0 ≤ e; e < 0 exists only inside.
 #[inline]
 pub fn light_cones(w: (Real, Real), e: Real, u: (Real, Real), beta: (Real, Real), lapse2: (Real, Real)) -> [Real; 4] {
     let pair = |(a, b): (Real, Real)| Four::from([a, b, a, b]);
@@ -194,8 +196,8 @@ pub fn light_cones(w: (Real, Real), e: Real, u: (Real, Real), beta: (Real, Real)
     (Four::from([over[0], over[1], back[0], back[1]]) / Four::from([under[0], under[1], over[0], over[1]])).to_array()
 }
 
-/// The slopes whose angles atan2(u, −slope) are those of the guesses turned by twice the angles whose tangents are `turns`: how the table corrects
-/// the closed forms.
+/// The slopes whose angles atan2(u, −slope) are those of the guesses turned by twice the angles whose tangents are `turns`: how the table
+/// corrects the closed forms.
 #[inline]
 pub fn turned_slopes(guesses: (Real, Real), u: (Real, Real), turns: (Real, Real)) -> (Real, Real) {
     let pair = |(a, b): (Real, Real)| Four::from([a, b, a, b]);
@@ -215,9 +217,10 @@ pub fn emission_scale(cam: &LensCamera, c: Real) -> Real {
 
 /// The part of the delay that is regular across the Einstein ring: the chord and Shapiro's logarithm. `logs` are ln(r/L) and ln(h/2).
 ///
-/// Exact along Φ = 0 and, for a camera outside, to second order in the distance: the mean of 1 + 3/r over the way times the root of the squares of
-/// the radial distance and of the chord, the latter by the mean of the lapse squared at both ends. Next to the horizon it is exact at any distance that is
-/// small beside 1: there four times ((ε₁ − ε₂)² + (ε₁ + ε₂) φ²/2 + φ⁴/16)^½ with ε = r − 1 is light between two falling observers in flat space.
+/// Exact along Φ = 0 and, for a camera outside, to second order in the distance: the mean of 1 + 3/r over the way times the root of the
+/// squares of the radial distance and of the chord, the latter by the mean of the lapse squared at both ends. Next to the horizon it is
+/// exact at any distance that is small beside 1: there four times ((ε₁ − ε₂)² + (ε₁ + ε₂) φ²/2 + φ⁴/16)^½ with ε = r − 1 is light between
+/// two falling observers in flat space.
 #[inline]
 pub fn delay_across(cam: &LensCamera, r: Real, c: Real, lapse2: Real, dr: Real, [k, _, q]: [Real; 3], logs: (Real, Real)) -> Real {
     let mean = 1.0 + 3.0 * if dr.abs() > 1e-6 * cam.l { logs.0 / dr } else { cam.a };
@@ -229,7 +232,8 @@ pub fn delay_across(cam: &LensCamera, r: Real, c: Real, lapse2: Real, dr: Real, 
 /// The factor of [`delay_across`] and the table's delay, which goes to zero with e at the horizon.
 #[inline]
 pub fn delay_factor(cam: &LensCamera, c: Real, k: Real, e: Real) -> Real {
-    // Near the camera it is 1, and far away all the same; the sum keeps the eighth power from becoming a number too small for f32's usual ones, which are slow.
+    // Near the camera it is 1, and far away all the same; the sum keeps the eighth power from becoming a number too small for f32's usual
+    // ones, which are slow.
     let near = c + 0.01;
     let c4 = near * near * near * near;
     e / (e * e + 0.25 * k * k * c4 * c4 * cam.lift).sqrt()

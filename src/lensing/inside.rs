@@ -4,9 +4,9 @@
 //!
 //! Φ = ∫ 2 dt/W from √L to √r,  W² = 1 − t² + q t⁶.
 //!
-//! It falls with q, and 1/Φ² is concave in q (a power mean of functions linear in q), so Newton's method on 1/Φ² never overshoots from below:
-//! no bracket is needed. The integral is taken by Gauss's rule in θ, t = √S sin θ, where S = 1 + δ is the root of W² that lies next to the
-//! horizon while q is small (W² = S cos²θ − q (S³ − r³)), so that nothing is singular where r → 1 and e → 0 together.
+//! It falls with q, and 1/Φ² is concave in q (a power mean of functions linear in q), so Newton's method on 1/Φ² never overshoots from
+//! below: no bracket is needed. The integral is taken by Gauss's rule in θ, t = √S sin θ, where S = 1 + δ is the root of W² that lies next
+//! to the horizon while q is small (W² = S cos²θ − q (S³ − r³)), so that nothing is singular where r → 1 and e → 0 together.
 //!
 //! Both signs of E belong to one path. Their delays have a mean in closed form, that of the ray of zero energy:
 //! mean = 2 [artanh t − t].

@@ -4,8 +4,8 @@
 //! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
 //! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
 //! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
-//! method of Yamashita 2012, for comparison, and `score` measures the error of either. `orbit`, `shooting` and `closed` are f32 methods without a table.
-//! `methods` is all of them by name, `project` the command that asks one, `adversarial` the points where they break.
+//! method of Yamashita 2012, for comparison, and `score` measures the error of either. `orbit`, `shooting` and `closed` are f32 methods
+//! without a table. `methods` is all of them by name, `project` the command that asks one, `adversarial` the points where they break.
 
 pub mod adversarial;
 pub mod bake;

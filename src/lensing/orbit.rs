@@ -1,8 +1,8 @@
 //! u(Φ) in closed form, in f32: the twin of shaders/functions/orbit.wgsl, line by line.
 //!
-//! The addition theorem of `spacetime::light` with what single precision needs: the pole orbit of the curve p′² = p²(4p + 1) + d at Φ, by its
-//! Laurent series at Φ/2ⁿ and n duplications, then carried to the camera's ray (Whittaker & Watson 20.2–20.6). u = 1/r, w = du/dΦ,
-//! d = (e² − 4/27)/16. Lengths in r_s, angles in radians.
+//! The addition theorem of `spacetime::light` with what single precision needs: the pole orbit of the curve p′² = p²(4p + 1) + d at Φ, by
+//! its Laurent series at Φ/2ⁿ and n duplications, then carried to the camera's ray (Whittaker & Watson 20.2–20.6). u = 1/r, w = du/dΦ, d =
+//! (e² − 4/27)/16. Lengths in r_s, angles in radians.
 
 /// e² of the ray that winds around the photon sphere, 1/r_s².
 pub const CRITICAL_SQUARE: f32 = 4.0 / 27.0;

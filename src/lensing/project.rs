@@ -115,8 +115,8 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
 
 /// Projects every row of the CSV text `input` and returns the CSV output.
 ///
-/// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay in
-/// r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
+/// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay
+/// in r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
 /// empty where no ray joins the two. The input is checked as a whole before anything is returned.
 pub fn project(input: &str, method: &dyn Projector, request: ProjectRequest) -> Result<String, ProjectError> {
     let rows = parse(input)?;

@@ -1,8 +1,8 @@
-//! Rays found vertex by vertex in f32, without a table: the twins of shaders/functions/shooting.wgsl, exact.wgsl, integrate.wgsl and refine.wgsl,
-//! line by line. What the GPU's methods "exact", "rk4-16", "rk4-64" and "newton" do.
+//! Rays found vertex by vertex in f32, without a table: the twins of shaders/functions/shooting.wgsl, exact.wgsl, integrate.wgsl and
+//! refine.wgsl, line by line. What the GPU's methods "exact", "rk4-16", "rk4-64" and "newton" do.
 //!
-//! A shot is fired from the camera with a slope; Newton's method in a bracket finds the slope that meets the point. It starts from the table's
-//! closed form.
+//! A shot is fired from the camera with a slope; Newton's method in a bracket finds the slope that meets the point. It starts from the
+//! table's closed form.
 
 use super::inside::INSIDE_NODES;
 use super::lookup::{LEAST_LAPSE2, LensRay, NOTHING, finite, ray_of};
@@ -248,8 +248,8 @@ pub fn integrated_ray(cam: &LensCamera, at: SourcePoint, sweep: f32, steps: u32)
     ray_of(cam, c, at.lapse2.max(1e-4), [ray.slope, ray.energy, ray.emission_slope, ray.time])
 }
 
-/// The largest turn of a slope that is believed, radians: more than the table is ever off, and less than half a pixel. Beyond it, what speaks is
-/// the rounding of the closed form.
+/// The largest turn of a slope that is believed, radians: more than the table is ever off, and less than half a pixel. Beyond it, what
+/// speaks is the rounding of the closed form.
 pub const MOST_REFINED: f32 = 5e-5;
 
 /// `ray` with the slopes that one Newton step on the closed form gives; its delay stays.

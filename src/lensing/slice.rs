@@ -36,9 +36,9 @@ pub struct Cut<'a> {
 impl<'a> Cut<'a> {
     /// The cut of `table` (scheme residual) at the camera radius `l`, in r_s.
     ///
-    /// A frame must be drawn wherever its camera is, so there is no error here: a radius beyond the table's range is moved to its nearer end
-    /// ([`grid::CAMERA_RANGE`]), and what is not finite counts as the far end. `camera.l` tells the radius used. Who must not have that asks
-    /// first whether the range holds the radius, as the methods of `project` do, which answer nothing beyond.
+    /// A frame must be drawn wherever its camera is, so there is no error here: a radius beyond the table's range is moved to its nearer
+    /// end ([`grid::CAMERA_RANGE`]), and what is not finite counts as the far end. `camera.l` tells the radius used. Who must not have that
+    /// asks first whether the range holds the radius, as the methods of `project` do, which answer nothing beyond.
     pub fn new(table: &'a Table, l: f64) -> Cut<'a> {
         debug_assert_eq!(table.scheme, Scheme::Residual);
         let [nx, ny, nz] = table.size.map(|n| n as usize);
@@ -124,8 +124,8 @@ impl Slice {
         self.texels[..HEADER].iter().copied().chain(pairs).collect()
     }
 
-    /// The texels of a table that is linear in all three dimensions between its nodes, laid out as [`Slice::nodes`]; `half`: between nodes in half
-    /// precision.
+    /// The texels of a table that is linear in all three dimensions between its nodes, laid out as [`Slice::nodes`]; `half`: between nodes
+    /// in half precision.
     pub fn trilinear(table: &Table, l: f64, half: bool) -> Vec<[f32; 4]> {
         let cut = Cut::new(table, l);
         // At a node three layers count.

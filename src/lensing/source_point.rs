@@ -16,8 +16,8 @@ pub struct SourcePoint {
     pub phi: f32,
 }
 
-/// The angle in 0..=π of the point `across` ≥ 0 from the axis and `height` along it, at the distance `r`: by the tangent of half of it, which is
-/// accurate near 0 and π and the same on every platform.
+/// The angle in 0..=π of the point `across` ≥ 0 from the axis and `height` along it, at the distance `r`: by the tangent of half of it,
+/// which is accurate near 0 and π and the same on every platform.
 #[inline]
 pub fn angle(across: f32, height: f32, r: f32) -> f32 {
     let ahead = height.abs();

@@ -19,7 +19,8 @@ use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
 use crate::play::window::record;
 
-/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`] and [`PlayerState`].
+/// Screens, input and time: all of the game that needs no window. Needs [`SimulationPlugins`](crate::sim::SimulationPlugins), [`Session`]
+/// and [`PlayerState`].
 pub struct GamePlugin;
 
 impl Plugin for GamePlugin {

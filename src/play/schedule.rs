@@ -1,6 +1,7 @@
 //! The order of what the game does in a frame, for all features: what is read, decided, looked at and drawn.
 //!
-//! `FixedUpdate` is the simulation's ([`SimSet`](crate::sim::SimSet)); `Update` runs [`GameSet`]; egui paints in `EguiPrimaryContextPass` by [`PaintSet`].
+//! `FixedUpdate` is the simulation's ([`SimSet`](crate::sim::SimSet)); `Update` runs [`GameSet`]; egui paints in `EguiPrimaryContextPass`
+//! by [`PaintSet`].
 
 use bevy::prelude::*;
 use bevy_egui::EguiPrimaryContextPass;

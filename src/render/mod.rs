@@ -1,7 +1,7 @@
 //! The relativistic renderer: everything is rasterised through the lensing table, tessellated in compute.
 //!
-//! [`renderer::Renderer`] is the whole of it on plain wgpu, used alike by the window, by `shot` and by the tests. The way of a frame, file by
-//! file: [`instances`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
+//! [`renderer::Renderer`] is the whole of it on plain wgpu, used alike by the window, by `shot` and by the tests. The way of a frame, file
+//! by file: [`instances`] (where objects are seen, f64) → [`frame`] (the uniform) → [`geometry`] (five compute stages, two draws) → [`sky`]
 //! (Milky Way, stars) → [`aurora`] → [`post_process`] (bloom, exposure, tone curve).
 
 pub mod aurora;

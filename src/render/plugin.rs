@@ -1,5 +1,6 @@
-//! [`RelativisticRenderPlugin`]: the renderer inside Bevy. The main world says what to draw ([`SceneToDraw`], [`FrameToDraw`]); the render world owns the
-//! [`Renderer`], draws it into the view of the 2-D camera, after Bevy's own passes and under the user interface, and gives [`RenderStatistics`] back.
+//! [`RelativisticRenderPlugin`]: the renderer inside Bevy. The main world says what to draw ([`SceneToDraw`], [`FrameToDraw`]); the render
+//! world owns the [`Renderer`], draws it into the view of the 2-D camera, after Bevy's own passes and under the user interface, and gives
+//! [`RenderStatistics`] back.
 
 use std::sync::Arc;
 
@@ -47,8 +48,8 @@ pub struct RenderStatistics {
     pub disk: Option<DiskCounters>,
 }
 
-/// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`. If there is no device, or one that is too small, the app ends
-/// with an error.
+/// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`. If there is no device, or one that is too
+/// small, the app ends with an error.
 pub struct RelativisticRenderPlugin {
     /// Table, stars, Milky Way.
     pub surroundings: Surroundings,
@@ -90,7 +91,8 @@ impl Plugin for RelativisticRenderPlugin {
     }
 }
 
-/// Render world: the renderer. It is not there where the device cannot be used. One system at a time has it (its receivers are not shared between threads).
+/// Render world: the renderer. It is not there where the device cannot be used. One system at a time has it (its receivers are not shared
+/// between threads).
 #[derive(Resource)]
 struct OwnedRenderer(SyncCell<Renderer>);
 

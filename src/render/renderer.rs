@@ -1,4 +1,5 @@
-//! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it alike.
+//! The renderer: one frame from a [`FrameInput`] to an output view. It owns every pass; Bevy, the `shot` command and the tests all use it
+//! alike.
 
 use std::mem::offset_of;
 use std::sync::Arc;
@@ -333,8 +334,8 @@ impl Renderer {
         }
         // What is behind the disk is dimmed by it.
         draw_aurora(&self.aurora, true, &mut self.timing, encoder, group, &self.targets);
-        // Images of the disk from the farthest on, each over what is behind it. Thin images have no depth: they come among those of the disk, by how often their
-        // light crosses its plane. Polygons have depth.
+        // Images of the disk from the farthest on, each over what is behind it. Thin images have no depth: they come among those of the
+        // disk, by how often their light crosses its plane. Polygons have depth.
         let laid_over = disk.is_some_and(DiskPasses::is_laid_over);
         let among = |crossings: u32| if laid_over { geometry.has_thin_across(crossings) } else { crossings == 0 && geometry.has_thin() };
         let mut left = 3;

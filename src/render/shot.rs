@@ -135,8 +135,9 @@ pub struct Compared<'a> {
     pub size: [u32; 2],
 }
 
-/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to mark
-/// the models, finer and coarser ones. Auroras have a judge of their own and are left out. An error if the guard had to leave a triangle out.
+/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to
+/// mark the models, finer and coarser ones. Auroras have a judge of their own and are left out. An error if the guard had to leave a
+/// triangle out.
 pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
     let stage = staged(renderer, what, None);
     let [sky, bare] = [drawn(renderer, what, &stage, false, true)?, drawn(renderer, what, &stage, false, false)?];

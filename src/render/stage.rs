@@ -121,7 +121,8 @@ impl Stage {
         (stage, upload)
     }
 
-    /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came before.
+    /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came
+    /// before.
     pub fn watched(self) -> Stage {
         let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
         *show = show.take().map(AuroraAnimation::watched);
@@ -253,8 +254,8 @@ fn glow(history: &History, time: f64, full: f64) -> f64 {
     IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share
 }
 
-/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in widths of the picture. That is
-/// exact enough for what is a few lengths away, and what is far away is small.
+/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in
+/// widths of the picture. That is exact enough for what is a few lengths away, and what is far away is small.
 fn circle(camera: &Observer, image: &Placed, reach: f64) -> [f32; 3] {
     let [x, y, z, delay] = image.instance.offset.map(f64::from);
     // Space falls inwards at √(1/r) and takes the light with it.

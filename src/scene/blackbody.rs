@@ -10,9 +10,10 @@ pub const UNIT_TEMPERATURE: f64 = 5772.0;
 /// The least a channel has of the colour's luminance in [`table`], where logarithms are kept: less does not show beside the others.
 const LEAST_CHANNEL: f64 = 1e-4;
 
-/// The temperature, in K, below which blue falls on as between it and 3,000 K: ln(blue/red) is [`TAIL`]'s first number less the second, in K, over T. By itself
-/// sRGB has 7 % of red here and none at all from 1,900 K down. The difference cannot be seen (1.4 % of red at 1,900 K), but a streak's light is told from that of gas of mean temperature
-/// and its slope: from none at all no hotter streak got its blue, and they were yellow.
+/// The temperature, in K, below which blue falls on as between it and 3,000 K: ln(blue/red) is [`TAIL`]'s first number less the second, in
+/// K, over T. By itself sRGB has 7 % of red here and none at all from 1,900 K down. The difference cannot be seen (1.4 % of red at 1,900
+/// K), but a streak's light is told from that of gas of mean temperature and its slope: from none at all no hotter streak got its blue, and
+/// they were yellow.
 const DIM_BLUE: f64 = 2500.0;
 /// See `DIM_BLUE`.
 const TAIL: [f64; 2] = [2.255, 12_370.0];
@@ -63,8 +64,8 @@ pub fn unit_luminance() -> f64 {
 }
 
 /// Linear sRGB of a black body at `temperature` (K), in units in which its luminance at [`UNIT_TEMPERATURE`] is 1. Colours outside sRGB
-/// (below about 1,900 K) are brought in by adding grey at the same luminance, and blue goes on to fall as by Wien's law (see `DIM_BLUE`). Zero for a
-/// temperature that is not positive.
+/// (below about 1,900 K) are brought in by adding grey at the same luminance, and blue goes on to fall as by Wien's law (see `DIM_BLUE`).
+/// Zero for a temperature that is not positive.
 pub fn blackbody_rgb(temperature: f64) -> [f64; 3] {
     if !(temperature > 0.0 && temperature.is_finite()) {
         return [0.0; 3];

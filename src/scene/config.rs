@@ -57,7 +57,8 @@ pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
     Ok(config)
 }
 
-/// All that is wrong: the `faults` of single entries of `document`, or, where it has none, those of what [`apply_table`] made of them, `config`, as a whole.
+/// All that is wrong: the `faults` of single entries of `document`, or, where it has none, those of what [`apply_table`] made of them,
+/// `config`, as a whole.
 pub(super) fn check_all(config: &GameConfig, faults: Vec<Fault>, document: &DeTable<'_>) -> Result<(), Vec<Fault>> {
     // What is left out because it is wrong clashes with nothing.
     if faults.is_empty() { check_together(config, document).map_err(|fault| vec![fault]) } else { Err(faults) }

@@ -13,9 +13,9 @@ pub struct Surroundings {
     pub directed: [[f32; 3]; 3],
 }
 
-/// What shines on an object at `position` (r_s). Without ships it is a picture of shapes: light from everywhere, and a little from above, so
-/// that they look round. Flying ships are lit by the disk's inner ring (an annulus at r = 3 to 6 in the plane z = 0, light bent little at
-/// this distance) and by the stars, `ambient` being the light of the scene where nothing else shines.
+/// What shines on an object at `position` (r_s). Without ships it is a picture of shapes: light from everywhere, and a little from above,
+/// so that they look round. Flying ships are lit by the disk's inner ring (an annulus at r = 3 to 6 in the plane z = 0, light bent little
+/// at this distance) and by the stars, `ambient` being the light of the scene where nothing else shines.
 pub fn at(position: DVec3, has_ships: bool, ambient: f32) -> Surroundings {
     if !has_ships {
         return Surroundings { ambient: [0.75; 3], directed: [[0.0, 0.25, 0.0]; 3] };

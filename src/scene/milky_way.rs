@@ -143,8 +143,8 @@ pub fn uv_to_direction(uv: Vec2) -> Vec3 {
     Vec3::new(dec.cos() * ra.cos(), dec.cos() * ra.sin(), dec.sin())
 }
 
-/// Temperatures, in K, of the black bodies that have the colours of the faintest and of the brightest parts: the outer parts are as white as
-/// young stars, the bulge is yellow.
+/// Temperatures, in K, of the black bodies that have the colours of the faintest and of the brightest parts: the outer parts are as white
+/// as young stars, the bulge is yellow.
 pub const TEMPERATURES: [f64; 2] = [7200.0, 4700.0];
 
 /// Linear RGB of luminance 1 of the faintest and of the brightest parts.

@@ -92,11 +92,12 @@ impl Planet {
         shapes::uv_sphere(TRIANGLES, material)
     }
 
-    /// The same of fewer triangles, for images narrower than so many pixels, the coarsest first; `model` is the full one, whose material they share.
+    /// The same of fewer triangles, for images narrower than so many pixels, the coarsest first; `model` is the full one, whose material
+    /// they share.
     ///
-    /// They are as large as it is to the eye: a convex body's outline covers a quarter of its surface in the mean over all directions (Cauchy 1832), so
-    /// they get its surface. Their corners then stand out as far as their sides cut in, and of an outline two to three times less is wrong than if
-    /// the corners lay on the globe.
+    /// They are as large as it is to the eye: a convex body's outline covers a quarter of its surface in the mean over all directions
+    /// (Cauchy 1832), so they get its surface. Their corners then stand out as far as their sides cut in, and of an outline two to three
+    /// times less is wrong than if the corners lay on the globe.
     pub fn stand_ins(&self, model: &Model) -> Vec<(f64, Model)> {
         let material = model.materials.first().cloned().unwrap_or_default();
         let stand_in = |triangles| {

@@ -134,9 +134,9 @@ fn subdivide(corners: &mut Vec<DVec3>, faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
 }
 
 /// A square of edge 1 in the plane z = 0, facing +z, as a grid of two triangles a cell; u to +x, v to −y. An even number of
-/// `triangles` is met exactly if that many make cells no longer than twice their width (2,000 is 25 × 40 cells); else there are a few less (746: 19 × 19 cells), since
-/// needles beside the axis of hole and camera are drawn out round the whole ring.
-/// `anchor` shifts the whole square by less than a cell so that its origin lies inside a triangle, on an edge, on a vertex.
+/// `triangles` is met exactly if that many make cells no longer than twice their width (2,000 is 25 × 40 cells); else there are a few less
+/// (746: 19 × 19 cells), since needles beside the axis of hole and camera are drawn out round the whole ring. `anchor` shifts the whole
+/// square by less than a cell so that its origin lies inside a triangle, on an edge, on a vertex.
 pub fn square(triangles: u32, anchor: Anchor, material: Material) -> Model {
     let cells = triangles.div_ceil(2).max(1);
     let side = cells.isqrt();

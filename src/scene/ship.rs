@@ -17,9 +17,9 @@
 //! player = true                    # flown from the keyboard when there is one, else by its AI
 //! model = "quarry.glb"
 //! ```
-//! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos χ),
-//! 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its motion)
-//! place it. Angles in radians, 0 if absent; inclination π/2 … π goes round the other way.
+//! Orbit keys: `radius` (r_s, above 1.5) for a circle, or `semi_latus_rectum` (r_s), `eccentricity` and `anomaly` (χ in r = p/(1 + e cos
+//! χ), 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its
+//! motion) place it. Angles in radians, 0 if absent; inclination π/2 … π goes round the other way.
 
 use super::fault::{Fault, fault, in_range};
 use std::f64::consts::PI;

@@ -10,8 +10,8 @@ use glam::{DVec3, Vec3};
 pub const MAGNITUDE_ZERO_LUX: f64 = 2.54e-6;
 /// The B−V taken for a star without one: that of the Sun.
 pub const DEFAULT_B_MINUS_V: f32 = 0.65;
-/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough that
-/// stars down to magnitude 6 show beside a lit ship.
+/// The scene's unit of radiance (a white surface in full light) holds this part of one star of magnitude 0 per steradian: bright enough
+/// that stars down to magnitude 6 show beside a lit ship.
 pub const SKY_UNIT: f32 = 4e-4;
 /// The version of the file that is understood.
 pub const VERSION: u32 = 1;

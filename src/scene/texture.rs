@@ -40,7 +40,8 @@ pub fn galaxy() -> Arc<Image> {
         .clone()
 }
 
-/// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which. The last one is kept.
+/// A planet of oceans, land, ice at the poles and clouds, 1024 × 512 pixels by longitude and latitude; `seed` says which. The last one is
+/// kept.
 pub fn planet(seed: u32) -> Arc<Image> {
     static LAST: Mutex<Option<(u32, Arc<Image>)>> = Mutex::new(None);
     let lock = || LAST.lock().unwrap_or_else(PoisonError::into_inner);
@@ -76,7 +77,8 @@ fn planet_light(place: [f32; 3], seed: u32) -> [f32; 3] {
     mix(surface, [0.75; 3], (0.8 - 0.45 * frozen) * cloud)
 }
 
-/// Albedo of what is frozen: on land snow and older, bluer ice, with bare rock along ridges; on the sea floes, with dark leads of open water between them.
+/// Albedo of what is frozen: on land snow and older, bluer ice, with bare rock along ridges; on the sea floes, with dark leads of open
+/// water between them.
 fn ice_light(place: [f32; 3], land: f32, seed: u32) -> [f32; 3] {
     let (broad, fine) = (clouds_of_noise(place, 9.0, seed ^ 211), clouds_of_noise(place, 17.0, seed ^ 212));
     // Where noise passes through its mean it draws lines.

@@ -16,7 +16,8 @@ pub struct CameraEnded(pub f64);
 const CAMERA_FLOOR: f64 = 1.003;
 
 impl SceneCamera {
-    /// An error if, at T = `time`, the camera or the ship that it follows has come to where nothing is seen; `ships` as for [`SceneCamera::viewpoint`].
+    /// An error if, at T = `time`, the camera or the ship that it follows has come to where nothing is seen; `ships` as for
+    /// [`SceneCamera::viewpoint`].
     pub fn check(&self, time: f64, ships: &[(&str, ShipState)]) -> Result<(), CameraEnded> {
         let ended = match &self.mount {
             Mount::Follow { ship, .. } => ships.iter().any(|(name, state)| name == ship && has_ended(state)),
@@ -28,7 +29,8 @@ impl SceneCamera {
         if ended { Err(CameraEnded(time)) } else { Ok(()) }
     }
 
-    /// The camera at T = `time`; `ships` are the states of the ships then, by name. Without the ship that it follows it looks on from 20 r_s.
+    /// The camera at T = `time`; `ships` are the states of the ships then, by name. Without the ship that it follows it looks on from 20
+    /// r_s.
     pub fn viewpoint(&self, time: f64, ships: &[(&str, ShipState)]) -> Observer {
         let state = match &self.mount {
             Mount::Static(state) => *state,

@@ -1,5 +1,5 @@
-//! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit. Where that came out of the
-//! hole, the ship hovered until then.
+//! Where a ship was: its worldline as nodes in T with cubic Hermite interpolation between, in the past before T = 0 as a free orbit. Where
+//! that came out of the hole, the ship hovered until then.
 
 use bevy::prelude::Component;
 use glam::{DQuat, DVec3};
@@ -10,8 +10,8 @@ use crate::spacetime::orbit::static_momentum;
 
 use super::flight::Command;
 
-/// Backwards in T, ingoing coordinates do not reach the white hole: a ship inside the horizon that came out of it hugs r = 1 with momentum growing as
-/// exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
+/// Backwards in T, ingoing coordinates do not reach the white hole: a ship inside the horizon that came out of it hugs r = 1 with momentum
+/// growing as exp(|T|/2). Past this momentum (c) it is held where it is; its light is redshifted beyond sight long before.
 pub const MAX_PAST_MOMENTUM: f64 = 1e6;
 
 /// The longest span between two nodes of the past, in r_s/c.
@@ -127,7 +127,8 @@ impl Bounds {
     }
 }
 
-/// The proper acceleration (c²/r_s) by the engines from a node on. Of dp/dT, γ times what they add to free fall is the thrust a, boosted: a + p (p·a)/(1 + γ).
+/// The proper acceleration (c²/r_s) by the engines from a node on. Of dp/dT, γ times what they add to free fall is the thrust a, boosted:
+/// a + p (p·a)/(1 + γ).
 fn burn(node: &Node) -> f64 {
     let (p, g) = (node.state.momentum, gamma(node.state.momentum));
     let boosted = (node.force_after - rate(&node.state, DVec3::ZERO, DVec3::ZERO).momentum) * g;
@@ -197,8 +198,8 @@ impl History {
         }
     }
 
-    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated on the spot: slower than
-    /// after [`History::reach_back`], and the same).
+    /// The ship at T = `time`. Beyond the latest node it coasts on; before the oldest it coasted there or hovered (integrated on the spot:
+    /// slower than after [`History::reach_back`], and the same).
     pub fn at(&self, time: f64) -> Sample {
         let (first, last) = (self.nodes[0], self.last());
         if time >= last.time {
@@ -225,8 +226,8 @@ impl History {
         Sample { velocity: DVec3::ZERO, ..Sample::from(&later.state) }
     }
 
-    /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the momentum of free fall.
-    /// 0 where the ship coasts, as it does before the first node and after the last.
+    /// The proper acceleration by the engines in c²/r_s, its mean over the `span` r_s/c of T before `time`: from what they add to the
+    /// momentum of free fall. 0 where the ship coasts, as it does before the first node and after the last.
     pub fn thrust(&self, time: f64, span: f64) -> f64 {
         let from = time - span;
         let first = self.nodes.partition_point(|node| node.time <= from).saturating_sub(1);
@@ -236,8 +237,8 @@ impl History {
         burnt / span
     }
 
-    /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain axes, in
-    /// c/r_s) beyond what it changes from node to node anyway. None where fewer than three nodes lie in between.
+    /// The time between `from` and `to` (T in r_s/c) at which the angular velocity jumps the most, by a command, and by how much (rain
+    /// axes, in c/r_s) beyond what it changes from node to node anyway. None where fewer than three nodes lie in between.
     pub fn jolt(&self, from: f64, to: f64) -> Option<(f64, DVec3)> {
         let past = &self.past[self.past.partition_point(|node| node.time >= to)..self.past.partition_point(|node| node.time > from)];
         let since = &self.nodes[self.nodes.partition_point(|node| node.time <= from)..self.nodes.partition_point(|node| node.time < to)];
@@ -249,7 +250,8 @@ impl History {
         Some((within[most + 1].time, *jump - 0.5 * (beside[0] + beside[1])))
     }
 
-    /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is held in place.
+    /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is
+    /// held in place.
     pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
         let oldest = self.oldest();
         if from < oldest.time && oldest.held {

@@ -1,7 +1,8 @@
 //! Ships and gyroscopes: powered and free motion in Painlevé–Gullstrand phase space, r_s = c = 1.
 //!
 //! A four-velocity is u = γe₀ + pⁱeᵢ on the rain tetrad (e₀ = ∂_T − βn·∂, eᵢ = ∂ᵢ), so the mass shell is γ = √(1 + p²) by construction.
-//! With g = (β/r)[p − (3/2)(n·p)n], the tidal pull of the river, and α the proper acceleration in the ship's rest frame (axes by pure boost),
+//! With g = (β/r)[p − (3/2)(n·p)n], the tidal pull of the river, and α the proper acceleration in the ship's rest frame (axes by pure
+//! boost),
 //!
 //! * dx/dT = p/γ − βn
 //! * dp/dT = g + [α + p(p·α)/(1+γ)]/γ
@@ -97,8 +98,9 @@ pub fn velocity(state: &ShipState) -> DVec3 {
     state.momentum / gamma(state.momentum) - state.position * (river_speed(r) / r)
 }
 
-/// The inverse of [`velocity`]: the rain-frame momentum per mass p (in c, on the rain tetrad's axes) of what is at `position` (r_s, on the slice
-/// T = const) and has dx/dT = `velocity` there (in c). None where nothing can move so, at the speed of light or faster against the rain.
+/// The inverse of [`velocity`]: the rain-frame momentum per mass p (in c, on the rain tetrad's axes) of what is at `position` (r_s, on the
+/// slice T = const) and has dx/dT = `velocity` there (in c). None where nothing can move so, at the speed of light or faster against the
+/// rain.
 pub fn momentum_of(position: DVec3, velocity: DVec3) -> Option<DVec3> {
     // Against the rain, which falls with −βn.
     let r = position.length();
@@ -175,8 +177,8 @@ pub fn has_ended(state: &ShipState) -> bool {
     !state.is_finite() || state.position.length_squared() <= SINGULARITY_RADIUS * SINGULARITY_RADIUS
 }
 
-/// One step of order 8 with 12 evaluations of [`rate`] (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, section II.5, DOP853),
-/// the attitude brought back to unit length.
+/// One step of order 8 with 12 evaluations of [`rate`] (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, section II.5,
+/// DOP853), the attitude brought back to unit length.
 pub fn runge_kutta(state: &ShipState, h: f64, thrust: DVec3, rates: DVec3) -> ShipState {
     let mut slopes = [ShipRate::ZERO; tableau::STAGES];
     slopes[0] = rate(state, thrust, rates);
@@ -206,9 +208,9 @@ pub fn boosted_acceleration(momentum: DVec3, acceleration: DVec3) -> DVec3 {
 /// Below this part of its γ a radial velocity is none, and below this the potential is level: a million times the rounding of a state.
 const AT_REST: f64 = 1e-9;
 
-/// Whether a free orbit through this state, followed backwards, goes down to r = 1 without turning: outside the horizon it came out of the white hole, which no ship
-/// in this game did. It rises, (dr/dτ)² = E² − V(r) with V = (1 − 1/r)(1 + L²/r²), and V has no peak below it that is higher than E²; the peak of V lies at
-/// r = L² − L√(L² − 3) (Chandrasekhar 1983, section 19).
+/// Whether a free orbit through this state, followed backwards, goes down to r = 1 without turning: outside the horizon it came out of the
+/// white hole, which no ship in this game did. It rises, (dr/dτ)² = E² − V(r) with V = (1 − 1/r)(1 + L²/r²), and V has no peak below it
+/// that is higher than E²; the peak of V lies at r = L² − L√(L² − 3) (Chandrasekhar 1983, section 19).
 ///
 /// Unstable circles are left to free orbits: followed far backwards rounding makes them leave, to either side.
 pub fn came_out_of_the_hole(state: &ShipState) -> bool {
@@ -219,7 +221,8 @@ pub fn came_out_of_the_hole(state: &ShipState) -> bool {
     if r <= 1.0 || rising < -AT_REST * g {
         return false;
     }
-    // What neither rises nor falls is at the highest point of its orbit if V rises there; where V is level it is on a circle, which it never left.
+    // What neither rises nor falls is at the highest point of its orbit if V rises there; where V is level it is on a circle, which it
+    // never left.
     let steepness = 1.0 - squared * (2.0 * r - 3.0) / (r * r);
     if rising < AT_REST * g && steepness < AT_REST {
         return false;

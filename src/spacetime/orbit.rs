@@ -82,8 +82,8 @@ impl Elements {
     }
 }
 
-/// Rain-frame momentum at radius `r` > 1 from E, L, u^r = dr/dτ (all per mass) and the unit vectors outward and along the transverse motion:
-/// p_r = (u^r + βE)/(1 − β²), p_φ = L/r.
+/// Rain-frame momentum at radius `r` > 1 from E, L, u^r = dr/dτ (all per mass) and the unit vectors outward and along the transverse
+/// motion: p_r = (u^r + βE)/(1 − β²), p_φ = L/r.
 pub fn momentum_from_constants(energy: f64, angular_momentum: f64, r: f64, radial_velocity: f64, outward: DVec3, along: DVec3) -> DVec3 {
     let beta = river_speed(r);
     outward * ((radial_velocity + beta * energy) / (1.0 - beta * beta)) + along * (angular_momentum / r)

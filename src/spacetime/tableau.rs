@@ -1,5 +1,6 @@
-//! The coefficients of the explicit Runge–Kutta method of order 8 with 12 stages in Hairer, Nørsett and Wanner, *Solving Ordinary Differential
-//! Equations I*, second edition, section II.5 (DOP853). The equations of motion do not contain T, so the times of the stages are not needed.
+//! The coefficients of the explicit Runge–Kutta method of order 8 with 12 stages in Hairer, Nørsett and Wanner, *Solving Ordinary
+//! Differential Equations I*, second edition, section II.5 (DOP853). The equations of motion do not contain T, so the times of the stages
+//! are not needed.
 
 /// Evaluations of the right-hand side per step.
 pub const STAGES: usize = 12;

@@ -197,7 +197,8 @@ fn energy_and_angular_momentum_are_kept() {
             for segment in &ray.segments {
                 for part in [0.0, 0.3, 0.7, 1.0] {
                     let state = segment.at(part * segment.length);
-                    // E is a difference of terms of size |p|, L a product of size r|p|, and where a ray clings to the horizon |p| has no bound.
+                    // E is a difference of terms of size |p|, L a product of size r|p|, and where a ray clings to the horizon |p| has no
+                    // bound.
                     size = size.max(state.momentum.length());
                     close(state.energy(), energy, 1e-13 * size * (1.0 + 1.0 / l.sqrt()));
                     close(state.angular_momentum(), spin, 1e-14 * size * state.position.length().max(1.0));

@@ -40,8 +40,8 @@ const BESIDE: &str = "position = [-0.850279, -0.599375, -0.369218]\nfov = 30.0";
 #[test]
 fn what_moves_outwards_is_asked_a_few_times_a_ray() {
     const SIZE: [usize; 2] = [32, 18];
-    // Light in the shadow hugs r = 1 with a frequency that grows without end. The ships outside hovered there before they started; the last one, inside, hugs r = 1 as
-    // light does.
+    // Light in the shadow hugs r = 1 with a frequency that grows without end. The ships outside hovered there before they started; the last
+    // one, inside, hugs r = 1 as light does.
     let at_rest = 6f64.powf(-0.5) / (5f64 / 6.0).sqrt();
     let cases = [
         (BEHIND, [-6.0, 0.0, 0.0], [-at_rest, 0.0, 0.0]),

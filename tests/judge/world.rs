@@ -1,4 +1,5 @@
-//! Where the judge could miss what is there: bodies from afar, cameras in the plane of a surface, bodies behind the horizon, corners and edges.
+//! Where the judge could miss what is there: bodies from afar, cameras in the plane of a surface, bodies behind the horizon, corners and
+//! edges.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 

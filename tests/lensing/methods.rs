@@ -216,8 +216,8 @@ fn a_newton_step_squares_the_error() {
 /// A method by its name, what it may jump by besides (radians: the rounding of its numbers), and its answer for (r, φ, L) in an order.
 type Watcher<'a> = (&'a str, f64, Box<dyn Fn([f64; 3], Order) -> f64 + 'a>);
 
-/// Every method that answers a camera on both sides of the horizon, but straight lines: theirs is the angle of an observer who hovers, and there
-/// none does inside.
+/// Every method that answers a camera on both sides of the horizon, but straight lines: theirs is the angle of an observer who hovers, and
+/// there none does inside.
 fn watchers<'a>(projectors: &'a [(&'a str, f64, Box<dyn Projector>)]) -> Vec<Watcher<'a>> {
     let mut all: Vec<Watcher> = Vec::new();
     for (name, rounding, method) in projectors {
@@ -253,8 +253,8 @@ fn watchers<'a>(projectors: &'a [(&'a str, f64, Box<dyn Projector>)]) -> Vec<Wat
 fn no_pixel_jumps_on_the_fall_through_the_horizon() {
     let points: Vec<(f64, f64)> =
         [1.2, 1.5, 2.0, 6.0, 60.0, 3000.0].into_iter().flat_map(|r| [0.01, 0.4, 1.0, 1.8, 2.6, 3.1].map(|phi| (r, phi))).collect();
-    // Half precision has eleven bits: its turns and with them directions come in steps. Methods that are linear between nodes have a seam: the
-    // slope at the camera decides outside, that at the point inside, and each has its own error.
+    // Half precision has eleven bits: its turns and with them directions come in steps. Methods that are linear between nodes have a seam:
+    // the slope at the camera decides outside, that at the point inside, and each has its own error.
     let (half, linear) = (2e-4, 1e-3);
     let projectors: Vec<(&str, f64, Box<dyn Projector>)> = vec![
         ("exact in f64", 1e-12, Box::new(methods::Exact)),

@@ -35,8 +35,8 @@ fn linear_and_cubic_agree_at_the_nodes() {
     }
 }
 
-/// What is looked up is the cubic B-spline of the coefficients, by its definition (de Boor, A Practical Guide to Splines, ch. IX), in the table's
-/// corners too; places beyond are those of the edge.
+/// What is looked up is the cubic B-spline of the coefficients, by its definition (de Boor, A Practical Guide to Splines, ch. IX), in the
+/// table's corners too; places beyond are those of the edge.
 #[test]
 fn the_lookup_is_the_spline_of_its_coefficients() {
     let slice = Slice::new(table(), 1.3);

@@ -1,6 +1,7 @@
 //! Where projections break, and what must hold there: the items of the list in the order that a ray meets trouble.
 //!
-//! The judge is `lensrunner::judge::shoot`, which integrates the light. Directions are held to 0.004°, a quarter of a pixel at 3840 over 60°.
+//! The judge is `lensrunner::judge::shoot`, which integrates the light. Directions are held to 0.004°, a quarter of a pixel at 3840 over
+//! 60°.
 
 use std::f64::consts::{PI, TAU};
 
@@ -32,8 +33,8 @@ fn error(row: [f64; 3], order: Order) -> f64 {
     (angle(&ray) - truth.psi_rain).abs().to_degrees()
 }
 
-/// b → b_c from both sides: near it a ray's end is the exponential of its angle, and closed forms cancel. The points are where rays end that
-/// leave the camera at the critical slope times 1 ± 10^-k; order 3 sweeps up to 3π.
+/// b → b_c from both sides: near it a ray's end is the exponential of its angle, and closed forms cancel. The points are where rays end
+/// that leave the camera at the critical slope times 1 ± 10^-k; order 3 sweeps up to 3π.
 #[test]
 fn critical_rays_are_met_from_both_sides() {
     let mut met = 0;
@@ -301,22 +302,23 @@ fn hostile_numbers_give_no_nan() {
     }
 }
 
-/// tan(ψ/2) in the rain frame at a camera at u = 1/L, without a difference of nearly equal numbers: it tells directions apart that are nearer to
-/// π than f64 tells angles.
+/// tan(ψ/2) in the rain frame at a camera at u = 1/L, without a difference of nearly equal numbers: it tells directions apart that are
+/// nearer to π than f64 tells angles.
 fn depth(ray: &light::Connection, u: f64) -> f64 {
     let (w, e, beta) = (ray.slope, ray.energy, u.sqrt());
     // e ± w = u (1 ∓ β) tan^±1(ψ/2), by what `light::launch` says of ψ.
     if e > 0.0 && w <= 0.0 { u * (1.0 + beta) / (e - w) } else { (e + w) / (u * (1.0 - beta)) }
 }
 
-/// The lookup in f32 keeps the order of any two points whose true directions differ by more than this, radians: an eightieth of the half pixel
-/// that it promises (0.008°). Of nearer ones its error, 0.0013° at worst, may exchange the places.
+/// The lookup in f32 keeps the order of any two points whose true directions differ by more than this, radians: an eightieth of the half
+/// pixel that it promises (0.008°). Of nearer ones its error, 0.0013° at worst, may exchange the places.
 const TOLD_APART: f64 = 1e-4 / 57.3;
 
 proptest! {
     #![proptest_config(crate::support::fixed(2048))]
 
-    /// At fixed (L, Φ), r decreases strictly as ψ grows: for the closed form at every step, for the lookup at every step that it tells apart.
+    /// At fixed (L, Φ), r decreases strictly as ψ grows: for the closed form at every step, for the lookup at every step that it tells
+    /// apart.
     #[test]
     fn nearer_points_are_seen_nearer_to_the_hole(l in -2.9f64..8.5, near in 0.001f64..9.1, digits in 0.0f64..4.0, sweep in 0.01f64..9.3) {
         let l = l.exp();

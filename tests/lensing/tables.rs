@@ -83,9 +83,9 @@ fn keeps_its_promise(points: usize, seed: u64) {
     }
 }
 
-/// The same for points that are still inside, seen from inside: of `points` adversarial rows those whose camera and point both are, with light of
-/// the sign of E that they ask for, and the answer that there is none. Most rows have none, so that each is also taken as far around as its share
-/// of the way that light goes.
+/// The same for points that are still inside, seen from inside: of `points` adversarial rows those whose camera and point both are, with
+/// light of the sign of E that they ask for, and the answer that there is none. Most rows have none, so that each is also taken as far
+/// around as its share of the way that light goes.
 fn keeps_its_promise_inside(points: usize, seed: u64) {
     use lensrunner::lensing::adversarial::rows;
     use lensrunner::spacetime::light::{Branch, connect, rain_angle};
@@ -321,8 +321,8 @@ fn nearer_points_are_seen_deeper() {
     }
 }
 
-/// Next to the horizon, nearer than is promised (r = 1.0005), delays grow as the logarithm of r − 1 and are still told within what is allowed
-/// there; r in f32 has no more digits for the nearest.
+/// Next to the horizon, nearer than is promised (r = 1.0005), delays grow as the logarithm of r − 1 and are still told within what is
+/// allowed there; r in f32 has no more digits for the nearest.
 #[test]
 fn delays_next_to_the_horizon_keep_their_digits() {
     for height in [2e-5, 1e-4, 4e-4] {
@@ -344,8 +344,8 @@ fn delays_next_to_the_horizon_keep_their_digits() {
     }
 }
 
-/// A neighbour's delay is right to a small part of itself, next to the horizon too: it decides where a thing that falls beside the camera is seen.
-/// The most is 0.0016 (L = 1.002); it was 0.02 where the closed form was right to first order only.
+/// A neighbour's delay is right to a small part of itself, next to the horizon too: it decides where a thing that falls beside the camera
+/// is seen. The most is 0.0016 (L = 1.002); it was 0.02 where the closed form was right to first order only.
 #[test]
 fn delays_of_neighbours_are_right_to_a_part_of_themselves() {
     for l in [0.8, 0.95, 0.99, 1.0, 1.0189, 1.03, 1.08, 1.3, 1.5, 6.0, 300.0] {
@@ -368,8 +368,9 @@ fn delays_of_neighbours_are_right_to_a_part_of_themselves() {
     }
 }
 
-/// What colours and brightness are made from: a photon per unit of angular momentum, so that its tangential momentum is 1/r at either end, its
-/// frequency the length of its momentum, and ω − √(1/r) p_r the same energy e at both (a falling observer's energy is not the one at infinity).
+/// What colours and brightness are made from: a photon per unit of angular momentum, so that its tangential momentum is 1/r at either end,
+/// its frequency the length of its momentum, and ω − √(1/r) p_r the same energy e at both (a falling observer's energy is not the one at
+/// infinity).
 #[test]
 fn momenta_and_frequencies_belong_to_one_photon() {
     use lensrunner::lensing::adversarial::rows;
@@ -427,9 +428,9 @@ fn the_cameras_own_radius_is_no_hole() {
     }
 }
 
-/// Camera and point both inside: the lookup in f32 against the judge, who integrates the light, on both branches. Directions to 0.008°, half
-/// a pixel at 3840 over 60°; the image folds over at E = 0, where a direction goes as the root of the distance from the fold, so that what
-/// rounding φ to f32 does there (1e-7 of it) is allowed for.
+/// Camera and point both inside: the lookup in f32 against the judge, who integrates the light, on both branches. Directions to 0.008°,
+/// half a pixel at 3840 over 60°; the image folds over at E = 0, where a direction goes as the root of the distance from the fold, so that
+/// what rounding φ to f32 does there (1e-7 of it) is allowed for.
 #[test]
 fn inside_the_horizon_both_branches_agree_with_the_judge() {
     use lensrunner::judge::shoot;

@@ -1,4 +1,5 @@
-//! The guard: what lies outside of where an object's image can be is not drawn, and counted. That nothing does in scenes is told by every test that compares them.
+//! The guard: what lies outside of where an object's image can be is not drawn, and counted. That nothing does in scenes is told by every
+//! test that compares them.
 
 use glam::{DQuat, DVec3};
 use lensrunner::lensing::Slice;

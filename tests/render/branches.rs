@@ -1,8 +1,8 @@
 //! No compute pass branches on uniforms alone.
 //!
 //! Lavapipe (Mesa 22 to 24 at least) puts the values of uniforms that decide a branch or the end of a loop into the shader as constants and
-//! compiles it again whenever their buffer was written, that is in every frame: half a second for the passes of the disk. Data from a storage
-//! buffer in the condition, or `select` instead of a branch, keeps it from that. The test reads the passes' own intermediate form.
+//! compiles it again whenever their buffer was written, that is in every frame: half a second for the passes of the disk. Data from a
+//! storage buffer in the condition, or `select` instead of a branch, keeps it from that. The test reads the passes' own intermediate form.
 
 use std::collections::{HashMap, HashSet};
 

@@ -9,7 +9,8 @@ use lensrunner::spacetime::matter::step;
 
 use crate::render::support::renderer;
 
-/// The player's ship from behind, after T = 2 under a share of full thrust until `until`: its light in all, and whether nozzles follow the engines.
+/// The player's ship from behind, after T = 2 under a share of full thrust until `until`: its light in all, and whether nozzles follow the
+/// engines.
 fn light(share: f64, until: f64, follows: bool) -> f64 {
     let (config, scene) = (GameConfig::default(), scene::load("chase").unwrap());
     let size = [160, 90];
@@ -37,7 +38,8 @@ fn light(share: f64, until: f64, follows: bool) -> f64 {
 
 #[test]
 fn nozzles_shine_by_the_thrust() {
-    // The hull is lit all the same, but otherwise at each of the places that the thrust brings it to: what nozzles lack is compared at the same one.
+    // The hull is lit all the same, but otherwise at each of the places that the thrust brings it to: what nozzles lack is compared at the
+    // same one.
     let [none, half, full] = [0.0, 0.5, 1.0].map(|share| [false, true].map(|follows| light(share, 2.0, follows)));
     assert!((full[1] / full[0] - 1.0).abs() < 0.005, "under full thrust nothing is lacking: {full:?}");
     assert!(none[1] < 0.4 * none[0], "coasting {none:?}");
@@ -46,7 +48,8 @@ fn nozzles_shine_by_the_thrust() {
     assert!((lacking - 0.75).abs() < 0.02, "at half of the thrust {lacking} of the light are lacking: {half:?} {none:?}");
 }
 
-/// A ship is seen as it was when its light left, about T = 1.5: engines shut down after that still burn, those shut down shortly before are fading.
+/// A ship is seen as it was when its light left, about T = 1.5: engines shut down after that still burn, those shut down shortly before are
+/// fading.
 #[test]
 fn nozzles_fade() {
     let [burning, late, fading, out] = [2.0, 1.75, 1.375, 0.9].map(|until| light(1.0, until, true));

@@ -19,7 +19,8 @@ fn drawn(gpu: &Gpu, surroundings: &Surroundings, name: &str, size: [u32; 2]) -> 
     renderer.picture(&input, false).unwrap()
 }
 
-/// Without timestamps, and without tables filtered and light added up in 32-bit floats: the aurora is added up in halves then, which lose half a per cent of its light here.
+/// Without timestamps, and without tables filtered and light added up in 32-bit floats: the aurora is added up in halves then, which lose
+/// half a per cent of its light here.
 #[test]
 fn without_optional_features_the_picture_is_the_same() {
     let plain = Gpu::headless_with(wgpu::Features::empty()).unwrap();

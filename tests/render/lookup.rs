@@ -257,8 +257,8 @@ fn a_ship_that_crosses_the_horizon_is_seen_from_inside() {
     assert!(plus > 0, "{plus} {minus}");
 }
 
-/// A ship that fell in ahead of the camera, and has ended by now, is seen ahead by the light that it sent outward inside: E < 0. Some of its
-/// vertices are met there and others where E > 0, while the camera looks across.
+/// A ship that fell in ahead of the camera, and has ended by now, is seen ahead by the light that it sent outward inside: E < 0. Some of
+/// its vertices are met there and others where E > 0, while the camera looks across.
 #[test]
 fn a_ship_ahead_is_seen_by_light_of_negative_energy() {
     let state = ship(DVec3::new(0.0, 0.02, 1.3), DVec3::ZERO);
@@ -339,8 +339,8 @@ fn without_light_delay_things_are_seen_where_they_are_now() {
     }
 }
 
-/// Methods "paper1-…": vertices lie where the tables as their author used them say, evaluated on the processor; of a square behind the hole the
-/// triangles at the axis are dropped, which leaves a gap in the ring that ours closes.
+/// Methods "paper1-…": vertices lie where the tables as their author used them say, evaluated on the processor; of a square behind the hole
+/// the triangles at the axis are dropped, which leaves a gap in the ring that ours closes.
 #[test]
 fn paper_one_projects_by_its_tables_and_drops_triangles() {
     use lensrunner::lensing::paper;

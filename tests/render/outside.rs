@@ -96,7 +96,8 @@ fn nothing_that_is_seen_is_left_out() {
         let (light_of_all, layers_of_all, all) = seen(true);
         assert!(f64::from(fewer) < kept * f64::from(all), "{name}: {fewer} of {all} corners are drawn");
         let drawn = layers.iter().filter(|pixel| pixel[0] > 0.0).count();
-        // Where a front and a back meet at an outline, either may win the depth test: the front that bends less than its back, or another object right behind it.
+        // Where a front and a back meet at an outline, either may win the depth test: the front that bends less than its back, or another
+        // object right behind it.
         let other = layers.iter().zip(&layers_of_all).filter(|(a, b)| a[..2] != b[..2]).count();
         let lit = light.iter().zip(&light_of_all).filter(|(a, b)| (0..3).any(|c| (a[c] - b[c]).abs() > 0.02 * (a[c] + b[c]))).count();
         assert!(other * 2000 <= drawn, "{name}: {other} of {drawn} pixels show another object");
@@ -104,7 +105,8 @@ fn nothing_that_is_seen_is_left_out() {
     }
 }
 
-/// Outlines are found by the triangles on both sides of an edge, also where a body with corners keeps two vertices at one place for their normals.
+/// Outlines are found by the triangles on both sides of an edge, also where a body with corners keeps two vertices at one place for their
+/// normals.
 #[test]
 fn an_edge_knows_the_corners_across_it() {
     let smooth = icosphere(20, Material::default());

@@ -105,8 +105,8 @@ fn shadow_radius(camera: &Observer, size: [u32; 2]) -> f64 {
     (edge[0] - centre[0]).hypot(edge[1] - centre[1])
 }
 
-/// The galaxy exactly behind the hole, the axis inside a triangle, on an edge, on a vertex: its image is a closed annulus round the Einstein
-/// ring, and no pixel inside the shadow is lit.
+/// The galaxy exactly behind the hole, the axis inside a triangle, on an edge, on a vertex: its image is a closed annulus round the
+/// Einstein ring, and no pixel inside the shadow is lit.
 #[test]
 fn a_galaxy_on_the_axis_is_a_closed_annulus_and_the_shadow_is_dark() {
     let size = [480, 480];
@@ -222,7 +222,8 @@ fn the_exposure_does_not_depend_on_the_size_of_the_picture() {
     assert!((fine / coarse - 1.0).abs() < 0.1, "mean squares {coarse:.1} and {fine:.1}");
 }
 
-/// The light that a disk is brought to is asked for while it is in the picture: with the back to it stars are exposed as where there is none, and are no field of snow.
+/// The light that a disk is brought to is asked for while it is in the picture: with the back to it stars are exposed as where there is
+/// none, and are no field of snow.
 #[test]
 fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     let size = [160, 90];

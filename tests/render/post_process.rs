@@ -45,7 +45,8 @@ fn pictures_are_finished_as_in_rust() {
     }
 }
 
-/// The glow is part of the light: a lens that spreads more of it brings no more. At the picture's edge some is held that would be lost, and some lost.
+/// The glow is part of the light: a lens that spreads more of it brings no more. At the picture's edge some is held that would be lost, and
+/// some lost.
 #[test]
 fn the_lens_spreads_light_and_makes_none() {
     let mean = |bloom| {
@@ -87,8 +88,8 @@ fn outlines_of_bodies_are_smooth() {
     let [plain, smooth] = errors.map(|error| (error / f64::from(outline)).sqrt());
     println!("{outline} pixels of outlines: off by {plain:.4} without, {smooth:.4} with smoothing (root mean square)");
     assert!(outline > 1000, "only {outline} pixels of outlines");
-    // 0.84 is reached: the pass knows the steps of an outline, and not where it goes between them; the chequers beside it are filtered differently at the
-    // two sizes.
+    // 0.84 is reached: the pass knows the steps of an outline, and not where it goes between them; the chequers beside it are filtered
+    // differently at the two sizes.
     assert!(smooth < 0.9 * plain, "off by {smooth} with smoothing, {plain} without");
 }
 
@@ -105,8 +106,9 @@ fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     (size, config, renderer, stage, moment)
 }
 
-/// At exposures 4,000 times apart the player's own ship is finished as light as `render.fill_least` and `fill_most` allow, and lit the more where the exposure is
-/// less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds all of it.
+/// At exposures 4,000 times apart the player's own ship is finished as light as `render.fill_least` and `fill_most` allow, and lit the more
+/// where the exposure is less; nothing else changes a bit, nor does a ship that nobody flies. The circle that the meter leaves out holds
+/// all of it.
 #[test]
 fn the_own_ship_is_lit_for_the_exposure() {
     let (size, config, mut renderer, stage, moment) = a_chase();

@@ -8,8 +8,8 @@ use lensrunner::scene::{self, GameConfig};
 
 use crate::render::support::{aurora_alone, default_surroundings, renderer_under};
 
-/// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells frames apart: times
-/// waver by a thousandth.
+/// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells
+/// frames apart: times waver by a thousandth.
 fn times(part: f64, fixed: f64, streaks: f64, rest: f64, number: u32) -> [(&'static str, f32); 4] {
     let waver = 1.0 + 0.001 * f64::from(number % 3);
     let walk = (0.1 * part * streaks) as f32;

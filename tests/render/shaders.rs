@@ -42,7 +42,8 @@ fn sine_cosine_and_angle_are_the_librarys() {
     let rows: Vec<[f32; 4]> = (0..=8000).map(|i| [(f64::from(i) * 0.001 - 4.0) as f32, 0.0, 0.0, 0.0]).collect();
     for (row, got) in rows.iter().zip(run(Pass::DiskVertices, body, [&[], &[]], &rows, 1)) {
         let x = f64::from(row[0]);
-        // A dozen roundings of 6e-8, of which those of half the angle count up to four times: 6.5e-7 in single precision. A pixel is a thousand times that.
+        // A dozen roundings of 6e-8, of which those of half the angle count up to four times: 6.5e-7 in single precision. A pixel is a
+        // thousand times that.
         for (got, want, rounded) in [(got[0], x.sin(), 8e-7), (got[1], x.cos(), 8e-7), (got[2], x.sin().abs().atan2(x.cos()), 1.6e-6)] {
             assert!((f64::from(got) - want).abs() < rounded, "{x}: {got:?}, not {want}");
         }

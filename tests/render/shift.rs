@@ -20,7 +20,8 @@ use crate::render::pictures::exact;
 use crate::render::support::renderer;
 use crate::twin::run_with;
 
-/// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets there.
+/// At places all over the planet's shining side, ν_observed/ν_emitted of two wave crests: sent a moment apart, and received when light gets
+/// there.
 #[test]
 fn lines_shift_with_the_planets_rotation() {
     let config = GameConfig::default();
@@ -145,8 +146,8 @@ fn colours_of_lines_are_the_same_in_both_languages() {
     }
 }
 
-/// Between the ratios at which they are worked out, lines are as bright as at the ratio itself: to 0.1 % of green at rest over the 8 % of a planet that turns once
-/// in 40 r_s/c, to 0.25 % over 0.88 to 1.05.
+/// Between the ratios at which they are worked out, lines are as bright as at the ratio itself: to 0.1 % of green at rest over the 8 % of a
+/// planet that turns once in 40 r_s/c, to 0.25 % over 0.88 to 1.05.
 #[test]
 fn between_two_ratios_lines_are_as_bright() {
     let green = kilorayleigh_xyz(1.0)[0][1];

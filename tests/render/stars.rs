@@ -35,9 +35,9 @@ fn far_camera(momentum: DVec3) -> Observer {
     Observer { position: DVec3::new(1e5, 0.0, 0.0), momentum, attitude: DQuat::IDENTITY, field_of_view: 60f64.to_radians() }
 }
 
-/// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is finished alike. In cells of a
-/// part of the picture's width stars weigh as they are, but for what each halving spreads them; pixel by pixel, their spots would be brighter in a finer
-/// picture, and the haze darker by a factor of 3.5.
+/// What a sky of bright stars does to the exposure does not depend on the size of the picture: the haze between them is finished alike. In
+/// cells of a part of the picture's width stars weigh as they are, but for what each halving spreads them; pixel by pixel, their spots
+/// would be brighter in a finer picture, and the haze darker by a factor of 3.5.
 #[test]
 fn stars_are_metered_alike_in_pictures_of_any_size() {
     let stars: Vec<Star> = (0..400)

@@ -32,8 +32,8 @@ fn the_flux_is_page_and_thornes() {
     assert_eq!(page_thorne_flux(6.0), 0.0);
 }
 
-/// Outside its innermost quarter r_s the temperature is the flux's fourth root; at 10¹⁰ suns and a tenth of Eddington's rate the hottest ring
-/// has 22,220 K (by hand: F = 1.3678e-5 Ṁc⁸/(GM)² with Ṁ = 2.45e24 kg/s).
+/// Outside its innermost quarter r_s the temperature is the flux's fourth root; at 10¹⁰ suns and a tenth of Eddington's rate the hottest
+/// ring has 22,220 K (by hand: F = 1.3678e-5 Ṁc⁸/(GM)² with Ṁ = 2.45e24 kg/s).
 #[test]
 fn temperature_goes_as_the_fourth_root_of_the_flux() {
     let mut disk = GameConfig::default().disk;
@@ -72,7 +72,8 @@ fn gas_moves_on_geodesics() {
     }
 }
 
-/// A knot keeps its azimuth on the orbit, φ₀ + Ω(r)T, while its generation is the one seen: the pattern there does not change but for shares.
+/// A knot keeps its azimuth on the orbit, φ₀ + Ω(r)T, while its generation is the one seen: the pattern there does not change but for
+/// shares.
 #[test]
 fn streaks_move_with_the_orbits() {
     let gas = gas();
@@ -93,8 +94,8 @@ fn streaks_move_with_the_orbits() {
     }
 }
 
-/// No pop: in a hundredth of r_s/c nothing changes by more than a small part, at any time; no repeat: the pattern of one renewal is not like that
-/// of another; no winding up: it is as smooth over the radius late as early.
+/// No pop: in a hundredth of r_s/c nothing changes by more than a small part, at any time; no repeat: the pattern of one renewal is not
+/// like that of another; no winding up: it is as smooth over the radius late as early.
 #[test]
 fn streaks_renew_themselves_without_a_trace() {
     let gas = gas();
@@ -167,8 +168,9 @@ fn arcs_cover_the_disk() {
     assert!((covered / (end - start) - 0.75).abs() < 1e-9);
 }
 
-/// Matter falls in at an even rate, so the whole disk is as bright at one time as at another: no ring of the pattern is brighter all round than the next one. What is
-/// left is chance: where two generations have their largest knots in the same places, or one where the other has none (0.88 to 1.06 of the mean). With rings of their own brightness it was 0.79 to 1.22.
+/// Matter falls in at an even rate, so the whole disk is as bright at one time as at another: no ring of the pattern is brighter all round
+/// than the next one. What is left is chance: where two generations have their largest knots in the same places, or one where the other has
+/// none (0.88 to 1.06 of the mean). With rings of their own brightness it was 0.79 to 1.22.
 #[test]
 fn the_whole_disk_keeps_its_light() {
     let gas = gas();

@@ -83,7 +83,8 @@ fn moves_within_bounds(history: &History) {
     }
 }
 
-/// Outside nothing comes out of the white hole: a ship whose orbit would have hovered, at its start or, of one that falls, where it began to.
+/// Outside nothing comes out of the white hole: a ship whose orbit would have hovered, at its start or, of one that falls, where it began
+/// to.
 #[test]
 fn what_would_have_come_out_of_the_hole_hovered() {
     let thrown = ShipState::new(DVec3::new(3.0, 0.0, 0.0), DVec3::new(1.0, 0.2, 0.0));

@@ -11,8 +11,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 type State = [f64; 5];
 
 /// The right-hand side. dT/dΦ is written from the photon's rain-frame momentum, in one of two forms that agree on the orbit:
-/// `rising` is singular only where light crosses the future horizon, the other only where it turns or left the past horizon. One step keeps to one form, for between the stages of
-/// a step w and e do not quite fit each other.
+/// `rising` is singular only where light crosses the future horizon, the other only where it turns or left the past horizon. One step keeps
+/// to one form, for between the stages of a step w and e do not quite fit each other.
 fn rate(y: &State, e: f64, rising: bool) -> State {
     let [u, w, v, v_slope, _] = *y;
     let beta = u.sqrt();

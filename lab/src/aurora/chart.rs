@@ -108,8 +108,8 @@ fn family(methods: &[String], method: &str) -> usize {
 /// Differences are drawn no lower: those of rounding.
 const LEAST_DIFFERENCE: f64 = 1e-7;
 
-/// Three rows of panels, a column for each view: time against electrons at the middle radius, error against time for all, and against time the difference from
-/// the particle method with the same random numbers.
+/// Three rows of panels, a column for each view: time against electrons at the middle radius, error against time for all, and against time
+/// the difference from the particle method with the same random numbers.
 pub fn draw(sheet: &Sheet) -> Figure {
     let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let middle = radii.get(radii.len() / 2).cloned().unwrap_or_default();
@@ -187,8 +187,8 @@ pub fn draw(sheet: &Sheet) -> Figure {
     }
 }
 
-/// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown table: milliseconds of the
-/// particle method and of the exact walk, and how many times less the walk takes.
+/// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown
+/// table: milliseconds of the particle method and of the exact walk, and how many times less the walk takes.
 pub fn ratios(sheet: &Sheet) -> String {
     let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
     let (middle, most) = (radii.get(radii.len() / 2).cloned().unwrap_or_default(), counts.last().cloned().unwrap_or_default());

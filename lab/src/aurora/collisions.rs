@@ -28,8 +28,9 @@ pub(super) static ORDERS: [[u32; LANES]; 256] = {
     orders
 };
 
-/// The levels of one electron that have collisions, from the top down, each in its own column. What lies behind `length` has no meaning, but
-/// every number there is a level. Heights and ways astray are dealt with the levels, as to look them up for each level afterwards takes longer.
+/// The levels of one electron that have collisions, from the top down, each in its own column. What lies behind `length` has no meaning,
+/// but every number there is a level. Heights and ways astray are dealt with the levels, as to look them up for each level afterwards takes
+/// longer.
 #[derive(Clone, Debug)]
 pub struct Collisions {
     /// How many levels there are.
@@ -51,8 +52,8 @@ impl Default for Collisions {
 }
 
 impl Collisions {
-    /// Deals out `collisions` over the levels by the random number `u`: ⌊collisions · spent + u⌋ above each level. `AVX` may be said only where
-    /// the processor has AVX2 and POPCNT; it changes no bit.
+    /// Deals out `collisions` over the levels by the random number `u`: ⌊collisions · spent + u⌋ above each level. `AVX` may be said only
+    /// where the processor has AVX2 and POPCNT; it changes no bit.
     #[inline(always)]
     pub(super) fn deal<const AVX: bool>(&mut self, falls: &Falls, row: usize, collisions: f32, u: f32) {
         let (spent, stop) = (&falls.spent[row], falls.stops[row]);

@@ -1,5 +1,6 @@
-//! The experiment of Sekiguchi et al. (figure 5): ten auroras, numbers of electrons and radii of splats swept, seen from the side, from below and
-//! from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line integral.
+//! The experiment of Sekiguchi et al. (figure 5): ten auroras, numbers of electrons and radii of splats swept, seen from the side, from
+//! below and from orbit, and from orbit through bent light. Times are medians of runs taken in turn; errors are against the exact line
+//! integral.
 
 use std::hint::black_box;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
@@ -222,8 +223,8 @@ impl Canvas {
 }
 
 /// Draws `job` in the given way: some electrons are walked, their points drawn, then the next. With threads, the time from start to end is
-/// divided between walk and splats as the threads' own times are. Threads are woken once for a picture: before they sum its layers they wait for one another
-/// awake, as to be woken again takes as long as the sum.
+/// divided between walk and splats as the threads' own times are. Threads are woken once for a picture: before they sum its layers they
+/// wait for one another awake, as to be woken again takes as long as the sum.
 pub fn draw(variant: Variant, job: &Job, tables: &Tables) -> Timed {
     let start = Instant::now();
     // In flat space each streak is one chord, of its own.
@@ -332,9 +333,11 @@ pub struct Row {
     pub splat: f64,
     /// See `walk`.
     pub total: f64,
-    /// Root mean square error of the picture over that of the truth. With few electrons it is their grain for the most part, whatever the walk.
+    /// Root mean square error of the picture over that of the truth. With few electrons it is their grain for the most part, whatever the
+    /// walk.
     pub error: f64,
-    /// The same against the particle method with the same electrons, random numbers and splats: what the walk itself gets wrong. 0 for the particle method.
+    /// The same against the particle method with the same electrons, random numbers and splats: what the walk itself gets wrong. 0 for the
+    /// particle method.
     pub difference: f64,
 }
 
@@ -360,11 +363,12 @@ pub fn run(request: &ExperimentRequest, table: &Table, runners: &mut [Box<dyn Ru
     rows
 }
 
-/// Runs of a way on the graphics adapter, at least: its clock has once been read as 0.02 ms for a pass of several, and with fewer than three runs one such time
-/// can be the median.
+/// Runs of a way on the graphics adapter, at least: its clock has once been read as 0.02 ms for a pass of several, and with fewer than
+/// three runs one such time can be the median.
 const LEAST_RUNS: usize = 3;
 
-/// The way whose picture another's is compared with: the particle method on one thread, spread in the same way. A graphics adapter's splats are exponentials.
+/// The way whose picture another's is compared with: the particle method on one thread, spread in the same way. A graphics adapter's splats
+/// are exponentials.
 fn reference(way: usize) -> Option<usize> {
     let splats = VARIANTS.get(way).map_or(Splats::Exponential, |variant| variant.splats);
     VARIANTS.iter().position(|variant| variant.method == Method::Particles && !variant.threads && variant.splats == splats)
@@ -373,8 +377,8 @@ fn reference(way: usize) -> Option<usize> {
 /// Electrons of the judge through bent light, at least and at most.
 const JUDGE: [u32; 2] = [10_000, 150_000];
 
-/// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge` electrons of
-/// another seed.
+/// The picture as it should be. Through bent light there is no line integral to judge by but the particle method itself: `judge` electrons
+/// of another seed.
 fn truth(view: View, eye: &Eye, sheet: &Sheet, falls: &Falls, splat: Splat, judge: u32, tables: &Tables) -> Picture {
     if view != View::Bent {
         return Emission::new(sheet, falls, splat).picture(eye, 0.5 * f64::from(splat.radius).min(1.5));

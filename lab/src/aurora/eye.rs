@@ -59,8 +59,8 @@ impl Eye {
     }
 
     #[allow(clippy::too_many_arguments, reason = "hole, planet and camera, each said once")]
-    /// On a planet of radius `planet` r_s at `at` (r_s from the hole), seen by a camera at (0, 0, `radius`). The patch is in the middle of the
-    /// side that faces `facing`, and the camera looks where the patch's point 110 km up is seen.
+    /// On a planet of radius `planet` r_s at `at` (r_s from the hole), seen by a camera at (0, 0, `radius`). The patch is in the middle of
+    /// the side that faces `facing`, and the camera looks where the patch's point 110 km up is seen.
     pub fn bent(slice: Slice, radius: f64, at: DVec3, planet: f64, facing: DVec3, field_of_view: f64, size: [usize; 2], order: u32) -> Eye {
         let scale = planet / PLANET_RADIUS;
         let up = facing.normalize();

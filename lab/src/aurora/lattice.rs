@@ -1,7 +1,7 @@
 //! Chords for all electrons at once: apparent places on a lattice around the aurora, halved until everything between is right.
 //!
-//! Only the lattice's nodes go through the lookup; a streak takes the ends of its chords from it by bilinear interpolation of the homogeneous
-//! coordinates. In flat space that interpolation is the projection itself, so one cell is enough.
+//! Only the lattice's nodes go through the lookup; a streak takes the ends of its chords from it by bilinear interpolation of the
+//! homogeneous coordinates. In flat space that interpolation is the projection itself, so one cell is enough.
 
 use glam::{Vec2, Vec3};
 

@@ -1,9 +1,9 @@
 //! Pictures of half, a quarter, … the size: their memory, and how they become one picture.
 //!
-//! Memory is kept from picture to picture and cleared tile by tile, where light first falls: most of a large layer is never touched. At the end the
-//! layers are not enlarged one after the other, but row by row all at once: a row of the picture asks for three rows of the next coarser layer, and these
-//! for three of the one after. So all that is between is in a processor's first cache, several pyramids are summed on the way, and bands of the picture can be made
-//! by different threads.
+//! Memory is kept from picture to picture and cleared tile by tile, where light first falls: most of a large layer is never touched. At the
+//! end the layers are not enlarged one after the other, but row by row all at once: a row of the picture asks for three rows of the next
+//! coarser layer, and these for three of the one after. So all that is between is in a processor's first cache, several pyramids are summed
+//! on the way, and bands of the picture can be made by different threads.
 
 use bytemuck::{Pod, Zeroable};
 use std::ops::Range;
@@ -13,13 +13,14 @@ use wide::f32x4;
 pub(super) const LAYERS: usize = 6;
 /// Pixels around a layer: room for a splat whose middle is outside. Even, as pixels lie in pairs.
 pub(super) const MARGIN: usize = 16;
-/// Pixels along a side of a tile, as a power of two. No splat is wider than one, so that it lies in the tile where it begins and three more.
+/// Pixels along a side of a tile, as a power of two. No splat is wider than one, so that it lies in the tile where it begins and three
+/// more.
 pub(super) const TILE: u32 = 4;
 /// The first pixel of the margin that the next finer layer asks for.
 const FIRST: usize = MARGIN - 2;
 
-/// Two pixels of four lines each: what a processor with AVX2 adds at once. Splats begin at whole pairs, since a pair that straddles two of the splat
-/// before would wait for both to be stored.
+/// Two pixels of four lines each: what a processor with AVX2 adds at once. Splats begin at whole pairs, since a pair that straddles two of
+/// the splat before would wait for both to be stored.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C, align(32))]
 pub(super) struct Pair([f32; 2 * 4]);
@@ -116,8 +117,8 @@ impl Layer {
     }
 }
 
-/// A row of a finer layer from three of a coarser one: two fine pixels of each coarse one and its neighbours, along both sides. They have five, ten and one sixteenth, from
-/// the side that the fine one leans to. `column` is room for a row.
+/// A row of a finer layer from three of a coarser one: two fine pixels of each coarse one and its neighbours, along both sides. They have
+/// five, ten and one sixteenth, from the side that the fine one leans to. `column` is room for a row.
 #[inline(always)]
 fn enlarge([before, on, after]: [&[f32x4]; 3], upper: bool, column: &mut [f32x4], row: &mut [[f32; 4]]) {
     let width = on.len();
@@ -193,8 +194,8 @@ struct Made {
     column: Vec<f32x4>,
 }
 
-/// Enlarges what the layers from `number` on, of which `made` are the rows, have for row `y` of the next finer one, from its pixel `first` on. Rows must be asked for in
-/// order. Black for want of coarser layers.
+/// Enlarges what the layers from `number` on, of which `made` are the rows, have for row `y` of the next finer one, from its pixel `first`
+/// on. Rows must be asked for in order. Black for want of coarser layers.
 fn enlarge_coarser(made: &mut [Made], pyramids: &[&[Layer; LAYERS]], number: usize, y: usize, first: usize, out: &mut [[f32; 4]]) {
     let Some((own, coarser)) = made.split_first_mut() else {
         out.fill([0.0; 4]);

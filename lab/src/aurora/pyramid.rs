@@ -1,12 +1,13 @@
-//! Splats at a cost that does not grow with their size: a wide one is added where pixels are as wide as it is, in a picture of half, a quarter, …
-//! the size, and these pictures are enlarged and summed at the end. Two points of a streak that are nearer to each other than their own width are
-//! added as one.
+//! Splats at a cost that does not grow with their size: a wide one is added where pixels are as wide as it is, in a picture of half, a
+//! quarter, … the size, and these pictures are enlarged and summed at the end. Two points of a streak that are nearer to each other than
+//! their own width are added as one.
 //!
-//! A pixel is enlarged by the shares 1, 5, 10, 10, 5, 1 of sixteen along each side (those of a spline of the fourth degree, beside which pixels of a layer
-//! are hardly seen), which adds a variance of 5/4 fine pixels², or 5/12 (1 − 4⁻ᵏ) pixels² of layer k after k times; the Gaussian that is added to the layer is
-//! narrower by that, and its pixels are those that come nearest to it when they are enlarged ([`super::shares`]). Beside a sum of Gaussians the picture errs by what
-//! pairs and tabulated widths and places leave: the tests hold it below 2 % (root mean square), and a single splat within 6.8 % of its peak at 2,400 widths and places (10 % was
-//! found between two tabulated widths about half a pixel, 7.6 % elsewhere).
+//! A pixel is enlarged by the shares 1, 5, 10, 10, 5, 1 of sixteen along each side (those of a spline of the fourth degree, beside which
+//! pixels of a layer are hardly seen), which adds a variance of 5/4 fine pixels², or 5/12 (1 − 4⁻ᵏ) pixels² of layer k after k times; the
+//! Gaussian that is added to the layer is narrower by that, and its pixels are those that come nearest to it when they are enlarged
+//! ([`super::shares`]). Beside a sum of Gaussians the picture errs by what pairs and tabulated widths and places leave: the tests hold it
+//! below 2 % (root mean square), and a single splat within 6.8 % of its peak at 2,400 widths and places (10 % was found between two
+//! tabulated widths about half a pixel, 7.6 % elsewhere).
 
 use super::shares::ADDED;
 use bytemuck::cast;
@@ -21,18 +22,20 @@ use super::shares::{FINEST, MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS
 use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
 
-/// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels become to some 6 % of their peak.
+/// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels
+/// become to some 6 % of their peak.
 const FINENESS: f32 = 1.0 / (0.85 * 0.85);
-/// From this variance on a splat goes to the first coarser layer, whose pixels are enlarged but once and tell narrower ones: its standard deviation is 0.8 of them.
+/// From this variance on a splat goes to the first coarser layer, whose pixels are enlarged but once and tell narrower ones: its standard
+/// deviation is 0.8 of them.
 const FIRST_COARSE: f32 = 4.0 * 0.8 * 0.8;
-/// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what the
-/// splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the third: seen
-/// along a streak, its far and its near end fall on one pixel.
+/// Two points become one splat if their distance squared is less than the first share of their variance, the product of its two sides (what
+/// the splat lacks, as it is drawn out along rows and columns alone) less than the second, and their variances differ by less than the
+/// third: seen along a streak, its far and its near end fall on one pixel.
 const NEAR: f32 = 2.1;
 const ASLANT: f32 = 0.4;
 const ALIKE: f32 = 0.6;
-/// Times eight splats whose places are found before the first of them is added: taken in turns, eight would wait for their roots while a processor's room for
-/// instructions to come is full of the additions of the eight before.
+/// Times eight splats whose places are found before the first of them is added: taken in turns, eight would wait for their roots while a
+/// processor's room for instructions to come is full of the additions of the eight before.
 const BATCH: usize = 8;
 
 /// The layers of a picture, each with a margin.
@@ -42,8 +45,8 @@ pub struct Pyramid {
     layers: [Layer; LAYERS],
 }
 
-/// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row to the
-/// next there are `stride` pairs.
+/// Adds light in rows with the shares `lines`, from pair `start` on, and in each to `PAIRS` pairs with the shares `columns`; from one row
+/// to the next there are `stride` pairs.
 #[inline(always)]
 fn add_plain<const PAIRS: usize>(pixels: &mut [Pair], [start, stride]: [u32; 2], columns: &[f32], lines: &[f32], light: f32x4) {
     let [start, stride] = [start as usize, stride as usize];
@@ -232,7 +235,8 @@ impl Pyramid {
         picture
     }
 
-    /// Some rows of the picture that pyramids of one size make together: each layer enlarged and added to the next finer one. `out` has the rows' pixels.
+    /// Some rows of the picture that pyramids of one size make together: each layer enlarged and added to the next finer one. `out` has the
+    /// rows' pixels.
     pub fn sum(pyramids: &[&Pyramid], rows: Range<usize>, out: &mut [[f32; 4]]) {
         let layers: Vec<&[Layer; LAYERS]> = pyramids.iter().map(|pyramid| &pyramid.layers).collect();
         if let Some(first) = pyramids.first() {
@@ -258,10 +262,10 @@ struct Blobs {
 }
 
 impl Blobs {
-    /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else the second
-    /// is put to the `lone` ones.
-    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX` as for
-    // `Pyramid::add_all`.
+    /// Of pairs of points with a standard deviation of `radius` km. Both points of a pair that are near to each other become one blob; else
+    /// the second is put to the `lone` ones.
+    // One loop without branches or closures, so that the compiler takes eight lanes together, with whatever instructions there are. `AVX`
+    // as for `Pyramid::add_all`.
     #[inline(always)]
     fn of<const AVX: bool>([a, b]: &[Eight; 2], radius: f32, lone: &mut Lone) -> Blobs {
         let mut blobs = Blobs { level: a.level, other_level: b.level, ..Blobs::default() };
@@ -409,8 +413,8 @@ fn side(variance: f32, shrink: f32, centre: f32) -> (f32, f32, f32) {
 }
 
 impl Splats {
-    /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions, which
-    /// took longer than to add it.
+    /// Of blobs in a picture. Lane by lane without a branch: taken one after the other, each would wait for its root and its conversions,
+    /// which took longer than to add it.
     #[inline(always)]
     fn of(blobs: &Blobs, size: [usize; 2], splats: &mut Splats) {
         splats.inside = 0;

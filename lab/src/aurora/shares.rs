@@ -1,6 +1,7 @@
-//! What part of a splat's light falls on each pixel along one of its sides: Gaussians of standard deviations from half a pixel to 2.4, tabulated.
-//! In the finest layer they are sampled as they are. Pixels of coarser layers are enlarged, each into a hump of its own (`layers.rs`); there the shares are
-//! those whose humps together are nearest to the Gaussian that is wanted (least squares), which takes fewer of them, and from narrower Gaussians on.
+//! What part of a splat's light falls on each pixel along one of its sides: Gaussians of standard deviations from half a pixel to 2.4,
+//! tabulated. In the finest layer they are sampled as they are. Pixels of coarser layers are enlarged, each into a hump of its own
+//! (`layers.rs`); there the shares are those whose humps together are nearest to the Gaussian that is wanted (least squares), which takes
+//! fewer of them, and from narrower Gaussians on.
 
 use super::points::lesser;
 
@@ -9,8 +10,8 @@ pub(super) const ADDED: f32 = 5.0 / 12.0;
 
 /// Most pixels along a side of a splat, where its standard deviation is 2.4 pixels.
 const WIDTH: usize = 13;
-/// How far splats of the finest layer reach beyond half a pixel: a narrow one to so many of its standard deviations, a wide one to so many and a part of a pixel,
-/// which makes 2.5 of them. Beyond lies 1 % of a side's light at most, which is dealt out over the pixels within.
+/// How far splats of the finest layer reach beyond half a pixel: a narrow one to so many of its standard deviations, a wide one to so many
+/// and a part of a pixel, which makes 2.5 of them. Beyond lies 1 % of a side's light at most, which is dealt out over the pixels within.
 const REACH: f32 = 2.75;
 const WIDE_REACH: (f32, f32) = (2.35, 0.36);
 /// The same for coarser layers: what is beyond is less than 6 % of the peak, and humps have no edge there.
@@ -20,9 +21,9 @@ pub(super) const WIDTHS: usize = 76;
 pub(super) const WIDTHS_PER_PIXEL: f32 = 40.0;
 pub(super) const PLACES: usize = 32;
 
-/// Shares of a side in the table: that of the pixel in the middle of the splat is the one numbered `MIDDLE`, those beyond the splat's reach are
-/// nothing, as are those at the ends of the rows before and after. So pairs may begin before the splat does, and both sides take as many
-/// pixels as the longer one. A power of two, so that no row lies across two of a cache's lines.
+/// Shares of a side in the table: that of the pixel in the middle of the splat is the one numbered `MIDDLE`, those beyond the splat's reach
+/// are nothing, as are those at the ends of the rows before and after. So pairs may begin before the splat does, and both sides take as
+/// many pixels as the longer one. A power of two, so that no row lies across two of a cache's lines.
 pub(super) const SIDE: usize = 16;
 pub(super) const MIDDLE: usize = WIDTH / 2 + 1;
 /// Shares of the finest layer; those of the coarser ones are behind them.
@@ -31,7 +32,8 @@ pub(super) const FINEST: usize = (WIDTHS + 1) * (PLACES + 1) * SIDE;
 /// All of them, and what is read behind the last row.
 pub(super) const SHARES: usize = 2 * FINEST + SIDE;
 
-/// Each pixel's share of a splat along one side, by layer (the finest or a coarser one), width and place; the shares' sum is 1, so that no light is lost.
+/// Each pixel's share of a splat along one side, by layer (the finest or a coarser one), width and place; the shares' sum is 1, so that no
+/// light is lost.
 #[derive(Clone, Debug)]
 pub struct Shares(pub(super) Vec<f32>);
 
@@ -61,8 +63,8 @@ impl Default for Shares {
     }
 }
 
-/// Pixels that a splat of a standard deviation covers on each side of the one that its middle is in, in the finest layer or in one that is enlarged. An odd number
-/// altogether fits the pairs that pixels lie in, wherever it starts.
+/// Pixels that a splat of a standard deviation covers on each side of the one that its middle is in, in the finest layer or in one that is
+/// enlarged. An odd number altogether fits the pairs that pixels lie in, wherever it starts.
 #[inline(always)]
 pub(super) fn half_of(sigma: f32, enlarged: bool) -> f32 {
     let finest = lesser(sigma * REACH, sigma * WIDE_REACH.0 + WIDE_REACH.1);
@@ -78,8 +80,8 @@ fn sampled(half: usize, sigma: f64, middle: f64) -> Vec<f64> {
     shares
 }
 
-/// Times that a pixel is enlarged before humps are compared with a Gaussian: their form hardly changes any more, and variances are matched for each layer in any case
-/// (`ADDED` in [`super::pyramid`]).
+/// Times that a pixel is enlarged before humps are compared with a Gaussian: their form hardly changes any more, and variances are matched
+/// for each layer in any case (`ADDED` in [`super::pyramid`]).
 const TIMES: usize = 3;
 /// Parts of a pixel then.
 const FINE: usize = 1 << TIMES;

@@ -156,8 +156,8 @@ impl Sheet {
         }
     }
 
-    /// `count` electrons from west to east, so that those that follow one another are neighbours in the picture. µ is moved a little, so that each falls exactly as a row of
-    /// the table says.
+    /// `count` electrons from west to east, so that those that follow one another are neighbours in the picture. µ is moved a little, so
+    /// that each falls exactly as a row of the table says.
     pub fn streaks(&self, count: u32) -> Vec<Streak> {
         let up = field_direction();
         let mut streaks: Vec<Streak> = (0..count)

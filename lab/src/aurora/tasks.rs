@@ -7,9 +7,9 @@ use super::sheet::Streak;
 /// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
 const TASK: usize = 64;
 
-/// The electrons, in as many parts as there are threads. Each thread takes its own part, task by task, as neighbours in the list are neighbours in the picture: so each has
-/// pixels of its own in its caches, and there are fewer that two threads have drawn in and must be summed. Then it takes what others have left, as no thread is woken at once
-/// and none is as fast as the other.
+/// The electrons, in as many parts as there are threads. Each thread takes its own part, task by task, as neighbours in the list are
+/// neighbours in the picture: so each has pixels of its own in its caches, and there are fewer that two threads have drawn in and must be
+/// summed. Then it takes what others have left, as no thread is woken at once and none is as fast as the other.
 #[derive(Debug)]
 pub struct Tasks<'a> {
     /// The electrons of each part.
@@ -22,7 +22,8 @@ pub struct Tasks<'a> {
 }
 
 impl<'a> Tasks<'a> {
-    /// For so many threads, at least one. Whatever their number, tasks are the same: points are joined within a task, and else the picture would be another.
+    /// For so many threads, at least one. Whatever their number, tasks are the same: points are joined within a task, and else the picture
+    /// would be another.
     pub fn new(streaks: &'a [Streak], threads: usize) -> Self {
         let share = streaks.len().div_ceil(TASK).div_ceil(threads.max(1)).max(1) * TASK;
         let parts: Vec<&[Streak]> = streaks.chunks(share).collect();
@@ -78,7 +79,8 @@ impl Drop for Taker<'_, '_> {
     }
 }
 
-/// Does `work` for each of `parts`, with its number, on a thread of its own. This thread takes the first itself: the others alone have to be woken.
+/// Does `work` for each of `parts`, with its number, on a thread of its own. This thread takes the first itself: the others alone have to
+/// be woken.
 pub fn on_threads<T: Send>(parts: impl Iterator<Item = T>, work: impl Fn(usize, T) + Sync) {
     let mut parts = parts.enumerate();
     rayon::in_place_scope(|scope| {

@@ -1,7 +1,7 @@
 //! The walks: from electrons to luminous points on the screen.
 //!
-//! Collisions are dealt out evenly: with one random number u for each electron, the collisions above a level are ⌊n·spent + u⌋. Their mean is
-//! exactly n·spent at every level, and the sum is n to within one collision, so no energy is lost or made.
+//! Collisions are dealt out evenly: with one random number u for each electron, the collisions above a level are ⌊n·spent + u⌋. Their mean
+//! is exactly n·spent at every level, and the sum is n to within one collision, so no energy is lost or made.
 
 use glam::{Vec2, Vec3};
 
@@ -73,8 +73,8 @@ pub fn across() -> [Vec3; 2] {
 }
 
 impl<'a> Walker<'a> {
-    /// Walks by `eye`; `lattice` has the chords of the exact walk where light is bent (without it each streak has one, of its own); `seed` says
-    /// which random numbers.
+    /// Walks by `eye`; `lattice` has the chords of the exact walk where light is bent (without it each streak has one, of its own); `seed`
+    /// says which random numbers.
     pub fn new(eye: &'a Eye, falls: &'a Falls, lattice: Option<&'a Lattice>, seed: u32) -> Self {
         Walker { eye, falls, lattice, seed, across: across().map(|e| eye.direction(e)) }
     }
@@ -119,8 +119,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The 3-D particle method: the position steps along the field and astray, the energy left follows from the air there, and each luminous
-    /// point is projected.
+    /// The 3-D particle method: the position steps along the field and astray, the energy left follows from the air there, and each
+    /// luminous point is projected.
     #[inline(always)]
     fn particles(&self, streak: &Streak, out: &mut Points) {
         let falls = self.falls;
@@ -194,8 +194,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// Between two projected ends the homogeneous coordinates are linear in height: one reciprocal a step. In flat space that is the projection
-    /// itself; where light is bent, the lattice has chords enough.
+    /// Between two projected ends the homogeneous coordinates are linear in height: one reciprocal a step. In flat space that is the
+    /// projection itself; where light is bent, the lattice has chords enough.
     #[inline(always)]
     fn exact(&self, streak: &Streak, steps: &Collisions, out: &mut Points) {
         let (key, _) = key(streak, self.seed);
@@ -225,7 +225,8 @@ impl<'a> Walker<'a> {
         }
     }
 
-    /// The steps `range` between two projected ends, at the heights `ends`. Points before the nearest depth are left out, and what is not a number.
+    /// The steps `range` between two projected ends, at the heights `ends`. Points before the nearest depth are left out, and what is not a
+    /// number.
     #[inline(always)]
     fn chord(
         &self,

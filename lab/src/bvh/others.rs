@@ -19,7 +19,8 @@ const LONGEST: Duration = Duration::from_secs(30);
 /// How many rays tell how long all take.
 const TRIED: usize = 64;
 
-/// What `build` makes of the triangles; None, and a sentence, where that takes too long. It cannot be stopped: it goes on beside what is measured then.
+/// What `build` makes of the triangles; None, and a sentence, where that takes too long. It cannot be stopped: it goes on beside what is
+/// measured then.
 pub fn within<T: Send + 'static>(
     scene: &str,
     name: &str,

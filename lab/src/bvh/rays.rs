@@ -11,7 +11,8 @@ use super::request::{BvhRequest, ChartError};
 use crate::straight::scenes::{Scene, View, bunny, castle, needles, spd};
 use crate::straight::{Hit, Ray, Wide, order};
 
-/// No method of ours should take longer than some times this (seconds of single rays in the tree of eight) for a picture: else the picture is made smaller.
+/// No method of ours should take longer than some times this (seconds of single rays in the tree of eight) for a picture: else the picture
+/// is made smaller.
 const LONGEST: f64 = 2.0;
 
 /// Edges of packets in pixels.
@@ -73,7 +74,8 @@ impl Job {
     }
 }
 
-/// The size of a picture that single rays make in [`LONGEST`], by rays through the middle; the one asked for, unless the scene is such a bad one. Says so.
+/// The size of a picture that single rays make in [`LONGEST`], by rays through the middle; the one asked for, unless the scene is such a
+/// bad one. Says so.
 fn bearable(scene: &Scene, wide: &Wide, size: [usize; 2]) -> [usize; 2] {
     let middle = rays_of(&scene.view, [32, 24]);
     let mut hits = vec![Hit::MISS; middle.len()];

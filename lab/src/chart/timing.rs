@@ -46,8 +46,9 @@ pub fn interleaved_by(clock: fn() -> f64, contestants: &mut [&mut dyn FnMut()], 
     seconds.into_iter().map(Timing::of).collect()
 }
 
-/// How often the time of the first each of the others takes: the medians over `rounds` of ratios within one round, whose order is turned round each
-/// time. One more round before is thrown away. Finer than a ratio of medians where the machine changes its speed from second to second.
+/// How often the time of the first each of the others takes: the medians over `rounds` of ratios within one round, whose order is turned
+/// round each time. One more round before is thrown away. Finer than a ratio of medians where the machine changes its speed from second to
+/// second.
 pub fn times_the_first(clock: fn() -> f64, contestants: &mut [&mut dyn FnMut()], rounds: usize) -> Vec<f64> {
     let number = contestants.len();
     let mut ratios = vec![Vec::with_capacity(rounds); number];

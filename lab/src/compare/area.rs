@@ -24,8 +24,8 @@ pub struct Area {
     pub pixels: usize,
     /// Pixels just outside of those.
     pub rim: usize,
-    /// The variance of its area by chance, in pixels squared: 1/4 for each pixel of which the judge sees it in a part, c(1 − c) for each that shows it with
-    /// a coverage c.
+    /// The variance of its area by chance, in pixels squared: 1/4 for each pixel of which the judge sees it in a part, c(1 − c) for each
+    /// that shows it with a coverage c.
     pub variance: f64,
 }
 
@@ -42,7 +42,8 @@ impl Area {
     }
 }
 
-/// The areas of all images that either picture shows, by object and order. `is_thin` tells the images that are compared by the area they cover.
+/// The areas of all images that either picture shows, by object and order. `is_thin` tells the images that are compared by the area they
+/// cover.
 pub fn areas(judge: &Picture, frame: &Frame, names: &[String], is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<Area> {
     let grid = Grid::of(judge.size);
     let mut found: BTreeMap<(u32, u32), Area> = BTreeMap::new();

@@ -9,8 +9,9 @@ use crate::chart::{Provenance, Sheet, SheetError};
 use lensrunner::judge::case::TraceRequest;
 use lensrunner::scene;
 
-/// The columns. T in r_s/c; displacements in pixels; `percent` of an image's pixels and its rim; thin areas in pixels; `verdict` is `within`,
-/// that nothing was judged, or all that is beyond the limits, and holds for the whole picture, as do wrong orders, holes and lit pixels.
+/// The columns. T in r_s/c; displacements in pixels; `percent` of an image's pixels and its rim; thin areas in pixels; `verdict` is
+/// `within`, that nothing was judged, or all that is beyond the limits, and holds for the whole picture, as do wrong orders, holes and lit
+/// pixels.
 pub const COLUMNS: [&str; 23] = [
     "scene",
     "at",
@@ -37,8 +38,8 @@ pub const COLUMNS: [&str; 23] = [
     "command",
 ];
 
-/// When scenes that move are looked at, besides T = 0: in the chase the ships turn and thrust; in the plunge the camera nears the horizon (1.2)
-/// and is inside (1.5).
+/// When scenes that move are looked at, besides T = 0: in the chase the ships turn and thrust; in the plunge the camera nears the horizon
+/// (1.2) and is inside (1.5).
 const LATER: [(&str, &[f64]); 2] = [("chase", &[5.0, 20.0, 25.0]), ("plunge", &[1.2, 1.5])];
 
 /// The scenes that the project comes with, each with the times T (r_s/c) at which it is judged.
@@ -50,7 +51,8 @@ pub fn moments() -> Vec<(String, f64)> {
         .collect()
 }
 
-/// Adds a verdict to the table in `csv`, in the place of an earlier one of the same scene, T and rays a pixel, and writes its Markdown beside it.
+/// Adds a verdict to the table in `csv`, in the place of an earlier one of the same scene, T and rays a pixel, and writes its Markdown
+/// beside it.
 pub fn add(csv: &Path, request: &TraceRequest, verdict: &Verdict, limits: &Limits, faults: &[String]) -> Result<(), SheetError> {
     let mut sheet = open(csv)?;
     let commit = Provenance::now("").commit;

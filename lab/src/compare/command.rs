@@ -58,8 +58,8 @@ impl CompareError {
 /// The name that stands for every scene of the project.
 pub const ALL: &str = "all";
 
-/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts. Scenes
-/// without anything solid get the rays that colours need. Gives what goes beyond the limits, and what could not be judged.
+/// Judges every scene of the project, at each of its times, into the folder `output`: pictures side by side, and the table of all verdicts.
+/// Scenes without anything solid get the rays that colours need. Gives what goes beyond the limits, and what could not be judged.
 pub fn run_all(request: &TraceRequest, config: Option<&Path>, output: &Path, contestant: &Contestant) -> Result<Vec<String>, CompareError> {
     let mut faults = Vec::new();
     for (scene, at) in moments() {
@@ -81,8 +81,8 @@ pub fn run_all(request: &TraceRequest, config: Option<&Path>, output: &Path, con
     Ok(faults)
 }
 
-/// Renders both, gives what goes beyond the limits, prints the verdict to standard output, writes the pictures side by side to `output`, a .png, and
-/// adds the verdict to `collected`, a .csv.
+/// Renders both, gives what goes beyond the limits, prints the verdict to standard output, writes the pictures side by side to `output`, a
+/// .png, and adds the verdict to `collected`, a .csv.
 pub fn run(
     request: &TraceRequest,
     config: Option<&Path>,
@@ -142,8 +142,9 @@ pub fn run(
 /// From this many rays a pixel on the judge's colours are judged by: with fewer its own streaks are rough.
 const COLOUR_SAMPLES: u32 = 16;
 
-/// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel along its rows, which every surface point may be
-/// displaced by, as linear filtering moves it: each pixel the mean of itself and its left neighbour, so what is as fine as a pixel also grows softer.
+/// The mean ꟻLIP that a picture may have: that of the judge's own picture moved by half a pixel along its rows, which every surface point
+/// may be displaced by, as linear filtering moves it: each pixel the mean of itself and its left neighbour, so what is as fine as a pixel
+/// also grows softer.
 pub fn colour_limit(judge: &Picture) -> f64 {
     let width = judge.size[0] as usize;
     let moved: Vec<[f32; 3]> = (0..judge.light.len())
@@ -169,9 +170,9 @@ fn contrast(judge: &Picture, light: &[[f32; 3]]) -> Vec<f32> {
     flip(&exposed(&judge.light), &exposed(light), judge.size)
 }
 
-/// What makes of a model one with the first two of its points' coordinates as texture coordinates, and one with the third: a renderer that draws these
-/// shows, in its layer of texture coordinates, which point of a surface is at each pixel. Coarser models that stand in for one must be marked after they
-/// are made.
+/// What makes of a model one with the first two of its points' coordinates as texture coordinates, and one with the third: a renderer that
+/// draws these shows, in its layer of texture coordinates, which point of a surface is at each pixel. Coarser models that stand in for one
+/// must be marked after they are made.
 pub const MARKS: [fn(&Model) -> Model; 2] =
     [|model| with_places(model, |[x, y, _]| [x, y]), |model| with_places(model, |[_, _, z]| [z, 0.0])];
 

@@ -1,4 +1,5 @@
-//! Where the judge sees the surface point that the contestant shows at a pixel: Newton on the judge's own map from the screen to the surface.
+//! Where the judge sees the surface point that the contestant shows at a pixel: Newton on the judge's own map from the screen to the
+//! surface.
 //!
 //! Points are compared as points of the body, three coordinates in its own axes: texture coordinates have seams and poles.
 
@@ -43,8 +44,8 @@ impl Default for Effort {
     }
 }
 
-/// The pixels where both show the same object in the same order, for each image so many as are measured. They are in an order in which any first part is spread
-/// over the picture, so that little is lost where time runs out.
+/// The pixels where both show the same object in the same order, for each image so many as are measured. They are in an order in which any
+/// first part is spread over the picture, so that little is lost where time runs out.
 fn measurable(judge: &Picture, frame: &Frame, most: usize) -> Vec<usize> {
     let mut images: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
     for (i, (layer, shown)) in judge.layers.iter().zip(&frame.shown).enumerate() {
@@ -119,8 +120,8 @@ const LONGEST: f64 = 4.0;
 /// Half the span over which the slope is taken, in pixels: the judge's rays are right to 1e-9 of that.
 const SPAN: f64 = 1.0 / 64.0;
 
-/// How far from `centre`, in pixels, the judge sees the point `wanted`, looked for from `start`, which shows `here`. Where the image ends before it is reached the slope at its end
-/// extends it.
+/// How far from `centre`, in pixels, the judge sees the point `wanted`, looked for from `start`, which shows `here`. Where the image ends
+/// before it is reached the slope at its end extends it.
 fn measure(probe: &dyn Probe, here: Point, start: DVec2, centre: DVec2, wanted: DVec3) -> Option<Measured> {
     let same = |place: DVec2| probe.at(place.x, place.y).filter(|p| (p.object, p.order) == (here.object, here.order)).map(|p| p.body);
     let resolution = RESOLUTION * probe.radius(here.object);
@@ -155,8 +156,8 @@ fn measure(probe: &dyn Probe, here: Point, start: DVec2, centre: DVec2, wanted: 
     best.is_finite().then_some(Measured::Pixels(best))
 }
 
-/// The step on the screen that brings the surface point nearest to `off` away; None where a direction of the screen is magnified so far that a
-/// pixel covers less than `resolution`.
+/// The step on the screen that brings the surface point nearest to `off` away; None where a direction of the screen is magnified so far
+/// that a pixel covers less than `resolution`.
 fn solve(across: DVec3, down: DVec3, off: DVec3, resolution: f64) -> Option<DVec2> {
     let (a, b, c) = (across.length_squared(), across.dot(down), down.length_squared());
     let angle = 0.5 * (2.0 * b).atan2(a - c);

@@ -11,11 +11,12 @@ pub struct Limits {
     pub max: f64,
     /// Of mismatched pixels, as a part of the object's pixels and its rim.
     pub coverage: f64,
-    /// How far the outline of an image may be off in the mean, in pixels, where pictures are so small that mismatched pixels are a count that
-    /// chance moves: so many pixels differ for each pixel of the rim, give or take three standard deviations of that count. 0 leaves `coverage` alone.
+    /// How far the outline of an image may be off in the mean, in pixels, where pictures are so small that mismatched pixels are a count
+    /// that chance moves: so many pixels differ for each pixel of the rim, give or take three standard deviations of that count. 0 leaves
+    /// `coverage` alone.
     pub outline: f64,
-    /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and drawn
-    /// triangles may make all or nothing, of a variance of 1/4 at most.
+    /// Of the difference in area of all thin images, in standard deviations of a count: of each pixel that an image touches, samples and
+    /// drawn triangles may make all or nothing, of a variance of 1/4 at most.
     pub thin: f64,
     /// Of the mean ꟻLIP of the picture; None where the judge has too few rays a pixel to know its colours, or where surfaces are.
     pub flip: Option<f64>,
@@ -49,15 +50,15 @@ impl Limits {
         if self.outline > 0.0 { self.counted(expected) } else { expected.max(1.0) }
     }
 
-    /// The most that a count will be of which so much is expected: the quantile of Poisson's distribution that lies as far out as [`Limits::thin`] standard
-    /// deviations z of a normal one. The last term of λ + z √λ + (z² − 1)/6 is for its skewness (Cornish and Fisher 1938): where hardly one is expected,
-    /// three are not rare.
+    /// The most that a count will be of which so much is expected: the quantile of Poisson's distribution that lies as far out as
+    /// [`Limits::thin`] standard deviations z of a normal one. The last term of λ + z √λ + (z² − 1)/6 is for its skewness (Cornish and
+    /// Fisher 1938): where hardly one is expected, three are not rare.
     pub fn counted(&self, expected: f64) -> f64 {
         expected + self.thin * expected.sqrt() + (self.thin * self.thin - 1.0) / 6.0
     }
 
-    /// By how much the area of an image may differ, in pixels: by pixels that may differ, and by chance where it covers pixels in part; `variance` is that
-    /// of those pixels together.
+    /// By how much the area of an image may differ, in pixels: by pixels that may differ, and by chance where it covers pixels in part;
+    /// `variance` is that of those pixels together.
     pub fn area(&self, pixels: usize, rim: usize, variance: f64) -> f64 {
         self.counted(self.expected(pixels, rim)) + self.thin * variance.sqrt()
     }

@@ -1,7 +1,7 @@
 //! The pixels of a picture, and whose the parts of one are.
 
-/// Whose the coverage is that a contestant shows in a pixel. Where several thin images cover one it knows their common area alone, and names the
-/// nearest: it counts for each as the judge sees them there. Each image with its part, of 1 in all.
+/// Whose the coverage is that a contestant shows in a pixel. Where several thin images cover one it knows their common area alone, and
+/// names the nearest: it counts for each as the judge sees them there. Each image with its part, of 1 in all.
 pub(super) fn thin_parts(shares: &[(u32, u32, f32)], shown: (u32, u32), is_thin: &dyn Fn(u32, u32) -> bool) -> Vec<((u32, u32), f64)> {
     let there: Vec<_> =
         shares.iter().filter(|share| is_thin(share.0, share.1)).map(|share| ((share.0, share.1), f64::from(share.2))).collect();

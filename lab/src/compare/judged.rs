@@ -54,7 +54,8 @@ pub struct Judged {
     pub rate: f64,
 }
 
-/// Draws the case and judges it with one ray a pixel, nine where images are narrow, by the limits of small pictures. An error if the judge ran out of time.
+/// Draws the case and judges it with one ray a pixel, nine where images are narrow, by the limits of small pictures. An error if the judge
+/// ran out of time.
 pub fn judge(case: &Case, terms: &Terms, contestant: &Contestant) -> Result<Judged, GaveUp> {
     let started = Instant::now();
     let drawn = draw(case, contestant);
@@ -102,7 +103,8 @@ fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadl
         deadline.check("narrow images were looked at with nine rays a pixel")?;
     }
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    // A part of the pixels, spread over the picture, tells how far points are displaced: there is less time for them than for what is seen at all.
+    // A part of the pixels, spread over the picture, tells how far points are displaced: there is less time for them than for what is seen
+    // at all.
     let effort = Effort { pixels: terms.pixels, doubtful: terms.doubtful, deadline: Deadline::after(MEASURING * terms.seconds) };
     // Colours are not judged with one ray a pixel.
     let no_difference = vec![0.0; judge.light.len()];

@@ -45,8 +45,8 @@ pub struct Group {
     pub beyond_rim: usize,
     /// Where the surface points are.
     pub displacement: Displacement,
-    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant; or at how many pixels' centres they are, if the contestant draws them by
-    /// these.
+    /// Images narrower than a pixel: their area in pixels to the judge and to the contestant; or at how many pixels' centres they are, if
+    /// the contestant draws them by these.
     pub thin: [f64; 2],
     /// Pixels of which they cover a part to the judge.
     pub touched: usize,
@@ -196,8 +196,9 @@ fn all_around([x, y]: [f64; 2], holds: impl Fn(f64, f64) -> bool) -> bool {
     (0..3 * DOUBT).all(|row| (0..3 * DOUBT).all(|column| holds(x + step(column), y + step(row))))
 }
 
-/// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant draws
-/// by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a pixel here and there.
+/// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant
+/// draws by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a
+/// pixel here and there.
 fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     // Pixels touched and pixels filled.
     let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
@@ -213,8 +214,8 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
     nowhere.chain(hardly).collect()
 }
 
-/// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a line along a row of pixels is there in
-/// all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
+/// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a
+/// line along a row of pixels is there in all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
 fn drawn_by_centres(frame: &Frame) -> HashSet<(u32, u32)> {
     let images = |by_coverage: bool| {
         let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;

@@ -13,9 +13,9 @@ use lensrunner::judge::picture::Picture;
 /// Rays along each side of a pixel in which a narrow image lies.
 pub const SIDE: u32 = 3;
 
-/// Replaces the judge's shares, of a single ray a pixel, by those of [`SIDE`]² rays in all pixels that a narrow image touches or may touch: one that
-/// nowhere shows all around a pixel that shows it, so that it is less than three pixels wide; or that the contestant draws by coverage. From the pixels
-/// in which either picture shows it the search goes on to their neighbours as long as the judge meets it there.
+/// Replaces the judge's shares, of a single ray a pixel, by those of [`SIDE`]² rays in all pixels that a narrow image touches or may touch:
+/// one that nowhere shows all around a pixel that shows it, so that it is less than three pixels wide; or that the contestant draws by
+/// coverage. From the pixels in which either picture shows it the search goes on to their neighbours as long as the judge meets it there.
 pub fn see_again(judge: &mut Picture, frame: &Frame, probe: &dyn Probe) {
     see_again_but(judge, frame, probe, &BTreeSet::new(), &Deadline::never());
 }
@@ -43,8 +43,9 @@ pub fn see_again_but(judge: &mut Picture, frame: &Frame, probe: &dyn Probe, but:
     }
 }
 
-/// Images of which so much too much is shown, or too little, that a single ray a pixel tells: more rays would only take their time. Of an image that is
-/// right each pixel that is touched adds 1/4 at most to the variance of what single rays count; here it is off by six standard deviations, over many pixels.
+/// Images of which so much too much is shown, or too little, that a single ray a pixel tells: more rays would only take their time. Of an
+/// image that is right each pixel that is touched adds 1/4 at most to the variance of what single rays count; here it is off by six
+/// standard deviations, over many pixels.
 pub fn grossly_wrong(judge: &Picture, frame: &Frame) -> BTreeSet<(u32, u32)> {
     let mut counts: BTreeMap<(u32, u32), [f64; 3]> = BTreeMap::new();
     for (layer, shown) in judge.layers.iter().zip(&frame.shown) {

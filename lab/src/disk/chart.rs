@@ -1,7 +1,8 @@
 //! The chart `disk`: the two tables of Yamashita 2025 with the error of the picture beside each time, and speed against error.
 //!
-//! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations, the same
-//! for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the instruments know no renderer.
+//! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations,
+//! the same for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the
+//! instruments know no renderer.
 
 use super::request::{ChartError, Contestant, DiskRequest, Draw, REFERENCE, TIME, View, contestants, eye, median, own, passes, timed};
 use lensrunner::spacetime::Observer;

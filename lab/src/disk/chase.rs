@@ -11,12 +11,12 @@ use super::script::script;
 /// The exact picture has this many samples squared in a pixel.
 const SAMPLES: u32 = 3;
 
-/// A picture is exposed for its own peak, but for no less than this part of the brightest one's along the way: in the plane itself the disk is seen edge on,
-/// from within its gas, and has a hundred-thousandth of its light. Nothing brings that to white.
+/// A picture is exposed for its own peak, but for no less than this part of the brightest one's along the way: in the plane itself the disk
+/// is seen edge on, from within its gas, and has a hundred-thousandth of its light. Nothing brings that to white.
 const LEAST_PEAK: f32 = 0.01;
 
-/// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the pictures that are
-/// compared show the disk alone. Times are medians of the rounds, in which all take turns.
+/// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the
+/// pictures that are compared show the disk alone. Times are medians of the rounds, in which all take turns.
 pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&[
         "contestant",
@@ -65,8 +65,8 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: 
     Ok(sheet)
 }
 
-/// What the chase comes to: each contestant's mean and worst frame, how near the worst comes to the mean in frames per second, where it is, and the mean
-/// and worst error.
+/// What the chase comes to: each contestant's mean and worst frame, how near the worst comes to the mean in frames per second, where it is,
+/// and the mean and worst error.
 pub(super) fn summary(chase: &Sheet) -> Sheet {
     let mut sheet = Sheet::new(&[
         "contestant",

@@ -27,7 +27,8 @@ pub struct Crossing {
     pub cosine: f64,
 }
 
-/// Linear light (red, green, blue) of the disk alone, row by row from the top, black where it is not; `samples`² samples a pixel in a regular grid.
+/// Linear light (red, green, blue) of the disk alone, row by row from the top, black where it is not; `samples`² samples a pixel in a
+/// regular grid.
 pub fn picture(gas: &Gas, eye: &Observer, size: [u32; 2], time: f64, orders: u32, samples: u32) -> Vec<[f32; 3]> {
     part(gas, eye, size, [[0; 2], size], time, orders, samples)
 }

@@ -9,8 +9,9 @@ use super::script::script;
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
 const DRAWN: usize = 3;
 
-/// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the adapter's timestamps, of
-/// them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the disk's draw shaded.
+/// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the
+/// adapter's timestamps, of them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the
+/// disk's draw shaded.
 pub(super) fn flight(request: &DiskRequest, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
     sheet.notes = Provenance::now(adapter).notes();

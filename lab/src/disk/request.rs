@@ -73,7 +73,8 @@ pub struct View {
     pub counted: bool,
 }
 
-/// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that size.
+/// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that
+/// size.
 pub type Draw<'a> = dyn FnMut(Option<usize>, &View, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
 
 /// Why there is no chart.
@@ -133,8 +134,8 @@ pub(super) fn eye(position: DVec3, look: DVec3) -> Observer {
     }
 }
 
-/// What the disk costs: the passes that are its own by timestamps. A software adapter draws on the processor, where other programs run as well and
-/// passes overlap: there it is the processor time of the frame less that of a frame without a disk.
+/// What the disk costs: the passes that are its own by timestamps. A software adapter draws on the processor, where other programs run as
+/// well and passes overlap: there it is the processor time of the frame less that of a frame without a disk.
 pub(super) fn own(shown: &Shown, without: &Shown) -> f64 {
     match (shown.processor, without.processor) {
         (Some(with), Some(without)) => with - without,

@@ -19,8 +19,9 @@ const fn stop(share: f64, position: [f64; 3], aside: f64) -> Stop {
     Stop { share, position, aside }
 }
 
-/// Within the inner edge the hole fills what lies inwards: there the look goes along the orbit. From far, in through the inner edge, out over the disk, slowly down through it, and away below. Time inside the edge and in the plane is more than
-/// an eighth of the whole each, so that eight places along the way miss neither.
+/// Within the inner edge the hole fills what lies inwards: there the look goes along the orbit. From far, in through the inner edge, out
+/// over the disk, slowly down through it, and away below. Time inside the edge and in the plane is more than an eighth of the whole each,
+/// so that eight places along the way miss neither.
 const WAY: [Stop; 9] = [
     stop(0.0, [0.0, -26.0, 6.0], 0.0),
     stop(0.25, [2.0, -12.0, 3.0], 0.0),
@@ -39,7 +40,8 @@ pub const CROSSING: f64 = 0.05;
 /// Nearer than this it skims over it, in r_s.
 const SKIMMING: f64 = 0.7;
 
-/// Where the eye is and T, at a share from 0 to 1 of the way, and what it passes through: said of the place itself, with the disk's inner edge in r_s.
+/// Where the eye is and T, at a share from 0 to 1 of the way, and what it passes through: said of the place itself, with the disk's inner
+/// edge in r_s.
 pub fn script(share: f64, inner: f64) -> (Observer, f64, &'static str) {
     let share = share.clamp(0.0, 1.0);
     let leg = WAY.windows(2).position(|leg| share <= leg[1].share).unwrap_or(WAY.len() - 2);

@@ -139,8 +139,8 @@ fn footer(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-/// What to use and why, from the numbers themselves: the title and the lines under it; None where the methods that they speak of did not take
-/// part.
+/// What to use and why, from the numbers themselves: the title and the lines under it; None where the methods that they speak of did not
+/// take part.
 fn verdict(entries: &[Entry]) -> Option<[String; 2]> {
     let named = |name: &str| entries.iter().find(|entry| entry.name == name);
     let (table, batch, paper) = (named(RECOMMENDED)?, named("table-batch")?, named("paper1-128")?);
@@ -169,13 +169,14 @@ fn significant(value: f64) -> f64 {
 /// What the game draws with.
 const RECOMMENDED: &str = "table";
 
-/// Whether a method's name is left out: of the tables of Yamashita 2012 only the largest of each kind are named, so that names do not cover each other.
+/// Whether a method's name is left out: of the tables of Yamashita 2012 only the largest of each kind are named, so that names do not cover
+/// each other.
 fn nameless(name: &str) -> bool {
     name.starts_with("paper1-") && !["paper1-128", "paper1-uniform-128"].contains(&name)
 }
 
-/// The picture for a stranger: the largest error against time, against memory, and on the graphics adapter where one took part, one under the
-/// other, as wide as a page shows it.
+/// The picture for a stranger: the largest error against time, against memory, and on the graphics adapter where one took part, one under
+/// the other, as wide as a page shows it.
 pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
     let entries = entries(sheet);
     let panel = |memory: bool, title: &str| unnamed(scatter(&entries, |e| e.max, LARGEST, memory, (HALF_PIXEL, GUIDE), title));

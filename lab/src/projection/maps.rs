@@ -25,8 +25,8 @@ const SCALE: [f64; 2] = [1e-5, 1e2];
 #[derive(Clone, Copy, Debug)]
 struct Plane {
     camera: f64,
-    /// Points inside the horizon, farther out than the camera: r evenly spread, both signs of E, the worse counts. Else points outside, ln r
-    /// evenly spread, E > 0.
+    /// Points inside the horizon, farther out than the camera: r evenly spread, both signs of E, the worse counts. Else points outside, ln
+    /// r evenly spread, E > 0.
     inside: bool,
 }
 
@@ -40,7 +40,8 @@ impl Plane {
         if self.inside { [self.camera, 1.0] } else { POINTS }
     }
 
-    /// The largest φ: from inside a point next to the horizon is seen as far around as the hole's geometry lets light sweep, π − arccos(1 − 2L).
+    /// The largest φ: from inside a point next to the horizon is seen as far around as the hole's geometry lets light sweep, π − arccos(1 −
+    /// 2L).
     fn farthest(self) -> f64 {
         if self.inside { PI - (1.0 - 2.0 * self.camera).acos() } else { PI }
     }

@@ -1,19 +1,19 @@
 //! Which triangles of a block rays from one eye may meet, at two products an edge.
 //!
-//! Seen from the eye, an edge from P to Q is the plane with the normal P × Q = P × (Q − P); a ray of slopes (x, y, 1) is on the side that the sign of
-//! normal · (x, y, 1) tells. That is the edge function of `Shear`, but for rounding: so it only leaves out, by a margin that covers both roundings, and
-//! `Shear` decides on what is left.
+//! Seen from the eye, an edge from P to Q is the plane with the normal P × Q = P × (Q − P); a ray of slopes (x, y, 1) is on the side that
+//! the sign of normal · (x, y, 1) tells. That is the edge function of `Shear`, but for rounding: so it only leaves out, by a margin that
+//! covers both roundings, and `Shear` decides on what is left.
 
 use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::wide::Block;
 use super::wide_group::ALL;
 use super::wide_ray::{load, splat};
 
-/// Units in the last place, relative to the eye's distance times an edge's length, by which an edge function must have a sign for it to count: 2⁻¹⁹ are 32 of
-/// 2⁻²⁴.
+/// Units in the last place, relative to the eye's distance times an edge's length, by which an edge function must have a sign for it to
+/// count: 2⁻¹⁹ are 32 of 2⁻²⁴.
 ///
-/// `Shear` puts each corner 3 units of the distance at most beside its place in x and in y, which moves an edge by 4.3 times its length, itself at most twice
-/// the sum of its components' sizes: 8.5. The normal here is off by 6, the two products and sums by 8.
+/// `Shear` puts each corner 3 units of the distance at most beside its place in x and in y, which moves an edge by 4.3 times its length,
+/// itself at most twice the sum of its components' sizes: 8.5. The normal here is off by 6, the two products and sums by 8.
 const MARGIN: f32 = 1.0 / (1 << 19) as f32;
 
 /// The planes through an eye and the edges of up to eight triangles.
@@ -37,7 +37,8 @@ impl Edges {
         let far = farthest(a).max(farthest(b)).max(farthest(c));
         Edges {
             normals: [normal(c, u), normal(a, v), normal(b, w)],
-            // Four times as much and back: infinite, so that nothing is left out, before any product above is. What underflows is less than the last term.
+            // Four times as much and back: infinite, so that nothing is left out, before any product above is. What underflows is less than
+            // the last term.
             margins: far.mul(size.mul(L::splat(4.0))).mul(L::splat(0.25 * MARGIN)).add(L::splat(1e-36)).store(),
         }
     }
@@ -98,8 +99,8 @@ mod tests {
     use crate::straight::triangle::{Shear, fastest};
     use crate::straight::wide_best::GROUP;
 
-    /// Triangles of any size and shape at any distance, and rays through their corners, along their edges and beside them: none that `Shear` says is met is
-    /// left out, and of the others few are kept.
+    /// Triangles of any size and shape at any distance, and rays through their corners, along their edges and beside them: none that
+    /// `Shear` says is met is left out, and of the others few are kept.
     #[test]
     fn what_is_met_is_never_left_out() {
         let mut random = StdRng::seed_from_u64(11);

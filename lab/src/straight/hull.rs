@@ -1,8 +1,8 @@
 //! The space that a packet of rays sweeps: four planes and a front.
 //!
-//! All rays of a packet move along one axis, z, in one sense. Where they cross the plane in front of which they all start, their x lies in [a₀, a₁];
-//! their slopes dx/dz lie in [s₀, s₁]; so further on x lies in [a₀ + s₀ z, a₁ + s₁ z], and likewise y. For rays from one eye these are the planes
-//! through the packet's outermost rays. Nothing is asked of the order of rays, nor that they start in one point.
+//! All rays of a packet move along one axis, z, in one sense. Where they cross the plane in front of which they all start, their x lies in
+//! [a₀, a₁]; their slopes dx/dz lie in [s₀, s₁]; so further on x lies in [a₀ + s₀ z, a₁ + s₁ z], and likewise y. For rays from one eye
+//! these are the planes through the packet's outermost rays. Nothing is asked of the order of rays, nor that they start in one point.
 
 use super::lanes::{Eight, Lanes, Mask};
 use super::wide::{Block, Wide8};
@@ -12,7 +12,8 @@ pub(super) const STEEPEST: f32 = 4.0;
 
 /// What the rays of a packet sweep, as seen along one axis.
 ///
-/// Of every interval the lower end and the negative of the upper one are kept, so that of two hulls the lesser numbers are the hull of both.
+/// Of every interval the lower end and the negative of the upper one are kept, so that of two hulls the lesser numbers are the hull of
+/// both.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hull {
     /// x where z = 0: lower and upper end, then y; then likewise their slopes.

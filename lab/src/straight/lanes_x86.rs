@@ -1,8 +1,8 @@
-//! The wide instructions of x86-64. Measured to pay: AVX2 makes two to three times the speed of the portable lanes, which the compiler makes of SSE2;
-//! AVX-512 a further third where sixteen rays descend together.
+//! The wide instructions of x86-64. Measured to pay: AVX2 makes two to three times the speed of the portable lanes, which the compiler
+//! makes of SSE2; AVX-512 a further third where sixteen rays descend together.
 //!
-//! Each type must be used only where its instructions have been detected: [`super::wide::Wide`] chooses it nowhere else. That is what every `SAFETY` here
-//! calls "the instructions exist".
+//! Each type must be used only where its instructions have been detected: [`super::wide::Wide`] chooses it nowhere else. That is what every
+//! `SAFETY` here calls "the instructions exist".
 #![allow(unsafe_code)]
 
 use std::arch::x86_64::*;
@@ -197,7 +197,8 @@ impl Mask for Bits {
     }
 }
 
-// SAFETY (all blocks of this impl): the instructions exist, see above; loads and stores go through references to sixteen numbers, unaligned.
+// SAFETY (all blocks of this impl): the instructions exist, see above; loads and stores go through references to sixteen numbers,
+// unaligned.
 impl Lanes for Avx512 {
     type Mask = Bits;
     type Array = [f32; 16];

@@ -3,8 +3,8 @@
 //! - [`ray`], [`triangle`]: straight rays, and one of them against one triangle.
 //! - [`single`]: a ray through the binary tree, the plain method.
 //! - [`packet`]: packets from one eye through it: those of Wald et al. 2007, and those of Sei 2008 that split.
-//! - [`wide`]: the tree of eight, ray by ray, and in packets of any size that split as they descend (`sweep` takes a first look at a packet, `wide_packet`
-//!   splits it, `wide_eye` and `wide_group` end with what is left: 64 rays from one eye, sixteen of any kind).
+//! - [`wide`]: the tree of eight, ray by ray, and in packets of any size that split as they descend (`sweep` takes a first look at a
+//!   packet, `wide_packet` splits it, `wide_eye` and `wide_group` end with what is left: 64 rays from one eye, sixteen of any kind).
 //! - [`scenes`]: what they are measured on.
 
 // An axis indexes several arrays at once.

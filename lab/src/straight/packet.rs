@@ -19,8 +19,9 @@ pub struct EyePackets {
 }
 
 impl Mesh {
-    /// The nearest triangle that each ray of a packet meets; the same bits as [`Mesh::closest`]. `splits` is how often a packet may be split in four at
-    /// one node: 0 for the packets of Wald et al. 2007, 1 and 2 for those of Sei 2008. Planes are made anew here: the eye may move from call to call.
+    /// The nearest triangle that each ray of a packet meets; the same bits as [`Mesh::closest`]. `splits` is how often a packet may be
+    /// split in four at one node: 0 for the packets of Wald et al. 2007, 1 and 2 for those of Sei 2008. Planes are made anew here: the eye
+    /// may move from call to call.
     ///
     /// # Panics
     /// When the lengths of directions and hits differ, or with more than [`MOST_SPLITS`].

@@ -21,8 +21,8 @@ impl Ray {
     }
 }
 
-/// The nearest thing that a ray meets. Of several at the same t, the triangle with the lowest number, so that the answer does not depend on the
-/// order in which a method looks.
+/// The nearest thing that a ray meets. Of several at the same t, the triangle with the lowest number, so that the answer does not depend on
+/// the order in which a method looks.
 #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub struct Hit {
@@ -52,8 +52,8 @@ impl Hit {
 
 /// By how much, relative to the largest distance between a ray's origin and the tree's corners, a box is widened on each side.
 ///
-/// The triangle test puts a hit up to about 14 · 2⁻²⁴ of that distance beside the triangle's box: the shear is off by 4 units, the depth by 6, the
-/// slab test itself by 3 or 4. Twice that, so that every box that holds a hit passes its test whatever the order of operations.
+/// The triangle test puts a hit up to about 14 · 2⁻²⁴ of that distance beside the triangle's box: the shear is off by 4 units, the depth by
+/// 6, the slab test itself by 3 or 4. Twice that, so that every box that holds a hit passes its test whatever the order of operations.
 pub const WIDENING: f32 = 1.0 / (1 << 19) as f32;
 
 /// The length by which boxes are widened for a ray from `origin` through a tree of this root.

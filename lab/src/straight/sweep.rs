@@ -29,7 +29,8 @@ fn axes_of(rays: &[Ray]) -> ([usize; 3], f32) {
     ([(z + 1) % 3, (z + 2) % 3, z], 1f32.copysign(middle[z]))
 }
 
-/// The common direction of rays that all start in one point, the hull of each group, and each group laid out; None if they have no such direction or point.
+/// The common direction of rays that all start in one point, the hull of each group, and each group laid out; None if they have no such
+/// direction or point.
 #[inline(always)]
 pub(super) fn from_eye<S: Sixteen>(wide: &Wide, rays: &[Ray], hulls: &mut Vec<Hull>, laid: &mut Vec<Laid>) -> Option<Axes> {
     let eye = rays[0].origin;

@@ -1,8 +1,8 @@
 //! One ray and one triangle, watertight (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection", JCGT 2, 1).
 //!
-//! The three corners are sheared so that the ray becomes the z axis. A corner shared by several triangles is sheared to the same two numbers
-//! in all of them, and the sign of each edge function is exact (in f64 where f32 gives 0), so the projected triangles of a closed mesh leave no gap,
-//! neither at edges nor at corners. Edges and corners belong to all triangles that touch them.
+//! The three corners are sheared so that the ray becomes the z axis. A corner shared by several triangles is sheared to the same two
+//! numbers in all of them, and the sign of each edge function is exact (in f64 where f32 gives 0), so the projected triangles of a closed
+//! mesh leave no gap, neither at edges nor at corners. Edges and corners belong to all triangles that touch them.
 
 use super::ray::{Hit, Ray};
 

@@ -33,7 +33,8 @@ impl<'a, S: Sixteen> Best<'a, S> {
         self.t.min(self.until)
     }
 
-    /// Takes up where rays have `met` the triangle in one lane of a block, those that are `inside` it, and says whether that is nearer for any.
+    /// Takes up where rays have `met` the triangle in one lane of a block, those that are `inside` it, and says whether that is nearer for
+    /// any.
     #[inline(always)]
     pub fn take(&mut self, met: &Met<S>, inside: S::Mask, block: &Block, lane: usize) -> bool {
         if inside.bits() == 0 {

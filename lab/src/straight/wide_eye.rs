@@ -130,7 +130,8 @@ pub(super) struct Run<'a> {
     pub hulls: &'a [Hull],
 }
 
-/// The rays of up to [`TOGETHER`] groups through the items that are left. The packet's z is the axis along which each of them moves fastest.
+/// The rays of up to [`TOGETHER`] groups through the items that are left. The packet's z is the axis along which each of them moves
+/// fastest.
 #[inline(always)]
 pub(super) fn descend<L: Eight, S: Sixteen>(wide: &Wide, run: &Run, hits: &mut [Hit], axes: &Axes, items: &[Item], stack: &mut Stack) {
     let Run { rays, laid, hulls } = *run;

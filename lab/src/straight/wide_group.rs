@@ -14,11 +14,13 @@ pub(super) const EIGHT: usize = 8;
 /// Every lane of a group.
 pub(super) const ALL: u32 = 0xffff;
 
-/// Groups that have looked at this many nodes and blocks share too little (rays from an eye look at about ten), and their rays go on one by one.
+/// Groups that have looked at this many nodes and blocks share too little (rays from an eye look at about ten), and their rays go on one by
+/// one.
 const PATIENCE: u32 = 40;
 
-/// So many more looks does each block buy in which a ray met something nearer: at the outlines of many small things single rays are slow too; rays to a
-/// light, which meet nothing, do better alone. With 20 balls4A and tree10 gain 4 %, and balls4C, with dozens of triangles in a pixel, loses 16 %.
+/// So many more looks does each block buy in which a ray met something nearer: at the outlines of many small things single rays are slow
+/// too; rays to a light, which meet nothing, do better alone. With 20 balls4A and tree10 gain 4 %, and balls4C, with dozens of triangles in
+/// a pixel, loses 16 %.
 const BONUS: u32 = 10;
 
 /// A part of the tree that a packet still has to look at: a node, and those of its children that the packet reaches.

@@ -1,9 +1,10 @@
 //! Packets of any size through the wide tree, split as they descend.
 //!
-//! Sei 2008 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes that its
-//! hull reaches, each opened for as long as that throws away more children than it keeps. Then the packet is split, and each part sifts the list with
-//! its own, narrower hull. What is left at the end is sixteen rays, or 64 from one eye, and the few small nodes in front of them, nearest first. The nodes
-//! above are opened once for all rays, whatever the size of the packet, and no node is opened for rays that cannot reach it.
+//! Sei 2008 splits a packet in 4 or 16 at each node. Here packet and tree are descended together: a packet carries the list of those nodes
+//! that its hull reaches, each opened for as long as that throws away more children than it keeps. Then the packet is split, and each part
+//! sifts the list with its own, narrower hull. What is left at the end is sixteen rays, or 64 from one eye, and the few small nodes in
+//! front of them, nearest first. The nodes above are opened once for all rays, whatever the size of the packet, and no node is opened for
+//! rays that cannot reach it.
 
 use super::hull::{Hull, Planes};
 use super::lanes::{Eight, Pair, Portable, Sixteen};
@@ -25,8 +26,8 @@ const CLOSED: u32 = 3;
 /// Packets whose slopes differ by more do not sift: they reach almost everything.
 const SIFTED: f32 = 0.5;
 
-/// Groups whose slopes differ by more share too little and go one by one. Measured on mirrored and scattered rays: anything between a twentieth
-/// and a fifth is as good; rays from an eye are far below.
+/// Groups whose slopes differ by more share too little and go one by one. Measured on mirrored and scattered rays: anything between a
+/// twentieth and a fifth is as good; rays from an eye are far below.
 const NARROW: f32 = 0.1;
 
 /// A run of groups, and the run of items that the packet it was split off has left for it.
@@ -64,8 +65,9 @@ impl Default for Packets {
 }
 
 impl Wide {
-    /// The nearest triangle that each ray meets; the same bits as [`Wide::closest_each`]. The rays are taken in the order given, so that neighbours in
-    /// the list should be neighbours in space ([`super::order::tiles`] arranges a picture): any set gives the right answer, a good order a fast one.
+    /// The nearest triangle that each ray meets; the same bits as [`Wide::closest_each`]. The rays are taken in the order given, so that
+    /// neighbours in the list should be neighbours in space ([`super::order::tiles`] arranges a picture): any set gives the right answer, a
+    /// good order a fast one.
     ///
     /// # Panics
     /// When the lengths differ.

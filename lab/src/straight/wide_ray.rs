@@ -139,8 +139,8 @@ fn descend<L: Eight, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
     best
 }
 
-// Here and wherever lanes are worked on there is no closure that touches them: a closure is compiled without the wide instructions of the function it stands
-// in, and then every operation on lanes is a call. That made rays three times slower.
+// Here and wherever lanes are worked on there is no closure that touches them: a closure is compiled without the wide instructions of the
+// function it stands in, and then every operation on lanes is a call. That made rays three times slower.
 
 /// The same three numbers in every lane.
 #[inline(always)]

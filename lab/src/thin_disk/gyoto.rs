@@ -71,13 +71,13 @@ fn scenery(screen: &Screen, ring: &Ring, tolerance: f64) -> String {
 
 /// Radius, redshift and flux of each pixel from the FITS file.
 ///
-/// Nothing is fitted: FITS counts rows from the bottom (standard 4.0, section 3.3.2), and both pictures have the side that comes nearer at the
-/// left. Gyoto's default observer at a finite distance hovers there.
+/// Nothing is fitted: FITS counts rows from the bottom (standard 4.0, section 3.3.2), and both pictures have the side that comes nearer at
+/// the left. Gyoto's default observer at a finite distance hovers there.
 fn impacts(fits: &[u8], screen: &Screen) -> Result<(Vec<Impact>, Vec<f64>), String> {
     let n = screen.pixels;
     let count = n * n;
-    // The first array has the redshift, then the flux. The other: eight coordinates of the disk's matter, then eight of the light: t, r, θ, φ
-    // and their rates.
+    // The first array has the redshift, then the flux. The other: eight coordinates of the disk's matter, then eight of the light: t, r, θ,
+    // φ and their rates.
     let maps = plane(fits, "SIMPLE", 2 * count)?;
     let coordinates = plane(fits, "Gyoto Impact Coordinates", 16 * count)?;
     Ok((0..count)
@@ -93,7 +93,8 @@ fn impacts(fits: &[u8], screen: &Screen) -> Result<(Vec<Impact>, Vec<f64>), Stri
         .unzip())
 }
 
-/// The numbers of the array whose header has `name` (the first has SIMPLE, extensions a name of their own; FITS standard 4.0, sections 3 and 7.1).
+/// The numbers of the array whose header has `name` (the first has SIMPLE, extensions a name of their own; FITS standard 4.0, sections 3
+/// and 7.1).
 fn plane(fits: &[u8], name: &str, count: usize) -> Result<Vec<f64>, String> {
     let mut at = 0;
     while at + 2880 <= fits.len() {

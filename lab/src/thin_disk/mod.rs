@@ -1,5 +1,6 @@
-//! `lensrunner-lab chart trace`: the image of a Page–Thorne disk by the judge and, where it is installed, by Gyoto (Vincent, Paumard, Gourgoulhon
-//! and Perrin, *Class. Quantum Grav.* 28 (2011) 225011): redshift and bolometric flux pixel by pixel, error against rays per second and core.
+//! `lensrunner-lab chart trace`: the image of a Page–Thorne disk by the judge and, where it is installed, by Gyoto (Vincent, Paumard,
+//! Gourgoulhon and Perrin, *Class. Quantum Grav.* 28 (2011) 225011): redshift and bolometric flux pixel by pixel, error against rays per
+//! second and core.
 
 mod gyoto;
 pub mod ray;

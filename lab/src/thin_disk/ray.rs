@@ -1,8 +1,9 @@
 //! The image of a thin opaque disk, quickly: what a camera sees of the plane z = 0, ray after ray, without regard to time.
 //!
-//! A stationary disk needs no travel time, so light is followed by its shape alone: u(φ) = 1/r over the swept angle φ obeys Binet's equation
-//! u'' = (3/2)u² − u. One product makes each Taylor coefficient, and a step of order 16 covers about a radian: a ray takes a handful. Packets
-//! of four rays go side by side through the same instructions (crate `wide`), each with steps of its own; a packet lives as long as one of its rays does.
+//! A stationary disk needs no travel time, so light is followed by its shape alone: u(φ) = 1/r over the swept angle φ obeys Binet's
+//! equation u'' = (3/2)u² − u. One product makes each Taylor coefficient, and a step of order 16 covers about a radian: a ray takes a
+//! handful. Packets of four rays go side by side through the same instructions (crate `wide`), each with steps of its own; a packet lives
+//! as long as one of its rays does.
 //!
 //! The general judge ([`lensrunner::judge::picture`]) integrates other equations with other steps; a test holds the two together.
 
@@ -53,8 +54,8 @@ impl Screen {
         [DVec3::new(sine, 0.0, cosine), DVec3::Y, DVec3::new(-cosine, 0.0, sine)]
     }
 
-    /// The direction in the hovering camera's frame of pixel (`column`, `row`), counted from the upper left: its angles from the middle of the
-    /// picture are those of a longitude to the right and a latitude.
+    /// The direction in the hovering camera's frame of pixel (`column`, `row`), counted from the upper left: its angles from the middle of
+    /// the picture are those of a longitude to the right and a latitude.
     pub fn look(&self, column: usize, row: usize) -> DVec3 {
         let step = self.field_of_view / self.pixels as f64;
         let middle = 0.5 * (self.pixels as f64 - 1.0);
@@ -69,8 +70,8 @@ impl Screen {
     }
 }
 
-/// ν_observed/ν_emitted of light from a circular orbit at radius `r` (r_s) that a hovering camera at `radius` sees; `turning` is the light's angular
-/// momentum about +z over its energy, r_s.
+/// ν_observed/ν_emitted of light from a circular orbit at radius `r` (r_s) that a hovering camera at `radius` sees; `turning` is the
+/// light's angular momentum about +z over its energy, r_s.
 pub fn orbit_shift(r: f64, radius: f64, turning: f64) -> f64 {
     let beta = river_speed(radius);
     let omega = (0.5 / (r * r * r)).sqrt();

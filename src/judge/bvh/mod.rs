@@ -1,4 +1,5 @@
-//! Bounding volume hierarchies over any axis-aligned boxes (Sei 2008): how they are built and checked. Straight rays through them are in the laboratory.
+//! Bounding volume hierarchies over any axis-aligned boxes (Sei 2008): how they are built and checked. Straight rays through them are in
+//! the laboratory.
 //!
 //! - [`bounds`], [`build`](mod@build), [`tree`], [`validate`](mod@validate): a tree, and its inspector.
 //! - [`order`]: which pixels make good packets.

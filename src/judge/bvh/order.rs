@@ -1,7 +1,8 @@
 //! The order in which the pixels of a picture make good packets.
 
-/// Pixels (x + width · y) of a picture in tiles of `size` × `size`, each tile in quarters of quarters down to blocks of 4 × 2, so that every aligned run
-/// of 16 · 4ᵏ rays is a square. Tiles at the right and lower edge are cut. Also gives where each tile starts, and the end.
+/// Pixels (x + width · y) of a picture in tiles of `size` × `size`, each tile in quarters of quarters down to blocks of 4 × 2, so that
+/// every aligned run of 16 · 4ᵏ rays is a square. Tiles at the right and lower edge are cut. Also gives where each tile starts, and the
+/// end.
 pub fn tiles(picture: [usize; 2], size: usize) -> (Vec<u32>, Vec<usize>) {
     arranged(picture, size, key)
 }

@@ -44,8 +44,8 @@ pub struct Census {
     pub fullest: usize,
 }
 
-/// Checks that every node is reached exactly once, that every proper box is held by exactly one leaf, and that each node's box is the union of
-/// what it holds, to the bit. `boxes` are those that the tree was built or refitted with.
+/// Checks that every node is reached exactly once, that every proper box is held by exactly one leaf, and that each node's box is the union
+/// of what it holds, to the bit. `boxes` are those that the tree was built or refitted with.
 pub fn validate<T: Scalar>(tree: &Tree<T>, boxes: &[Bounds<T>]) -> Result<Census, Fault> {
     let mut census = Census::default();
     let mut reached = vec![false; tree.nodes.len()];

@@ -424,8 +424,8 @@ fn cross_plane(piece: &Piece, ends: &Ends, met: Option<f64>) -> Option<Crossing>
 
 /// The first crossing of a piece with a triangle that does not move.
 ///
-/// The triangle's plane cuts the plane of the orbit in a line a·x = c. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and turns
-/// by less than half a turn in a segment, so it crosses a line at most twice, once on each side of where it runs parallel to it.
+/// The triangle's plane cuts the plane of the orbit in a line a·x = c. The path of light is strictly convex (u'' + u = (3/2)u² > 0) and
+/// turns by less than half a turn in a segment, so it crosses a line at most twice, once on each side of where it runs parallel to it.
 fn cross_held(piece: &Piece, ends: &Ends, corners: [DVec3; 3]) -> Option<(f64, [f64; 3])> {
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     let a = DVec2::new(normal.dot(piece.axes[0]), normal.dot(piece.axes[1]));

@@ -25,8 +25,8 @@ impl Chord {
         Chord { from, step: to - from, grow }
     }
 
-    /// The fraction of the chord at which it enters the grown box, or None where it misses it before `until`. A chord that lies in a face, or
-    /// starts on one, is inside.
+    /// The fraction of the chord at which it enters the grown box, or None where it misses it before `until`. A chord that lies in a face,
+    /// or starts on one, is inside.
     pub fn enters(&self, bounds: &Bounds<f64>, until: f64) -> Option<f64> {
         let (mut enter, mut leave) = (0.0f64, until);
         for axis in 0..3 {
@@ -55,8 +55,8 @@ impl Tree {
         Tree(bvh::build(&boxes, &SETTINGS))
     }
 
-    /// Calls `meet` for each triangle whose box, grown by `grow`, the chord from `from` to `to` passes; nearer boxes first. `meet` answers with
-    /// the fraction of the chord beyond which nothing is of interest any more.
+    /// Calls `meet` for each triangle whose box, grown by `grow`, the chord from `from` to `to` passes; nearer boxes first. `meet` answers
+    /// with the fraction of the chord beyond which nothing is of interest any more.
     pub fn along(&self, from: DVec3, to: DVec3, grow: f64, mut until: f64, mut meet: impl FnMut(u32, f64) -> f64) {
         let Some(root) = self.0.nodes.first() else { return };
         let chord = Chord::new(from, to, DVec3::splat(grow));

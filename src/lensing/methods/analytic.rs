@@ -2,8 +2,8 @@
 //! to infinity.
 //!
 //! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ: α is the angle of the ray from the outward radial direction in the static frame
-//! at u = 1/r, χ the angle it still sweeps on its way to infinity. The impact parameter b² = X (2 − X)/(u² (1 − u)) is the same at both ends
-//! of the ray from a point to a camera, which leaves one equation in χ at the outer end. First order only, both ends outside.
+//! at u = 1/r, χ the angle it still sweeps on its way to infinity. The impact parameter b² = X (2 − X)/(u² (1 − u)) is the same at both
+//! ends of the ray from a point to a camera, which leaves one equation in χ at the outer end. First order only, both ends outside.
 //!
 //! Beloborodov 2002, ApJ 566, L85, eq. 1; Poutanen 2020, A&A 640, A24 (arXiv 1909.05732); delay: Poutanen and Beloborodov 2006,
 //! MNRAS 373, 836, the excess over the radial ray, r y (1 + u y/8 (1 + y (1/3 − u/14))).

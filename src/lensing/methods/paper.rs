@@ -1,5 +1,5 @@
-//! The tables of Yamashita 2012 as a game would fetch from them: what depends on the camera's radius alone computed once a frame, one logarithm for
-//! each of r and φ, eight corners, all in f32.
+//! The tables of Yamashita 2012 as a game would fetch from them: what depends on the camera's radius alone computed once a frame, one
+//! logarithm for each of r and φ, eight corners, all in f32.
 
 use wide::f32x8;
 

@@ -109,8 +109,8 @@ const ASIDE_CAUGHT: f64 = 0.12;
 /// Where the hole is then, in camera axes: farther right, its edge behind the ship.
 const HOLE_BEYOND: DVec3 = DVec3::new(0.45, 0.05, -1.0);
 
-/// A camera that flies with a caught ship `length` r_s long and sees all of it, the hole beyond and `own` (the position of the ship that caught it, in r_s) not in
-/// the way.
+/// A camera that flies with a caught ship `length` r_s long and sees all of it, the hole beyond and `own` (the position of the ship that
+/// caught it, in r_s) not in the way.
 pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_view: f64) -> Observer {
     let state = state_of(&caught.at(time));
     let inward = -state.position.normalize_or(DVec3::X);
@@ -165,7 +165,8 @@ mod tests {
         assert!(seen.angle_between(DVec3::NEG_Z) < 1e-6, "{seen}");
     }
 
-    /// However the caught ship moves, and wherever the other is: all of it is on the screen, right of the middle, at the chosen distance, with the hole in sight.
+    /// However the caught ship moves, and wherever the other is: all of it is on the screen, right of the middle, at the chosen distance,
+    /// with the hole in sight.
     #[test]
     fn a_caught_ship_is_seen_whole_before_the_hole() {
         for (position, velocity) in

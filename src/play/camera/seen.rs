@@ -24,8 +24,8 @@ pub fn apparition(camera: &Observer, time: f64, history: &History, order: Order)
     Some(Apparition { direction: direction(camera, position, order, time - emitted)?, age: time - emitted })
 }
 
-/// The attitude in which `camera` has the image of order 1 of that ship in the middle, and `up` (rain axes) upwards; None where it is not seen. The camera is to
-/// stay where it is as it turns.
+/// The attitude in which `camera` has the image of order 1 of that ship in the middle, and `up` (rain axes) upwards; None where it is not
+/// seen. The camera is to stay where it is as it turns.
 pub fn facing(camera: &Observer, time: f64, history: &History, up: DVec3) -> Option<DQuat> {
     let seen = apparition(camera, time, history, Order::ALL[0])?.direction;
     frames::look(camera.attitude * seen, up)

@@ -5,8 +5,8 @@ use bevy_egui::egui::{Rect, pos2};
 /// Space left beside what a box was pushed off, in points.
 const GAP: f32 = 2.0;
 
-/// The place nearest to `wanted` where a box of its size lies inside `free` and on none of `taken`; `wanted`, moved inside `free`, where there
-/// is none. All in points.
+/// The place nearest to `wanted` where a box of its size lies inside `free` and on none of `taken`; `wanted`, moved inside `free`, where
+/// there is none. All in points.
 pub fn settle(wanted: Rect, free: Rect, taken: &[Rect]) -> Rect {
     let size = wanted.size();
     // Too large a box begins at the upper left.

@@ -67,8 +67,8 @@ struct Board<'a> {
     names: Vec<Name>,
 }
 
-/// Paints the markers on the screen `rect`, names and arrows off what is in `taken`. Returns what they take up themselves: markers first, then
-/// arrows, then names. All in points.
+/// Paints the markers on the screen `rect`, names and arrows off what is in `taken`. Returns what they take up themselves: markers first,
+/// then arrows, then names. All in points.
 pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> Vec<Rect> {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let find = |direction: DVec3| marker_position(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));

@@ -1,4 +1,5 @@
-//! The HUD: dials, painted with egui, and the messages. The numbers come from [`crate::play::hud::instruments`], the markers from [`crate::play::hud::markers`].
+//! The HUD: dials, painted with egui, and the messages. The numbers come from [`crate::play::hud::instruments`], the markers from
+//! [`crate::play::hud::markers`].
 
 pub mod instruments;
 pub mod layout;
@@ -114,8 +115,8 @@ fn message(painter: &Painter, rect: Rect, words: &str) -> TextBox {
 /// Sizes of all text of the HUD, in points.
 const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
 
-/// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what is
-/// written with it, and a digit that is seen for the first time would be missing meanwhile.
+/// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what
+/// is written with it, and a digit that is seen for the first time would be missing meanwhile.
 fn lay_in(context: &egui::Context, painter: &Painter) {
     if context.global_style().visuals.text_options.subpixel_binning {
         context.all_styles_mut(|style| style.visuals.text_options.subpixel_binning = false);

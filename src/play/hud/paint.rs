@@ -1,4 +1,5 @@
-//! What the HUD is painted with: words on a dark ground, text boxes, bars, and lines with a dark rim, so that all of it is seen before stars and disk.
+//! What the HUD is painted with: words on a dark ground, text boxes, bars, and lines with a dark rim, so that all of it is seen before
+//! stars and disk.
 
 use std::sync::Arc;
 
@@ -119,7 +120,8 @@ pub(in crate::play) mod tests {
         let _ = context.run_ui(input, |ui| draw(&ui.ctx().layer_painter(LayerId::background()), rect));
     }
 
-    /// Before the white of the disk every colour has the contrast that WCAG asks of small text, 4.5. Grounds are laid over the picture as light.
+    /// Before the white of the disk every colour has the contrast that WCAG asks of small text, 4.5. Grounds are laid over the picture as
+    /// light.
     #[test]
     fn words_are_read_before_the_brightest_disk() {
         let linear = |encoded: u8| {

@@ -23,7 +23,8 @@ pub struct Gaze {
 }
 
 impl Gaze {
-    /// The camera's attitude after `seconds` of wall time: on the way from `ship` to `target`, or back where that is None; at once where `rigid`.
+    /// The camera's attitude after `seconds` of wall time: on the way from `ship` to `target`, or back where that is None; at once where
+    /// `rigid`.
     pub fn turned(&mut self, ship: DQuat, target: Option<DQuat>, seconds: f64, rigid: bool) -> DQuat {
         let step = if rigid { 1.0 } else { seconds / TURN };
         match target {
@@ -43,8 +44,8 @@ impl Gaze {
         self.share > 0.0
     }
 
-    /// The attitude in which a camera on the ship has the image of order 1 of `target`, at T = `time`, in the middle; None where it is not seen.
-    /// `follows` is the attitude of the camera that looks ahead; its upwards stays so.
+    /// The attitude in which a camera on the ship has the image of order 1 of `target`, at T = `time`, in the middle; None where it is not
+    /// seen. `follows` is the attitude of the camera that looks ahead; its upwards stays so.
     pub fn facing(&self, state: &ShipState, view: View, length: f64, follows: DQuat, time: f64, target: &History) -> Option<DQuat> {
         let up = follows * DVec3::Y;
         // The third-person camera goes round the ship as it turns, which moves what is near: from the last frame's answer it is not far.

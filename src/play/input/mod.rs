@@ -221,7 +221,8 @@ impl MouseTurn {
         self.0 = (self.0 + turn).clamp_length_max(MOST_WAITING);
     }
 
-    /// The deflection (pitch, yaw), each in [−1, 1], that flies as much of the turn as a step can; `most` radians turn in a step at full deflection.
+    /// The deflection (pitch, yaw), each in [−1, 1], that flies as much of the turn as a step can; `most` radians turn in a step at full
+    /// deflection.
     pub fn pull(&mut self, most: f64) -> DVec2 {
         if most <= 0.0 {
             return DVec2::ZERO;

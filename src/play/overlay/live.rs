@@ -1,5 +1,5 @@
-//! The configuration while the game runs: `game.toml` is read again when it changes, and every change, from there or from the overlay, takes
-//! effect at once.
+//! The configuration while the game runs: `game.toml` is read again when it changes, and every change, from there or from the overlay,
+//! takes effect at once.
 
 use crate::play::hud::notice::Notice;
 use std::time::{Duration, SystemTime};
@@ -65,8 +65,8 @@ fn reload(
     *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
 }
 
-/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace, reduced motion)
-/// stays as it is in `playing` unless the file changed just that.
+/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace,
+/// reduced motion) stays as it is in `playing` unless the file changed just that.
 fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
     let mut config = now.clone();
     if now.clock.pace == before.clock.pace {

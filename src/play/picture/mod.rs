@@ -19,8 +19,8 @@ use crate::render::stage::{Stage, settings};
 use now::Now;
 use sight::{Shot, Sight, is_cut};
 
-/// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin) and
-/// [`GamePlugin`](crate::play::game::GamePlugin).
+/// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin)
+/// and [`GamePlugin`](crate::play::game::GamePlugin).
 pub struct PicturePlugin;
 
 impl Plugin for PicturePlugin {
@@ -116,7 +116,8 @@ fn make_frame(
     staged.0.ration_aurora(&statistics.passes);
     let mut settings = settings(config);
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
-        // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship should be.
+        // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
+        // should be.
         settings.fill = Settings::default().fill;
     } else {
         settings.adaptation = (1.0 - (-config.render.exposure_speed * real.delta_secs_f64()).exp2()) as f32;

@@ -13,8 +13,8 @@ use crate::spacetime::Observer;
 pub enum Sight {
     /// What the player looks at.
     Own,
-    /// All of it from far, by a camera that slowly goes round: on the title, and where the chase is not won. It stands still then, and there may be nothing
-    /// ahead of a ship; who has crossed the horizon sees nothing change any more.
+    /// All of it from far, by a camera that slowly goes round: on the title, and where the chase is not won. It stands still then, and
+    /// there may be nothing ahead of a ship; who has crossed the horizon sees nothing change any more.
     #[default]
     Afar,
     /// The quarry, caught.
@@ -75,7 +75,8 @@ impl Shot {
     }
 }
 
-/// Whether the picture at T = `time` has nothing to do with that before, which `last` keeps: what is shown is another thing, or the chase began anew.
+/// Whether the picture at T = `time` has nothing to do with that before, which `last` keeps: what is shown is another thing, or the chase
+/// began anew.
 pub fn is_cut(last: &mut Option<(Sight, f64)>, sight: Sight, time: f64) -> bool {
     last.replace((sight, time)).is_none_or(|(before, earlier)| before != sight || time < earlier)
 }

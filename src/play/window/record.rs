@@ -86,7 +86,8 @@ fn record(mut recording: ResMut<Recording>, mut commands: Commands, mut exit: Me
     }
 }
 
-/// Writes the window's picture to `out/` and says so. Where every frame is written this one is among them, and a window gives one picture a frame.
+/// Writes the window's picture to `out/` and says so. Where every frame is written this one is among them, and a window gives one picture a
+/// frame.
 pub fn screenshot(world: &mut World) {
     let until = world.get_resource::<Time<Real>>().map_or(0.0, |real| real.elapsed_secs_f64()) + SHOWN;
     let Some(mut notice) = world.get_resource_mut::<Notice>() else { return };

@@ -52,7 +52,8 @@ const LEAST_PIXELS: f64 = 6.0;
 const GROUND_PIXELS: f64 = 55.0;
 /// Collisions of 35 eV, as kR, per erg cm⁻² s⁻¹: 6.2415e8 keV per erg, 1e9 photons cm⁻² s⁻¹ in a kR.
 const KILO_COLLISIONS: f64 = 6.2415e8 / 0.035 / 1e9;
-/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a quarter.
+/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a
+/// quarter.
 const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
 /// Distance between two streaks over their standard deviation along the curtain, at most; as in streaks.wgsl.
@@ -292,9 +293,9 @@ impl AuroraAnimation {
         (streaks > 0).then_some(frame)
     }
 
-    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing changed (light that travelled along the
-    /// curtains would take 128 rows in one frame, 60 to 70 ms for an oval); when it comes into sight again it
-    /// goes on where it was, and where the clock runs away from it, it stays behind.
+    /// The same for a watched aurora, whose time is ahead of `now`. It begins at rest, with a past in which nothing changed (light that
+    /// travelled along the curtains would take 128 rows in one frame, 60 to 70 ms for an oval); when it comes into sight again it goes on
+    /// where it was, and where the clock runs away from it, it stays behind.
     fn go_on(&mut self, now: f64) -> f64 {
         let now = now + self.offset;
         if self.motion.is_none() {
@@ -461,8 +462,8 @@ fn move_on(motion: &mut Motion) {
     }
 }
 
-/// How much longer the hole's lensing makes the image of a planet behind it: the point lens of weak fields, μ = (u² + 2)/(u √(u² + 4)) with u the
-/// angle from the axis over Einstein's angle. Only for how many streaks are drawn.
+/// How much longer the hole's lensing makes the image of a planet behind it: the point lens of weak fields, μ = (u² + 2)/(u √(u² + 4)) with
+/// u the angle from the axis over Einstein's angle. Only for how many streaks are drawn.
 fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
     let (l, r) = (view.camera.radius(), centre.length());
     let behind = -centre.dot(view.camera.position) / l;
@@ -476,8 +477,8 @@ fn magnification(view: &View, centre: DVec3, radius: f64) -> f64 {
     (u * u + 2.0) / (u * (u * u + 4.0).sqrt())
 }
 
-/// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives along
-/// both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all else.
+/// ν_observed/ν_emitted for the centre of a body: the ratio of proper times between two wave crests, from the light path's derivatives
+/// along both worldlines. Where light is drawn straight it is that of special relativity against what hovers, as for all else.
 fn frequency_ratio(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
     let camera = view.camera;
     let emitted = history.at(departure(view, time, history, order)?);

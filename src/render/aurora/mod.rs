@@ -1,8 +1,8 @@
 //! The aurora on the GPU. The ends of chords go through the lensing lookup; between them streaks are walked on the screen (Sekiguchi et
 //! al.). Strokes are added up per spectral line, and the lines become a colour at the end.
 //!
-//! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes. [`race`] draws the
-//! experiment of Sekiguchi et al. for the chart.
+//! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes.
+//! [`race`] draws the experiment of Sekiguchi et al. for the chart.
 
 mod animation;
 mod chords;

@@ -1,5 +1,5 @@
-//! The experiment of Sekiguchi et al. on the GPU: the particle method in space and the exact walk on the screen, then the same splats for both. By
-//! itself, for the chart `aurora`: it draws the experiment's scenes and not the game's.
+//! The experiment of Sekiguchi et al. on the GPU: the particle method in space and the exact walk on the screen, then the same splats for
+//! both. By itself, for the chart `aurora`: it draws the experiment's scenes and not the game's.
 
 use std::time::Instant;
 
@@ -69,8 +69,8 @@ pub enum Walk {
     Exact,
 }
 
-/// A picture and what it took, in seconds: of its passes on the GPU, where the device tells, else from handing work to it until that is done. A graphics card's passes take less than
-/// handing them over.
+/// A picture and what it took, in seconds: of its passes on the GPU, where the device tells, else from handing work to it until that is
+/// done. A graphics card's passes take less than handing them over.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     /// Photons by line, row by row.

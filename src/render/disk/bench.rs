@@ -71,8 +71,8 @@ impl Bench {
         self.counting = counting;
     }
 
-    /// Draws a frame by configuration `number`, the disk alone before black or before the configuration's sky; None draws no disk at all. With a size it
-    /// brings linear light back, drawn at that size.
+    /// Draws a frame by configuration `number`, the disk alone before black or before the configuration's sky; None draws no disk at all.
+    /// With a size it brings linear light back, drawn at that size.
     pub fn frame(
         &mut self,
         number: Option<usize>,

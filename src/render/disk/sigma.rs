@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-/// σ of the azimuth `theta` from the camera's, where the sine of the camera's height over the plane is `height` > 0, both angles in rad: the mean of θ and of the
-/// angle α round the axis of hole and camera, tan α = tan θ/height.
+/// σ of the azimuth `theta` from the camera's, where the sine of the camera's height over the plane is `height` > 0, both angles in rad:
+/// the mean of θ and of the angle α round the axis of hole and camera, tan α = tan θ/height.
 pub fn sigma(theta: f64, height: f64) -> f64 {
     let (s, c) = theta.sin_cos();
     theta + 0.5 * ((1.0 - height) * s * c).atan2(height * c * c + s * s)

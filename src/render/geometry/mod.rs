@@ -1,7 +1,7 @@
 //! Geometry: models projected through the table, tessellated in two stages of compute in the manner of mesh shaders, and drawn.
 //!
-//! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other through
-//! the buffers of group 1; the processor only says which objects there are.
+//! One file of `shaders/geometry/` a stage: vertices, edges, triangles (the object stage), refine, mesh, draw. They hand to each other
+//! through the buffers of group 1; the processor only says which objects there are.
 
 mod ground;
 mod stages;
@@ -30,9 +30,9 @@ const GROUPS: u32 = 32_768;
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
 
-/// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at edges;
-/// blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than `most` bytes, which
-/// the device allows, as long as the models fit: seen vertices are what takes the most.
+/// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at
+/// edges; blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is
+/// larger than `most` bytes, which the device allows, as long as the models fit: seen vertices are what takes the most.
 fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }

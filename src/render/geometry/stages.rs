@@ -1,5 +1,6 @@
-//! The stages of geometry, compiled for a method of projection and a side of the horizon. What has been compiled is kept, and the other side of the
-//! horizon can be compiled meanwhile on a thread of its own: drivers take tenths of a second for it, and longer at the first time.
+//! The stages of geometry, compiled for a method of projection and a side of the horizon. What has been compiled is kept, and the other
+//! side of the horizon can be compiled meanwhile on a thread of its own: drivers take tenths of a second for it, and longer at the first
+//! time.
 
 use std::sync::Arc;
 use std::thread::JoinHandle;

@@ -34,7 +34,8 @@ pub enum DeviceError {
 /// Storage buffers that one stage of geometry binds: 12 of its own and the arguments.
 pub const STORAGE_BUFFERS: u32 = 13;
 
-/// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit floats.
+/// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit
+/// floats.
 const OPTIONAL: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY
     .union(wgpu::Features::PIPELINE_STATISTICS_QUERY)
     .union(wgpu::Features::FLOAT32_FILTERABLE)

@@ -145,8 +145,9 @@ impl Growing {
 /// Texels in a row of a table that is kept in a texture; `TABLE_ROW` of WGSL.
 pub const TABLE_ROW: usize = 1024;
 
-/// A table for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels of four numbers or words: a texel is fetched at once,
-/// where a software driver reads a storage buffer number by number and lane by lane. It grows when more is written to it than it holds.
+/// A table for shaders to fetch from, kept in a texture of rows of [`TABLE_ROW`] texels of four numbers or words: a texel is fetched at
+/// once, where a software driver reads a storage buffer number by number and lane by lane. It grows when more is written to it than it
+/// holds.
 #[derive(Debug)]
 pub struct TableTexture {
     label: &'static str,
@@ -169,7 +170,8 @@ impl TableTexture {
         table
     }
 
-    /// Writes the data, whole texels of 16 bytes, growing if it must. True if the texture was replaced, so that bind groups must be made anew.
+    /// Writes the data, whole texels of 16 bytes, growing if it must. True if the texture was replaced, so that bind groups must be made
+    /// anew.
     pub fn write<T: bytemuck::Pod>(&mut self, gpu: &crate::render::Gpu, data: &[T]) -> bool {
         let bytes: &[u8] = bytemuck::cast_slice(data);
         let replaced = bytes.len() > TEXEL * (self.texture.width() * self.texture.height()) as usize;
@@ -279,7 +281,8 @@ pub struct Raster<'a> {
 
 /// The format of the picture before it is display: linear light.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Of thin triangles' coverage with signs, and that of the nearer parts of the same images: halves, so that one image alone gives the same as its sum without.
+/// Of thin triangles' coverage with signs, and that of the nearer parts of the same images: halves, so that one image alone gives the same
+/// as its sum without.
 pub const SIGNED_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
 /// The format of depth, reversed: 1 at the near distance, 0 at infinity.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;

@@ -1,4 +1,5 @@
-//! What all passes stand on: the device, bindings and buffers, the layouts that cross to the shaders, the shaders' text, targets, reading back, time.
+//! What all passes stand on: the device, bindings and buffers, the layouts that cross to the shaders, the shaders' text, targets, reading
+//! back, time.
 
 pub mod device;
 pub mod layout;

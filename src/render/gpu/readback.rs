@@ -96,8 +96,8 @@ fn mapped(gpu: &Gpu, copy: &wgpu::Buffer) -> Result<Vec<u8>, PictureError> {
     Ok(bytes)
 }
 
-/// Brings a small buffer back some frames late and never makes the processor wait: the copy is recorded with a frame, mapped once that frame has been
-/// submitted, and read when the device is done with it.
+/// Brings a small buffer back some frames late and never makes the processor wait: the copy is recorded with a frame, mapped once that
+/// frame has been submitted, and read when the device is done with it.
 #[derive(Debug, Default)]
 pub struct DeferredCopy {
     copy: Option<wgpu::Buffer>,
@@ -166,7 +166,8 @@ pub struct Picture {
     pub layers: Vec<[f32; 4]>,
     /// Texture coordinates and coverage of that surface; as `layers`.
     pub surface: Vec<[f32; 4]>,
-    /// The part of each pixel that thin images cover together, whatever of the disk is before them; as `layers`, and empty where there are none.
+    /// The part of each pixel that thin images cover together, whatever of the disk is before them; as `layers`, and empty where there are
+    /// none.
     pub thin: Vec<f32>,
 }
 

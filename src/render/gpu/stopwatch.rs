@@ -39,8 +39,8 @@ impl Stopwatch {
         encoder.resolve_query_set(&self.set, 0..2, &self.resolved, 0);
     }
 
-    /// Seconds that the pass took, once it has been submitted; waits for it. They are `waited`, from handing it over until it was done, where the clock did not go on
-    /// from its beginning to its end, or by more than that: such a clock stands, or was set.
+    /// Seconds that the pass took, once it has been submitted; waits for it. They are `waited`, from handing it over until it was done,
+    /// where the clock did not go on from its beginning to its end, or by more than that: such a clock stands, or was set.
     pub fn seconds(&self, gpu: &Gpu, waited: f64) -> Result<f64, PictureError> {
         let bytes = readback::buffer(gpu, &self.resolved)?;
         let ticks: &[u64] = bytemuck::cast_slice(&bytes[..16]);

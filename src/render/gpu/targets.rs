@@ -5,8 +5,8 @@ use crate::render::gpu::layout::{DEPTH_FORMAT, HDR_FORMAT, SIGNED_FORMAT};
 /// Format of the layers of a picture.
 pub const LAYERS_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
-/// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of about the
-/// same angle it counts the same at every resolution.
+/// Texels across the picture that is metered, at most. The finer the picture, the brighter is a star's spot and the smaller: in cells of
+/// about the same angle it counts the same at every resolution.
 const METERED_WIDTH: u32 = 80;
 
 /// Levels of the picture for bloom and metering: a quarter, and from there halvings. A half is not among them: it would cost more than all

@@ -78,7 +78,8 @@ impl Timing {
         }
     }
 
-    /// A new frame. The one before has been submitted by now, so that its copy may be mapped: a buffer that a command still writes must not be.
+    /// A new frame. The one before has been submitted by now, so that its copy may be mapped: a buffer that a command still writes must not
+    /// be.
     pub fn begin(&mut self) {
         let Some(inner) = &mut self.inner else { return };
         inner.labels = Labels::default();
@@ -162,7 +163,8 @@ impl Timing {
         self.inner.as_ref().map_or(&[], |inner| &inner.latest)
     }
 
-    /// Fragments that passes of the latest frame that was counted shaded, those of one label added; of a device that does not count them none.
+    /// Fragments that passes of the latest frame that was counted shaded, those of one label added; of a device that does not count them
+    /// none.
     pub fn latest_fragments(&mut self) -> &[(&'static str, u64)] {
         self.receive();
         self.inner.as_ref().map_or(&[], |inner| &inner.latest_fragments)

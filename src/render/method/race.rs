@@ -1,5 +1,5 @@
-//! The methods of projection on the GPU by themselves: many look-ups at once through the shipped shader functions, for the chart and for the
-//! tests of twins.
+//! The methods of projection on the GPU by themselves: many look-ups at once through the shipped shader functions, for the chart and for
+//! the tests of twins.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -19,8 +19,8 @@ use crate::render::method::tables::Tables;
 
 /// Threads of a workgroup.
 const GROUP: usize = 64;
-/// Threads and look-ups of each that are timed on a software driver and on a graphics card. There one look-up takes less time than to write it down, and
-/// a dispatch of a few microseconds cannot be told from none.
+/// Threads and look-ups of each that are timed on a software driver and on a graphics card. There one look-up takes less time than to write
+/// it down, and a dispatch of a few microseconds cannot be told from none.
 const SOFTWARE: [usize; 2] = [8192, 1];
 const HARDWARE: [usize; 2] = [1 << 18, 64];
 
@@ -58,8 +58,8 @@ impl Race {
         self.tables.texels(method, l, &slice)
     }
 
-    /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in r_s/c,
-    /// 1 if there is one; frequency at the camera, radial momentum and frequency at the point, e.
+    /// The rays of `rows` (along, across, height; the order, 4 more for light of any age) seen from the radius `l`: cos ψ, sin ψ, delay in
+    /// r_s/c, 1 if there is one; frequency at the camera, radial momentum and frequency at the point, e.
     pub fn look_up(&mut self, method: Method, l: f64, rows: &[[f32; 4]]) -> Result<Vec<[[f32; 4]; 2]>, PictureError> {
         let (out, _) = self.dispatch(method, 0, l, rows, [rows.len(), 1])?;
         let bytes = readback::buffer(&self.gpu, &out)?;

@@ -1,7 +1,7 @@
 //! Which triangles other parts of a model hide, seen from 32 directions around it.
 //!
-//! A thin image has no depth: it is drawn by the areas of its triangles, and of what stands inside or behind another part those would count too.
-//! So each triangle knows from where it is seen past the rest of its model, as a depth map from each direction tells.
+//! A thin image has no depth: it is drawn by the areas of its triangles, and of what stands inside or behind another part those would count
+//! too. So each triangle knows from where it is seen past the rest of its model, as a depth map from each direction tells.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,7 +14,8 @@ use crate::scene::model::Model;
 pub const DIRECTIONS: u32 = 32;
 /// Cells along each side of a depth map.
 const SIDE: usize = 256;
-/// Points of a triangle that are looked at, as weights of its corners: the middles of its four quarters. It counts as seen if half of them are.
+/// Points of a triangle that are looked at, as weights of its corners: the middles of its four quarters. It counts as seen if half of them
+/// are.
 const POINTS: [[f32; 3]; 4] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
     [2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0],
@@ -59,7 +60,8 @@ pub fn seen_from(model: &Model) -> Vec<u32> {
     found
 }
 
-/// Models that were looked at last, by their corners, with what was found: the same ones are uploaded again and again where many pictures are drawn.
+/// Models that were looked at last, by their corners, with what was found: the same ones are uploaded again and again where many pictures
+/// are drawn.
 static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 /// How many are kept.
 const MOST_KNOWN: usize = 12;
@@ -164,7 +166,8 @@ mod tests {
         let radius = Vec3::from(model.vertices[0].position).length();
         let disc = std::f32::consts::PI * radius * radius;
         let seen = seen_from(&model);
-        // Discs seen: both from the side, one along the line of the two; from the nearest of the directions much of the other is still seen.
+        // Discs seen: both from the side, one along the line of the two; from the nearest of the directions much of the other is still
+        // seen.
         for (direction, least, most) in
             [(Vec3::Y, 1.5, 2.1), (Vec3::new(0.0, 0.6, 0.8), 1.5, 2.1), (Vec3::X, 0.9, 1.7), (-Vec3::X, 0.9, 1.7)]
         {

@@ -50,7 +50,8 @@ pub struct Prepared {
 
 impl Prepared {
     /// Sorts vertices by position and triangles by vertex. An edge then has one direction, the same for all triangles that share it, even
-    /// where the model keeps two vertices at one place for their normals: so its points are the same bits from every side and no crack opens.
+    /// where the model keeps two vertices at one place for their normals: so its points are the same bits from every side and no crack
+    /// opens.
     pub fn new(model: &Model) -> Prepared {
         let mut corners: Vec<(u32, u32)> = Vec::new();
         for (triangle, &material) in model.triangles.iter().zip(&model.triangle_materials) {

@@ -15,8 +15,8 @@ pub const AGAINST: u32 = 2;
 /// differently, their backs fill the crack: only the backs of a lone body may be left out.
 pub const LONE: u32 = 4;
 
-/// Of each triangle of the model, in the order of its corners there, whether the cross product of its sides points out of the body that it is
-/// a part of. A body is what hangs together by edges; it is closed if each of its edges is passed as often one way as the other.
+/// Of each triangle of the model, in the order of its corners there, whether the cross product of its sides points out of the body that it
+/// is a part of. A body is what hangs together by edges; it is closed if each of its edges is passed as often one way as the other.
 pub fn sides(model: &Model) -> Vec<u32> {
     // Vertices at one place are one corner of the body, whatever their normals.
     let mut places: HashMap<[u32; 3], usize> = HashMap::new();

@@ -136,8 +136,8 @@ impl PostProcess {
         begin(encoder, timing.render("compose"), "compose", &over, &self.compose, frame, &groups.thin).draw(0..3, 0..1);
     }
 
-    /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the frame's exposure
-    /// is kept in.
+    /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
+    /// frame's exposure is kept in.
     #[allow(clippy::too_many_arguments, reason = "one call says all of it")]
     pub fn run(
         &self,

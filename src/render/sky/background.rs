@@ -29,8 +29,8 @@ pub struct Background {
     grid: [u32; 2],
 }
 
-/// An equirectangular picture of the Milky Way's brightness, 1 being its peak, with its mip chain: each level's width, height and rows from the north
-/// pole.
+/// An equirectangular picture of the Milky Way's brightness, 1 being its peak, with its mip chain: each level's width, height and rows from
+/// the north pole.
 pub type Panorama = Vec<(u32, u32, Vec<f32>)>;
 
 impl Background {

@@ -142,8 +142,8 @@ impl Stars {
         Stars { clusters, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
     }
 
-    /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's for
-    /// the camera's radius, empty where no stars are wanted; `edge` the angle of the shadow's edge in radians.
+    /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's
+    /// for the camera's radius, empty where no stars are wanted; `edge` the angle of the shadow's edge in radians.
     pub fn prepare(&mut self, gpu: &Gpu, camera: &Observer, table: &[[f32; 4]], edge: f64, size: [u32; 2]) {
         let aspect = f64::from(size[1]) / f64::from(size[0]);
         let orders = if table.is_empty() { 0 } else { ORDERS };

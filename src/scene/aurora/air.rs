@@ -15,8 +15,8 @@ pub struct Air {
     pub temperature: f64,
 }
 
-/// (z in km, ρ in kg m⁻³, N₂, O₂, O in m⁻³, T in K): NRLMSISE-00 (Picone et al. 2002) at 67.9° N, 25° E, 2003-01-21 00 UT, F10.7 = 150, Ap
-/// = 4.
+/// (z in km, ρ in kg m⁻³, N₂, O₂, O in m⁻³, T in K): NRLMSISE-00 (Picone et al. 2002) at 67.9° N, 25° E, 2003-01-21 00 UT, F10.7 = 150,
+/// Ap = 4.
 const TABLE: [(f64, f64, f64, f64, f64, f64); 23] = [
     (80.0, 1.165e-5, 1.911e20, 4.919e19, 2.323e15, 224.0),
     (85.0, 5.550e-6, 9.144e19, 2.310e19, 4.191e16, 221.0),

@@ -115,9 +115,10 @@ const HC: f64 = 1.986_445_857e-16;
 /// Luminous efficacy at the peak of ȳ, lm/W.
 const EFFICACY: f64 = 683.0;
 
-/// CIE XYZ (Y in cd m⁻²) of each line where the first of its [`Line::bands`] has one kilorayleigh, with the others beside it, seen with the frequency ratio
-/// `g` = ν_observed/ν_emitted: each band is seen at its own shifted wavelength. One rayleigh is 10¹⁰/4π photons m⁻² s⁻¹ sr⁻¹; photons are counted in the
-/// source's frame, and radiance goes as g⁴ (of which one power is the photon's energy): I/ν³ is invariant and a line of width ∝ ν integrates to g⁴.
+/// CIE XYZ (Y in cd m⁻²) of each line where the first of its [`Line::bands`] has one kilorayleigh, with the others beside it, seen with the
+/// frequency ratio `g` = ν_observed/ν_emitted: each band is seen at its own shifted wavelength. One rayleigh is 10¹⁰/4π photons m⁻² s⁻¹
+/// sr⁻¹; photons are counted in the source's frame, and radiance goes as g⁴ (of which one power is the photon's energy): I/ν³ is invariant
+/// and a line of width ∝ ν integrates to g⁴.
 pub fn kilorayleigh_xyz(g: f64) -> [[f64; 3]; 4] {
     Line::ALL.map(|line| {
         let mut xyz = [0.0; 3];

@@ -1,8 +1,9 @@
-//! Poisson's equation −∇²V = f on a square of N × N inner points with V = 0 on its edge, solved exactly: for the five-point Laplacian, or for
-//! charges that are Gaussian clouds.
+//! Poisson's equation −∇²V = f on a square of N × N inner points with V = 0 on its edge, solved exactly: for the five-point Laplacian, or
+//! for charges that are Gaussian clouds.
 //!
-//! The sine modes are the eigenvectors of both, so V = S Λ⁻¹ S f with the sine transform S along both sides: four products of N × N matrices. The
-//! boundary is a grounded frame: far charges are screened by it, so the square should be at least twice as wide as the charges.
+//! The sine modes are the eigenvectors of both, so V = S Λ⁻¹ S f with the sine transform S along both sides: four products of N × N
+//! matrices. The boundary is a grounded frame: far charges are screened by it, so the square should be at least twice as wide as the
+//! charges.
 
 use std::f64::consts::PI;
 

@@ -1,7 +1,7 @@
 //! The disk as arcs (Yamashita 2025, section 2.3): circles, cut along radii. Between two circles and two cuts lies an arc.
 //!
-//! The arcs are places that gas flows through. They do not turn: what turns is the pattern of the gas in them. So an arc is seen where it is at
-//! any time, and its neighbours always touch it.
+//! The arcs are places that gas flows through. They do not turn: what turns is the pattern of the gas in them. So an arc is seen where it
+//! is at any time, and its neighbours always touch it.
 
 use std::f64::consts::TAU;
 

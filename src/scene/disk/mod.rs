@@ -23,20 +23,20 @@ use super::config;
 use noise::streaks;
 use radial::Radial;
 
-/// Time after which another generation of streaks begins to grow, in r_s/c. Each lives for twice this: it grows while the one before fades. In
-/// this time orbits at r = 3 and r = 4 part by 2.1 rad, enough to draw knots out into streaks and too little to wind them up.
+/// Time after which another generation of streaks begins to grow, in r_s/c. Each lives for twice this: it grows while the one before fades.
+/// In this time orbits at r = 3 and r = 4 part by 2.1 rad, enough to draw knots out into streaks and too little to wind them up.
 pub const RENEWAL: f64 = 40.0;
 /// Time, in r_s/c, for which a generation has already been sheared when it appears: gas is never seen unsheared.
 pub const SHEARED: f64 = 20.0;
 /// The height of the pattern in ln r: after a factor of 16 in radius it begins anew. More than a disk shows at once with detail.
 pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
-/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). A disk of less than three thousand kelvin outshines a
-/// lit ship a few times, and stars show beside it.
+/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). A disk of less than three thousand
+/// kelvin outshines a lit ship a few times, and stars show beside it.
 pub const DISK_UNIT: f64 = 24.0;
 /// Octaves for close looks: the pattern again, this many times finer, this strong.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);
-/// From one generation's place in the pattern to the next one's, in turns and heights: powers of the plastic number's inverse (Roberts 2018), of
-/// which no small multiple comes near to a whole number in both.
+/// From one generation's place in the pattern to the next one's, in turns and heights: powers of the plastic number's inverse (Roberts
+/// 2018), of which no small multiple comes near to a whole number in both.
 pub const OFFSET_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// Standard deviation of ln density at turbulence 1.
 const FULL_TURBULENCE: f64 = 0.95;
@@ -130,8 +130,8 @@ impl Gas {
 
     /// The streaks at a place and time: about normally distributed, mean 0, deviation 1.
     ///
-    /// Every generation is a pattern fixed in the gas: at radius r its azimuth is φ₀ + Ω(r)·age, so it moves with the orbits and is sheared by
-    /// them. It grows, fades, and another has taken its place before it is wound up; the generations are the pattern at other offsets.
+    /// Every generation is a pattern fixed in the gas: at radius r its azimuth is φ₀ + Ω(r)·age, so it moves with the orbits and is sheared
+    /// by them. It grows, fades, and another has taken its place before it is wound up; the generations are the pattern at other offsets.
     pub fn turbulence(&self, r: f64, azimuth: f64, time: f64) -> f64 {
         let y = self.radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
         let (rate, lag) = (self.radial.turning_rate(r), self.radial.lag(r));
@@ -152,7 +152,8 @@ impl Gas {
         std::array::from_fn(|k| (first[k] + (generation as f64 * OFFSET_STEP[k]).rem_euclid(1.0)).fract())
     }
 
-    /// Rain-frame momentum per mass of the gas at `position` in the plane z = 0 (r_s): a circular orbit, or the plunge from the last of them.
+    /// Rain-frame momentum per mass of the gas at `position` in the plane z = 0 (r_s): a circular orbit, or the plunge from the last of
+    /// them.
     pub fn momentum(&self, position: DVec3) -> DVec3 {
         let r = position.truncate().length();
         let outward = DVec3::new(position.x / r, position.y / r, 0.0);
@@ -160,7 +161,8 @@ impl Gas {
         outward * radial + DVec3::Z.cross(outward) * along
     }
 
-    /// |cos| of the angle between the disk's normal and light of rain-frame momentum `photon` (any scale), in the frame of gas of `momentum`.
+    /// |cos| of the angle between the disk's normal and light of rain-frame momentum `photon` (any scale), in the frame of gas with `momentum`
+    /// per mass.
     pub fn cosine(momentum: DVec3, photon: DVec3) -> f64 {
         let gamma = (1.0 + momentum.length_squared()).sqrt();
         photon.z.abs() / (gamma * photon.length() - momentum.dot(photon))

@@ -72,7 +72,8 @@ fn lattice() -> Vec<f32> {
             }
         }
     }
-    // Each row by itself: a ring that is brighter all round than its neighbours would make the whole disk brighter until its generation dies.
+    // Each row by itself: a ring that is brighter all round than its neighbours would make the whole disk brighter until its generation
+    // dies.
     for row in sum.chunks_mut(WIDTH) {
         let mean = row.iter().sum::<f64>() / WIDTH as f64;
         let deviation = (row.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / WIDTH as f64).sqrt();

@@ -1,4 +1,5 @@
-//! The disk as triangles (Yamashita 2025, section 2.1), for the chart: rings of equal sectors that turn with the gas, or one annulus at rest.
+//! The disk as triangles (Yamashita 2025, section 2.1), for the chart: rings of equal sectors that turn with the gas, or one annulus at
+//! rest.
 
 use std::f64::consts::{PI, TAU};
 
@@ -27,11 +28,12 @@ pub fn model(disk: &config::Disk, radial: &Radial) -> Model {
     annulus(&radii, sectors)
 }
 
-/// How far a ring reaches under the next inner one beyond the chords of that, over its width: both are tessellated by themselves, and drawn to a pixel.
+/// How far a ring reaches under the next inner one beyond the chords of that, over its width: both are tessellated by themselves, and drawn
+/// to a pixel.
 const UNDER: f64 = 0.1;
 
-/// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens between two
-/// rings that slide along one another.
+/// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens
+/// between two rings that slide along one another.
 pub fn rings(disk: &config::Disk, radial: &Radial) -> Vec<Ring> {
     let (radii, sectors) = division(disk, radial);
     let last = radii.len() - 2;

@@ -12,12 +12,13 @@ pub const LAST_ORBIT: f64 = 3.0;
 const PLUNGE: (f64, f64) = (0.942_809_041_582_063_4, 1.732_050_807_568_877_2);
 /// Where the falling gas ends to be drawn, in r_s: it is thinner there than a hundredth of the disk and redshifted away.
 const PLUNGE_END: f64 = 1.25;
-/// Speed at which gas drifts in at the last stable orbit, in c: slow, as friction lets it. Falling gas thins out as its speed grows beyond it, and what is behind shows through.
+/// Speed at which gas drifts in at the last stable orbit, in c: slow, as friction lets it. Falling gas thins out as its speed grows beyond
+/// it, and what is behind shows through.
 const DRIFT: f64 = 0.002;
 /// Share of the outer part of the disk over which it thins out.
 const OUTER_FADE: f64 = 0.35;
-/// Temperature of the gas at the last stable orbit over that of the hottest ring. In Page and Thorne's disk no torque acts there and its surface is
-/// cold; gas that moves keeps heat, which is what the falling part is seen by.
+/// Temperature of the gas at the last stable orbit over that of the hottest ring. In Page and Thorne's disk no torque acts there and its
+/// surface is cold; gas that moves keeps heat, which is what the falling part is seen by.
 const CARRIED_HEAT: f64 = 0.5;
 
 // SI, CODATA 2018 and IAU 2015.
@@ -27,8 +28,8 @@ const SOLAR_LENGTH: f64 = 1_476.625_038;
 /// Eddington luminosity of one solar mass, 4πGM☉ m_p c/σ_T, in W.
 const EDDINGTON: f64 = 1.256_6e31;
 
-/// Page and Thorne's flux for a hole without spin, times M²/Ṁ (G = c = 1), at x = r/M > 6: Page & Thorne 1974, ApJ 191, 499, eq. 15n, with the
-/// logarithm's factor √3/2. Zero at and inside x = 6.
+/// Page and Thorne's flux for a hole without spin, times M²/Ṁ (G = c = 1), at x = r/M > 6: Page & Thorne 1974, ApJ 191, 499, eq. 15n, with
+/// the logarithm's factor √3/2. Zero at and inside x = 6.
 pub fn page_thorne_flux(x: f64) -> f64 {
     if x <= 6.0 {
         return 0.0;
@@ -127,8 +128,8 @@ impl Radial {
         r.max(LAST_ORBIT)
     }
 
-    /// How far, in rad, falling gas at `r` is ahead of the last stable orbit that it left, when that turns on: ∫(dφ − Ω dT) along the plunge. With it
-    /// every bit of the pattern falls on a geodesic.
+    /// How far, in rad, falling gas at `r` is ahead of the last stable orbit that it left, when that turns on: ∫(dφ − Ω dT) along the
+    /// plunge. With it every bit of the pattern falls on a geodesic.
     pub fn lag(&self, r: f64) -> f64 {
         if r >= LAST_ORBIT {
             return 0.0;

@@ -7,8 +7,8 @@ use crate::scene::config;
 use super::noise::hash;
 use super::radial::Radial;
 
-/// How many times as long as wide a spot is: streaks are some ten times as long. Pictures of 480 × 270 pixels from 0°, 30° and 80° are off by 2.1, 1.7 and 1.3
-/// times as much with round ones.
+/// How many times as long as wide a spot is: streaks are some ten times as long. Pictures of 480 × 270 pixels from 0°, 30° and 80° are off
+/// by 2.1, 1.7 and 1.3 times as much with round ones.
 const LENGTH: f64 = 3.0;
 
 /// One spot: a place that gas flows through.
@@ -16,7 +16,8 @@ const LENGTH: f64 = 3.0;
 pub struct Sprite {
     /// Radius in r_s.
     pub radius: f64,
-    /// Where on its ring it is, in rad from the camera's azimuth: in σ, in which the disk's image is smooth all round (`shaders/disk/sigma.wgsl`).
+    /// Where on its ring it is, in rad from the camera's azimuth: in σ, in which the disk's image is smooth all round
+    /// (`shaders/disk/sigma.wgsl`).
     pub sigma: f64,
     /// To the next of the same ring, in rad.
     pub step: f64,
@@ -32,7 +33,8 @@ pub struct Sprites {
 }
 
 impl Sprites {
-    /// `most` of them at most, but for three in each ring, evenly over the disk's area: rings of one width, each beginning at an azimuth of its own.
+    /// `most` of them at most, but for three in each ring, evenly over the disk's area: rings of one width, each beginning at an azimuth of
+    /// its own.
     pub fn new(most: u32, disk: &config::Disk, radial: &Radial) -> Sprites {
         let most = f64::from(most);
         let [start, end] = radial.extent();

@@ -1,9 +1,8 @@
 //! [`EnemyAiPlugin`]: the pilots. One code flies hunter and quarry; the quarry has the sign of the distance turned.
 //!
-//! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting ([`mod@rendezvous`]); the
-//! hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and expects it to go on
-//! as it did. Difficulty is
-//! thrust, replanning period, horizon and reaction delay, nothing else.
+//! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting
+//! ([`mod@rendezvous`]); the hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and expects it to go on
+//! as it did. Difficulty is thrust, replanning period, horizon and reaction delay, nothing else.
 
 pub mod plan;
 pub mod rendezvous;
@@ -192,7 +191,8 @@ fn command(state: &ShipState, wish: DVec3, engine: &Engine) -> Command {
     Command { thrust, rates }
 }
 
-/// Body rates that turn the nose (−z) towards `direction` (a unit vector on body axes): proportional to the sine of the angle, full when behind.
+/// Body rates that turn the nose (−z) towards `direction` (a unit vector on body axes): proportional to the sine of the angle, full when
+/// behind.
 pub fn turn_nose(direction: DVec3, max_rate: f64) -> DVec3 {
     let axis = DVec3::NEG_Z.cross(direction);
     let wanted = if direction.z > 0.0 { axis.try_normalize().unwrap_or(DVec3::Y) } else { axis };

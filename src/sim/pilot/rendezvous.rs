@@ -1,4 +1,5 @@
-//! Zero-effort-miss shooting: where would both be if the one coasted and the other went on as it does, and which thrust closes the gap in position and velocity?
+//! Zero-effort-miss shooting: where would both be if the one coasted and the other went on as it does, and which thrust closes the gap in
+//! position and velocity?
 //!
 //! With the miss z and the velocity difference v at the end of `go` (target minus own, in the real spacetime), the thrust of
 //! least ∫a² is linear in time: from 6z/go² − 2v/go to 4v/go − 6z/go² (e.g. Ebrahimi, Bahrami, Roshanian, Acta Astronautica 62 (2008) 556).

@@ -87,7 +87,8 @@ fn by_exact_ray(camera: &Observer, planet: &Planet, history: &History, body: DVe
     exact(camera, place(emission), order)
 }
 
-/// By how much the ends of the light of streaks on the screen, or its length, are off, of what is allowed, from the least: against exact rays, and against many chords.
+/// By how much the ends of the light of streaks on the screen, or its length, are off, of what is allowed, from the least: against exact
+/// rays, and against many chords.
 fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &GameConfig, order: Option<u32>) -> [Vec<f64>; 2] {
     let settings = settings(config);
     let table = renderer.table().clone();
@@ -178,8 +179,9 @@ fn chords_of_the_game_hold_their_budget() {
             let camera = static_camera(eye, -eye, DVec3::Z, 0.9);
             print!("behind, {distance}, {aside}, order {order}: ");
             let [off, by_chords] = hold(&mut renderer, &planet, camera, &config, Some(order));
-            // A streak here and there meets the axis, where it is drawn out over as much of the ring as one likes. Beside the chords there is the table's own
-            // error, which is magnified as the image is: with any number of chords up to a fourteenth of the streaks are off by more than is allowed.
+            // A streak here and there meets the axis, where it is drawn out over as much of the ring as one likes. Beside the chords there
+            // is the table's own error, which is magnified as the image is: with any number of chords up to a fourteenth of the streaks are
+            // off by more than is allowed.
             let most = |off: &[f64], part: f64| off[(off.len() as f64 * part) as usize];
             assert!(most(&by_chords, 0.99) <= 1.0, "{distance}, {aside}, order {order}: chords are off by {by_chords:?}");
             assert!(most(&off, 0.9) <= 1.0, "{distance}, {aside}, order {order}: off by {off:?}");

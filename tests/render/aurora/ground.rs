@@ -11,7 +11,8 @@ use crate::support::Folder;
 
 const SIZE: [u32; 2] = [240, 240];
 
-/// A planet with an aurora of this shape, seen from straight above a magnetic latitude, so many km high. It is so far from the hole that space is flat about it, and slow.
+/// A planet with an aurora of this shape, seen from straight above a magnetic latitude, so many km high. It is so far from the hole that
+/// space is flat about it, and slow.
 fn scene_above(shape: &str, latitude: f64, height: f64) -> Scene {
     let folder = Folder::new();
     let path = folder.path().join("scene.toml");
@@ -92,8 +93,9 @@ fn the_ground_gets_half_of_the_light_but_for_what_passes_over_the_horizon() {
         };
         pixels.iter().enumerate().map(light).sum::<f64>()
     };
-    // A source of intensity Q shines into 4π; the globe fills 2π (1 − √(1 − k²)) of it, k = R/(R + h), and a white ground sends out 1/π of what falls on it:
-    // ∫ (E/π) dA = 2Q (1 − √(1 − k²)). In the plane of the map circles of latitude are too long by θ/sin θ, θ = 0.386 the arcs' colatitude.
+    // A source of intensity Q shines into 4π; the globe fills 2π (1 − √(1 − k²)) of it, k = R/(R + h), and a white ground sends out 1/π of
+    // what falls on it: ∫ (E/π) dA = 2Q (1 − √(1 − k²)). In the plane of the map circles of latitude are too long by θ/sin θ, θ = 0.386 the
+    // arcs' colatitude.
     let k: f64 = 6371.0 / 6486.0;
     let want = 2.0 * (1.0 - (1.0 - k * k).sqrt()) * 0.386f64.sin() / 0.386;
     // Even curtains; and some with waves of brightness and rays, a thousand of which are as bright as their mean within a few per cent.
@@ -118,7 +120,8 @@ fn the_ground_is_lit_beneath_the_curtains() {
         let radius = (150.0 / (2.0 * height * 25f64.to_radians().tan() / f64::from(SIZE[0]))).round() as usize;
         let spread = blurred(&blurred(&parts.curtains, radius), radius);
         let alike = correlation(&spread, &parts.ground);
-        // From above the pole an oval's curtains, seen askew, are brighter than what is lit, and the two are less alike. Mirrored they come to 0.91 (arcs) and 0.63.
+        // From above the pole an oval's curtains, seen askew, are brighter than what is lit, and the two are less alike. Mirrored they come
+        // to 0.91 (arcs) and 0.63.
         assert!(alike > least, "{shape} from {latitude} rad: {alike}");
     }
 }

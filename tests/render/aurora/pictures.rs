@@ -85,7 +85,8 @@ fn brightness_never_jumps() {
     smooth(&still, 0.02);
 }
 
-/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of all.
+/// Each brightness is the mean of its neighbours, but for that part of the brightest of the three, and half a per cent of the brightest of
+/// all.
 fn smooth(steps: &[(u32, f64)], part: f64) {
     let least = 0.005 * steps.iter().map(|step| step.1).fold(0.0, f64::max);
     for (k, three) in steps.windows(3).enumerate() {
@@ -260,7 +261,8 @@ fn nothing_is_left_of_an_earlier_image() {
         renderer.picture(&frame, false).unwrap().linear
     };
     let alone = [drawn(&[0]), drawn(&[1])];
-    // Their light is added up in one picture after the other, so that two together are the sum of each by itself; the same one twice is in the same tiles.
+    // Their light is added up in one picture after the other, so that two together are the sum of each by itself; the same one twice is in
+    // the same tiles.
     for [one, other] in [[0, 1], [0, 0], [1, 1]] {
         let sum = alone[one].iter().zip(&alone[other]).map(|(a, b)| [0, 1, 2, 3].map(|c| a[c] + b[c]));
         same(&sum.collect::<Vec<_>>(), &drawn(&[one, other]), 0.05, &format!("images {one} and {other}"));

@@ -85,13 +85,14 @@ fn direction(vertex: &DiskVertex) -> DVec3 {
     DVec3::new(f64::from(x), f64::from(y), f64::from(z)).normalize()
 }
 
-/// Every grid vertex of order 1 within a fifth of a pixel of its exact place, and its heat that of gT with the exact g to a part in a thousand;
-/// from far, from within the disk's radius, and from below.
+/// Every grid vertex of order 1 within a fifth of a pixel of its exact place, and its heat that of gT with the exact g to a part in a
+/// thousand; from far, from within the disk's radius, and from below.
 #[test]
 fn vertices_of_the_disk_land_where_they_are_seen() {
     let size = [1280, 720];
     let mut disk = a_disk();
-    // With a gap all circles are drawn, and as they are: where rings are drawn together heat is fitted to all of the gas between two circles.
+    // With a gap all circles are drawn, and as they are: where rings are drawn together heat is fitted to all of the gas between two
+    // circles.
     disk.config.gap = 0.5;
     // Few rows, for the picture does not matter; the width decides how many arcs there are.
     let mut renderer = renderer([1280, 16]);
@@ -115,9 +116,9 @@ fn vertices_of_the_disk_land_where_they_are_seen() {
     }
 }
 
-/// Luminet's isoradial curves: impact parameters (in GM/c²) of the near, the side and the far point of a ring, in the direct image and in the ghost.
-/// His observer is at infinity, so two steps: the exact ray from 10⁸ r_s has his impact parameter, and seen from 40 r_s the shader's vertex has that of
-/// the exact ray; both to 0.1 %.
+/// Luminet's isoradial curves: impact parameters (in GM/c²) of the near, the side and the far point of a ring, in the direct image and in
+/// the ghost. His observer is at infinity, so two steps: the exact ray from 10⁸ r_s has his impact parameter, and seen from 40 r_s the
+/// shader's vertex has that of the exact ray; both to 0.1 %.
 #[test]
 fn isoradials_are_luminets() {
     let mut disk = a_disk();
@@ -163,7 +164,8 @@ fn isoradials_are_luminets() {
     }
 }
 
-/// The edges of the disk, as they are drawn, against the exact curves: the distance of the middle of each chord of the outermost and the innermost circle.
+/// The edges of the disk, as they are drawn, against the exact curves: the distance of the middle of each chord of the outermost and the
+/// innermost circle.
 #[test]
 fn edges_of_the_disk_are_right_to_half_a_pixel() {
     let size = [1280, 720];
@@ -259,8 +261,8 @@ fn functions_of_the_gas_are_the_same_in_both_languages() {
     }
 }
 
-/// The inverse of σ is that in both languages, at any height over the plane; and next to the plane the angle round the axis that follows from it is right where the
-/// disk passes behind the hole, though θ hardly moves there.
+/// The inverse of σ is that in both languages, at any height over the plane; and next to the plane the angle round the axis that follows
+/// from it is right where the disk passes behind the hole, though θ hardly moves there.
 #[test]
 fn bearings_are_the_inverse_of_sigma_in_both_languages() {
     let body = "let there = bearing(row.x, row.y);
@@ -283,8 +285,8 @@ fn bearings_are_the_inverse_of_sigma_in_both_languages() {
     }
 }
 
-/// From within its plane the disk is what light from behind the hole makes of it on its way round: a ring as round as from elsewhere, whose upper half
-/// is of the first order. Its chords are as near to it as the budget asks for.
+/// From within its plane the disk is what light from behind the hole makes of it on its way round: a ring as round as from elsewhere, whose
+/// upper half is of the first order. Its chords are as near to it as the budget asks for.
 #[test]
 fn from_within_its_plane_the_disk_is_a_round_ring() {
     let disk = a_disk();

@@ -31,7 +31,8 @@ fn bends_are_told_at_the_same_azimuths_in_both_languages() {
     }
 }
 
-/// What the rows of an order are chosen by, the light of a circle at azimuths on both sides, is that of the exact ray to there: ln of it is −26,160 K/gT.
+/// What the rows of an order are chosen by, the light of a circle at azimuths on both sides, is that of the exact ray to there: ln of it is
+/// −26,160 K/gT.
 #[test]
 fn the_light_of_circles_is_that_of_exact_rays() {
     let disk = a_disk();
@@ -61,9 +62,10 @@ fn the_light_of_circles_is_that_of_exact_rays() {
     }
 }
 
-/// From near, rings of order 1 are held to 0.1 pixels across the orbits, 1 along them, 0.001 of the light of the brightest gas at the same azimuth and 0.005 of the light from behind.
-/// So they are at all circles between their own two that there were to choose from: what goes straight over a ring, and as a parabola, against the gas itself. Rings with fewer than two
-/// circles between are left out: the parabola goes through one by itself.
+/// From near, rings of order 1 are held to 0.1 pixels across the orbits, 1 along them, 0.001 of the light of the brightest gas at the same
+/// azimuth and 0.005 of the light from behind. So they are at all circles between their own two that there were to choose from: what goes
+/// straight over a ring, and as a parabola, against the gas itself. Rings with fewer than two circles between are left out: the parabola
+/// goes through one by itself.
 #[test]
 fn rings_from_near_are_as_true_as_they_are_held_to_be() {
     const WIDTH: u32 = 1280;
@@ -139,8 +141,8 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
     }
 }
 
-/// Slivers of thin images hardly touch the pixels that they are drawn in, and what is interpolated there may be anything: a disk ten times as wide as the camera's
-/// distance has its height in the pattern far beyond where the orbits' rate is a number. No pixel is without one.
+/// Slivers of thin images hardly touch the pixels that they are drawn in, and what is interpolated there may be anything: a disk ten times
+/// as wide as the camera's distance has its height in the pattern far beyond where the orbits' rate is a number. No pixel is without one.
 #[test]
 fn every_pixel_of_a_wide_disk_is_a_number() {
     let size = [640, 360];
@@ -164,7 +166,8 @@ fn every_pixel_of_a_wide_disk_is_a_number() {
     }
 }
 
-/// A camera next to the plane sees no edge where the azimuth changes its sign: light is bent over a ring by another amount on either side, and both meet there.
+/// A camera next to the plane sees no edge where the azimuth changes its sign: light is bent over a ring by another amount on either side,
+/// and both meet there.
 #[test]
 fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     let size = [320, 180];
@@ -176,7 +179,8 @@ fn no_edge_is_seen_where_the_azimuth_changes_its_sign() {
     let input = FrameInput { camera, time: 100.0, placed: Vec::new(), aurora: None, settings: settings() };
     let linear = renderer.picture(&input, false).unwrap().linear;
     let light = |x: u32, y: u32| f64::from(linear[(y * size[0] + x) as usize][1]);
-    // The way to the hole is seen 26.6° left of the middle: tan of that, of 160 pixels. Light is smooth there: a step is no larger than those beside it.
+    // The way to the hole is seen 26.6° left of the middle: tan of that, of 160 pixels. Light is smooth there: a step is no larger than
+    // those beside it.
     let column = 160 - 80;
     let mut worst = 0.0f64;
     for y in 30..70 {

@@ -117,8 +117,8 @@ fn red_waits_green_less_blue_not_at_all() {
 #[test]
 fn lines_have_their_colours() {
     let xyz = lines::kilorayleigh_xyz(1.0);
-    // Luminance per kR: 557.7 nm 1.93e-4, 427.8 nm 2.45e-6 and 391.4 nm 4.1e-8, 630.0 nm 4.54e-5 and 636.4 nm 3.48e-5 cd m⁻², from the CIE table; the fit is
-    // within a few per cent where the eye sees, and less so at its violet end.
+    // Luminance per kR: 557.7 nm 1.93e-4, 427.8 nm 2.45e-6 and 391.4 nm 4.1e-8, 630.0 nm 4.54e-5 and 636.4 nm 3.48e-5 cd m⁻², from the CIE
+    // table; the fit is within a few per cent where the eye sees, and less so at its violet end.
     let [blue, red] = [2.45e-6 + 0.65 / 0.20 * 4.1e-8, 4.54e-5 + 0.001_85 / 0.005_85 * 3.48e-5];
     for (line, want, relative) in [(Line::Green, 1.93e-4, 0.03), (Line::Blue, blue, 0.35), (Line::Red, red, 0.05)] {
         let got = xyz[line as usize][1];
@@ -209,7 +209,8 @@ fn a_charged_sheet_has_its_field_on_both_sides() {
     let plan = Plan { curves: vec![straight(500.0)], nodes: 600, field: 40.0, renewal: f64::INFINITY, contrast: 0.0, seed: 1 };
     let mut motion = Motion::new(plan, 0.0);
     motion.step();
-    // 60 km from the middle of a sheet 1000 km long, a finite sheet has 92 % of an endless one's (2/π atan(500/60)); the frame adds a little.
+    // 60 km from the middle of a sheet 1000 km long, a finite sheet has 92 % of an endless one's (2/π atan(500/60)); the frame adds a
+    // little.
     let above = motion.field_at(DVec2::new(0.0, 60.0));
     let below = motion.field_at(DVec2::new(0.0, -60.0));
     // Electrons charge it negatively: the field points to the sheet from both sides.
@@ -247,8 +248,8 @@ fn ring(radius: f64, amplitude: f64, waves: f64) -> Vec<Curve> {
 
 #[test]
 fn waves_of_a_sheet_grow_as_those_of_a_vortex_sheet() {
-    // 32 and 104 waves round a ring 2000 km wide, 196 and 60 km long; its grid has cells of 42 km. Two km high: low against their length, and high
-    // against what the quarters' Bézier curves, not quite circles, do in these 20 s.
+    // 32 and 104 waves round a ring 2000 km wide, 196 and 60 km long; its grid has cells of 42 km. Two km high: low against their length,
+    // and high against what the quarters' Bézier curves, not quite circles, do in these 20 s.
     for waves in [32.0, 104.0] {
         let plan =
             Plan { curves: ring(1000.0, 2.0, 0.25 * waves), nodes: 1200, field: 30.0, renewal: f64::INFINITY, contrast: 0.0, seed: 1 };
@@ -277,7 +278,8 @@ fn waves_of_a_sheet_grow_as_those_of_a_vortex_sheet() {
         let rate = (amplitude(&motion) / before).acosh() / (f64::from(steps) * STEP);
         let (k, d, speed) = (waves / 1000.0, motion.thickness(), jump(30.0));
         let thin = 0.5 * k * speed;
-        // A sheet of Gaussians of standard deviation d: the integrals over k of exp(−k²d²/2)/k² along and across the sheet, with erfc by quadrature.
+        // A sheet of Gaussians of standard deviation d: the integrals over k of exp(−k²d²/2)/k² along and across the sheet, with erfc by
+        // quadrature.
         let erfc = 1.0
             - (0..1000).map(|j| (-(k * d / 2f64.sqrt() * (f64::from(j) + 0.5) / 1000.0).powi(2)).exp()).sum::<f64>() / 1000.0
                 * k
@@ -333,7 +335,8 @@ fn the_field_is_that_of_all_charges_and_their_images() {
             error += got.distance_squared(want);
             whole += want.length_squared();
         }
-        // 2 % (root mean square): modes between the grid's points have 1 % of a charge left, the near field ends at 1/450 and takes charges together.
+        // 2 % (root mean square): modes between the grid's points have 1 % of a charge left, the near field ends at 1/450 and takes charges
+        // together.
         let relative = (error / whole).sqrt();
         assert!(relative < 0.02, "the field is off by {relative}");
     }
@@ -365,7 +368,8 @@ fn curtains_fold_and_never_run_away() {
         for _ in 0..240 {
             motion.step();
             let (_, moved) = folded(&motion, &rest);
-            // No farther than the greatest speed takes a node between two surges, which leave a twentieth, and so on: 72 s at most with this field.
+            // No farther than the greatest speed takes a node between two surges, which leave a twentieth, and so on: 72 s at most with
+            // this field.
             assert!(
                 motion.nodes().iter().all(|node| node.place.is_finite()) && moved < 72.0 * TOP_SPEED * 1.05,
                 "field {field}: {moved} km"
@@ -402,7 +406,8 @@ fn curtains_of_a_planet_fold_again_and_again() {
             let back = pieces.filter(|&k| (now[k + 1].place - now[k].place).dot(rest[k + 1].place - rest[k].place) < 0.0).count();
             over.push(back as f64 / now.len() as f64);
         }
-        // Pieces that run against their direction at rest: with the grid alone they are 1 to 3 in 100, where surges push a curtain together.
+        // Pieces that run against their direction at rest: with the grid alone they are 1 to 3 in 100, where surges push a curtain
+        // together.
         let mean = over[1..].iter().sum::<f64>() / 3.0;
         assert!(mean > 0.05, "{over:?} of the pieces run back");
     }
@@ -468,7 +473,8 @@ fn field_lines_are_the_dipoles() {
     assert!((dip - inclination(latitude)).abs() < 1e-9);
 }
 
-/// However short a surge is beside a step, each node gets what a period should give it: without a field, e⁻³ of the way from where it rests is left.
+/// However short a surge is beside a step, each node gets what a period should give it: without a field, e⁻³ of the way from where it rests
+/// is left.
 #[test]
 fn short_surges_come_to_as_much_as_long_ones() {
     for renewal in [1.0, 1.5, 2.0, 6.0] {

@@ -38,12 +38,14 @@ fn an_even_sheet_lights_the_ground_as_its_closed_form_says() {
             (DVec2::from_angle(turn) * angle * SPHERE, area)
         };
         let light = map.of((0..256 * steps).map(source));
-        // L(z) = L/cos χ with sin χ = k sin z, k = R/(R + h): E = 2πL (1 − √(1 − k²))/k², which is 2πL where the ground is flat, and a white ground shows E/π.
+        // L(z) = L/cos χ with sin χ = k sin z, k = R/(R + h): E = 2πL (1 − √(1 − k²))/k², which is 2πL where the ground is flat, and a
+        // white ground shows E/π.
         let k = GLOBE / sphere;
         let want = 2.0 * (1.0 - (1.0 - k * k).sqrt()) / (k * k);
         for place in [DVec2::ZERO, DVec2::new(20.0, 11.0)] {
             let got = read(map.square(), map.size(), &light, place);
-            // Texels a quarter of the height wide are right to a thousandth in the middle of an even sheet; that much may be rounded off at the horizon as well.
+            // Texels a quarter of the height wide are right to a thousandth in the middle of an even sheet; that much may be rounded off at
+            // the horizon as well.
             assert!((got / want - 1.0).abs() < 5e-3, "{height} km: {got} at {place}, {want} by the closed form");
         }
     }
@@ -70,7 +72,8 @@ fn a_straight_curtain_lights_the_ground_as_a_line_source() {
             0.5 * way.dot(ground.normalize()).max(0.0) / way.length().powi(3) / PI
         };
         let want: f64 = places().map(from).sum();
-        // Texels of 25 km: amid two of them what is laid out on both and read from both is blurred by a variance of 25²/2, and there is 25²/(2 · 112²) = 2.5 % less beneath the line.
+        // Texels of 25 km: amid two of them what is laid out on both and read from both is blurred by a variance of 25²/2, and there is
+        // 25²/(2 · 112²) = 2.5 % less beneath the line.
         assert!((got / want - 1.0).abs() < 0.03, "{aside} km aside: {got}, {want} summed in space");
         if aside < 100.0 {
             // Over flat ground 2h/(h² + d²) over π; where it is round the line's ends are lower, which takes 1.4 % more.

@@ -65,9 +65,9 @@ fn hardly_any_light_is_left_to_the_ends_of_the_heights() {
                     };
                     let outside = [above(top) / whole[line], 1.0 - above(foot) / whole[line]];
                     let name = format!("{accelerated} keV + {thermal} keV, row {row}, line {line}, {foot} to {top} km");
-                    // A five hundredth of a line and 1/125 of red are meant to be, and a tenth of that for the steps of both integrals. Where the hardest
-                    // electrons end within kilometres, half a step of the tables more; above, what the softest make higher than any light is drawn, 0.33 % of green and
-                    // 0.89 % of red where the curtain is faintest.
+                    // A five hundredth of a line and 1/125 of red are meant to be, and a tenth of that for the steps of both integrals.
+                    // Where the hardest electrons end within kilometres, half a step of the tables more; above, what the softest make
+                    // higher than any light is drawn, 0.33 % of green and 0.89 % of red where the curtain is faintest.
                     let allowed = 1.1 * [0.002, 0.008][KIND[line]];
                     let below = 1.0 - above(foot - 0.25) / whole[line];
                     let beyond = above(HEIGHTS[0]) / whole[line];

@@ -38,8 +38,8 @@ fn observer(wavelength: f64) -> [f64; 3] {
     std::array::from_fn(|c| OBSERVER[k][c] + t * (OBSERVER[k + 1][c] - OBSERVER[k][c]))
 }
 
-/// XYZ of narrow lines, (nm, kR) at rest, seen with the frequency ratio `g`: the radiance of each wavelength that is seen, L′(λ′) = g⁵ L(gλ′) as I/ν³ is
-/// invariant, summed over what the eye sees.
+/// XYZ of narrow lines, (nm, kR) at rest, seen with the frequency ratio `g`: the radiance of each wavelength that is seen, L′(λ′) = g⁵
+/// L(gλ′) as I/ν³ is invariant, summed over what the eye sees.
 fn integrated(spectrum: &[(f64, f64)], g: f64) -> [f64; 3] {
     const WIDTH: f64 = 0.3;
     let radiance = |wavelength: f64| -> f64 {
@@ -86,8 +86,9 @@ fn a_shifted_aurora_has_the_colour_of_its_spectrum() {
     let mut spectrum = vec![(557.7, green), (650.0, crimson)];
     spectrum.extend(BLUE.map(|(wavelength, part)| (wavelength, part * blue)));
     spectrum.extend(RED.map(|(wavelength, part)| (wavelength, part * red)));
-    // The fit to the observer, as above: red on the screen is 3.2 X less 1.5 Y and 0.5 Z, so that what it is off by, 2 to 3 % of X at 634 nm (green at 0.88) and
-    // at 445 nm (violet), comes to twice that; measured 0.006, 0.001 and 0.044. At 0.92 only blue is left that is neither cut off nor the brightest.
+    // The fit to the observer, as above: red on the screen is 3.2 X less 1.5 Y and 0.5 Z, so that what it is off by, 2 to 3 % of X at 634
+    // nm (green at 0.88) and at 445 nm (violet), comes to twice that; measured 0.006, 0.001 and 0.044. At 0.92 only blue is left that is
+    // neither cut off nor the brightest.
     for (g, allowed) in [(1.0, 0.01), (0.92, 0.01), (0.88, 0.055)] {
         let lines = lines::kilorayleigh_xyz(g);
         let sum: [f64; 3] = std::array::from_fn(|c| lines.iter().zip(lines::photons(110.0)).map(|(line, photons)| photons * line[c]).sum());

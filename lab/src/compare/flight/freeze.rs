@@ -1,7 +1,7 @@
 //! A moment of a flight as a scene file of its own, to be looked at at T = 0.
 //!
-//! Ships start with the place, momentum and attitude that they have then, so they have coasted there, or hovered: what they burnt before is lost, and where they are seen
-//! differs by that. The camera is free, as it is then. Whether it still fails is asked of the judge.
+//! Ships start with the place, momentum and attitude that they have then, so they have coasted there, or hovered: what they burnt before is
+//! lost, and where they are seen differs by that. The camera is free, as it is then. Whether it still fails is asked of the judge.
 
 use std::f64::consts::TAU;
 

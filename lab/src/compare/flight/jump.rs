@@ -43,8 +43,8 @@ fn sizes(shown: &[Shown], [width, height]: [u32; 2]) -> BTreeMap<(u32, u32), Siz
     sizes
 }
 
-/// The images that jump between two frames of this size. Of an image that touches the picture's border a strip two pixels wide along all of the border may come or go besides,
-/// as the camera turns.
+/// The images that jump between two frames of this size. Of an image that touches the picture's border a strip two pixels wide along all of
+/// the border may come or go besides, as the camera turns.
 pub fn jumps(before: &[Shown], after: &[Shown], size: [u32; 2]) -> Vec<Jump> {
     let both = [sizes(before, size), sizes(after, size)];
     let keys: std::collections::BTreeSet<(u32, u32)> = both.iter().flat_map(|sizes| sizes.keys().copied()).collect();

@@ -1,4 +1,5 @@
-//! Which moments of a flight are looked at: half of them oppositions, at which the hole is between the camera and the place where another ship is seen.
+//! Which moments of a flight are looked at: half of them oppositions, at which the hole is between the camera and the place where another
+//! ship is seen.
 
 use std::f64::consts::PI;
 
@@ -18,8 +19,8 @@ const APART: f64 = 0.5;
 pub struct Survey {
     /// Steps of the clock to its end.
     pub steps: u64,
-    /// After each step from the first on the greatest angle at the hole between the camera and the seen place of another ship, in radians; not a number where none is
-    /// seen.
+    /// After each step from the first on the greatest angle at the hole between the camera and the seen place of another ship, in radians;
+    /// not a number where none is seen.
     pub angles: Vec<f64>,
 }
 
@@ -47,7 +48,8 @@ pub fn survey(scene: &Scene, config: &GameConfig, seed: u64, until: f64) -> Surv
     Survey { steps: angles.len() as u64, angles }
 }
 
-/// The angle at the hole between the camera and where the ship is seen by light that sweeps that angle, in radians; None where there is no such light.
+/// The angle at the hole between the camera and where the ship is seen by light that sweeps that angle, in radians; None where there is no
+/// such light.
 fn seen_angle(history: &History, time: f64, eye: DVec3) -> Option<f64> {
     let order = Order::new(1)?;
     // T_e + Δ(x(T_e)) grows with T_e: halved between a time that is too early and now.
@@ -66,8 +68,8 @@ fn seen_angle(history: &History, time: f64, eye: DVec3) -> Option<f64> {
     Some(angle(history.at(span[0]).position)).filter(|angle| angle.is_finite())
 }
 
-/// The steps after which `count` moments are looked at, in order, none before the second step or at the last: half of them, if there are so many, at the greatest
-/// angles of their surroundings, the others drawn evenly.
+/// The steps after which `count` moments are looked at, in order, none before the second step or at the last: half of them, if there are so
+/// many, at the greatest angles of their surroundings, the others drawn evenly.
 pub fn choose(survey: &Survey, count: usize, step: f64, seed: u64) -> Vec<u64> {
     let last = survey.steps.saturating_sub(1);
     if last < 2 {

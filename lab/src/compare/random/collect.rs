@@ -8,8 +8,8 @@ use crate::chart::{Provenance, Sheet, SheetError};
 use crate::compare::fault::{Kind, Limits};
 use crate::compare::judged::Terms;
 
-/// The columns: what was drawn, of how many, from which seed; the limits; how many were within them, with nothing solid among those, beyond, given up, slow for the judge; how many
-/// failed by each kind of worst fault; seconds of the median case.
+/// The columns: what was drawn, of how many, from which seed; the limits; how many were within them, with nothing solid among those,
+/// beyond, given up, slow for the judge; how many failed by each kind of worst fault; seconds of the median case.
 pub const COLUMNS: [&str; 13] =
     ["what", "cases", "seed", "limits", "within", "empty", "failed", "gave_up", "slow", "by_kind", "seconds", "commit", "command"];
 
@@ -25,8 +25,8 @@ pub fn open(csv: &Path) -> Result<Sheet, SheetError> {
     }
 }
 
-/// Adds a run to the table in `csv`, in the place of an earlier one of the same cases, and writes its Markdown beside it. `what` names what was drawn: `random`, or a scene
-/// that was flown.
+/// Adds a run to the table in `csv`, in the place of an earlier one of the same cases, and writes its Markdown beside it. `what` names what
+/// was drawn: `random`, or a scene that was flown.
 pub fn add(csv: &Path, what: &str, seed: &str, terms: &Terms, rows: &[Row]) -> Result<(), SheetError> {
     let mut sheet = open(csv)?;
     let provenance = Provenance::now("");

@@ -72,8 +72,8 @@ pub fn camera_momentum(chance: &mut StdRng, eye: DVec3) -> Option<DVec3> {
     }
 }
 
-/// The direction, in the axes of a camera of this rain-frame momentum (None: held in place, or falling with the rain), in which it sees a point that stands still; the hole's
-/// for the origin, and where no light comes from the point.
+/// The direction, in the axes of a camera of this rain-frame momentum (None: held in place, or falling with the rain), in which it sees a
+/// point that stands still; the hole's for the origin, and where no light comes from the point.
 pub fn seen(eye: DVec3, momentum: Option<DVec3>, point: DVec3) -> DVec3 {
     let momentum = momentum.or_else(|| static_momentum(eye)).unwrap_or(DVec3::ZERO);
     let (n, u) = (eye.normalize(), 1.0 / eye.length());
@@ -87,7 +87,8 @@ pub fn seen(eye: DVec3, momentum: Option<DVec3>, point: DVec3) -> DVec3 {
     seen_direction(&ShipState::new(eye, momentum), -look)
 }
 
-/// A ship's rain-frame momentum: hovering, falling, moving outwards, or at a speed of up to 0.99 c against who hovers there (or falls, inside).
+/// A ship's rain-frame momentum: hovering, falling, moving outwards, or at a speed of up to 0.99 c against who hovers there (or falls,
+/// inside).
 pub fn ship_momentum(chance: &mut StdRng, corner: Corner, position: DVec3) -> DVec3 {
     let n = position.normalize();
     let hovering = static_momentum(position).unwrap_or(DVec3::ZERO);
@@ -142,8 +143,9 @@ pub fn thing(chance: &mut StdRng, corner: Corner, eye: DVec3, size: f64, held: b
     }
 }
 
-/// Whether a scene can be judged: the camera sees something and is in no thing, what is held in place is outside the horizon as a whole, and no ship inside has an energy E ≤ 0:
-/// followed backwards such a one hugs r = 1 from within for ever, half of it outside, which nothing that fell in does.
+/// Whether a scene can be judged: the camera sees something and is in no thing, what is held in place is outside the horizon as a whole,
+/// and no ship inside has an energy E ≤ 0: followed backwards such a one hugs r = 1 from within for ever, half of it outside, which nothing
+/// that fell in does.
 pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
     let assembly = scene.assemble(config);
     let Ok(eye) = (if at == 0.0 { eye_at_start(scene) } else { eye_at(scene, config, at) }) else { return false };

@@ -1,4 +1,5 @@
-//! A failing case made smaller for as long as it fails in the same way: fewer things, a smaller picture, fewer triangles, a plainer camera, rounder numbers.
+//! A failing case made smaller for as long as it fails in the same way: fewer things, a smaller picture, fewer triangles, a plainer camera,
+//! rounder numbers.
 //!
 //! It works on the tables of the scene file and knows nothing of what they mean: what no scene may hold is refused by whoever judges.
 
@@ -18,8 +19,8 @@ const TRIANGLES: [i64; 5] = [20, 80, 320, 1280, 5120];
 /// Widths of pictures that are tried, in pixels, the smallest first; the shape stays.
 const WIDTHS: [u32; 4] = [48, 80, 120, 160];
 
-/// The smallest case that was found in which `fails` still holds, and how often it was asked. `fails` holds for `case` itself; once it says that there is no more time, by
-/// None, what has been found by then is given.
+/// The smallest case that was found in which `fails` still holds, and how often it was asked. `fails` holds for `case` itself; once it says
+/// that there is no more time, by None, what has been found by then is given.
 pub fn reduce(case: &CaseFile, fails: &mut dyn FnMut(&CaseFile) -> Option<bool>) -> (CaseFile, usize) {
     let Ok(table) = case.text.parse::<Table>() else { return (case.clone(), 0) };
     let mut state = State { best: case.clone(), table, asked: 0, fails };
@@ -185,7 +186,8 @@ fn round_all(table: &mut Table, digits: i32) -> bool {
     table.iter_mut().fold(false, |changed, (_, value)| changed | round_value(value, digits))
 }
 
-/// Rounds all real numbers in a value to so many digits, to 0 with none; in a list of numbers to that digit of the greatest. Says whether any changed.
+/// Rounds all real numbers in a value to so many digits, to 0 with none; in a list of numbers to that digit of the greatest. Says whether
+/// any changed.
 fn round_value(value: &mut Value, digits: i32) -> bool {
     match value {
         Value::Float(number) => round_number(number, number.abs(), digits),

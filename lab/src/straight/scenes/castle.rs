@@ -1,5 +1,5 @@
-//! A castle of exactly as many triangles as that of Sei 2008, which was never published: long thin walls, tiny merlons and large pieces of ground
-//! side by side, which is what makes it hard for packets of a fixed size.
+//! A castle of exactly as many triangles as that of Sei 2008, which was never published: long thin walls, tiny merlons and large pieces of
+//! ground side by side, which is what makes it hard for packets of a fixed size.
 
 use std::f64::consts::TAU;
 

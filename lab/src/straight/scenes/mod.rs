@@ -1,4 +1,5 @@
-//! The scenes of Sei 2008 as bare triangles, for measuring tracers of straight rays: two of Haines' Standard Procedural Databases, a castle, a bunny.
+//! The scenes of Sei 2008 as bare triangles, for measuring tracers of straight rays: two of Haines' Standard Procedural Databases, a
+//! castle, a bunny.
 //!
 //! Lengths in each scene's own unit; +Z is up.
 
@@ -27,8 +28,8 @@ impl View {
         View { eye, target, field_of_view: std::f64::consts::FRAC_PI_4 }
     }
 
-    /// The unit direction through a point of the picture; `across` and `up` run from −1 to 1 over its height, `across` further over its width.
-    /// Up is +Z.
+    /// The unit direction through a point of the picture; `across` and `up` run from −1 to 1 over its height, `across` further over its
+    /// width. Up is +Z.
     pub fn direction(&self, across: f64, up: f64) -> [f64; 3] {
         let forward = glam::DVec3::from(self.target) - glam::DVec3::from(self.eye);
         let forward = forward.normalize();

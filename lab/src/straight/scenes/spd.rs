@@ -1,4 +1,5 @@
-//! `balls` and `tree` of the Standard Procedural Databases (Haines 1987; recipes of the release in CC0/MIT), tessellated at its resolution 3.
+//! `balls` and `tree` of the Standard Procedural Databases (Haines 1987; recipes of the release in CC0/MIT), tessellated at its
+//! resolution 3.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
