@@ -1,4 +1,4 @@
-// How much of a triangle is seen past the other parts of its model: the twin of src/render/models/hiding.rs.
+// The share of a triangle that other parts of its model do not hide: the twin of src/render/models/hiding.rs.
 
 /// a : b of the rectangles whose corners are those of an icosahedron and, together with those of a cube, of a dodecahedron, of unit length.
 const GOLDEN_SHORT: f32 = 0.5257311;
@@ -25,8 +25,8 @@ fn direction_of(k: u32) -> vec3<f32> {
     return select(vec3<f32>(long, short, 0.0), vec3<f32>(long, 0.0, short), icosahedron);
 }
 
-/// The part of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one for each direction,
-/// weighted by how near those are, (cos angle)⁸, of all from which the triangle shows its outer side, whose normal is `outward`.
+/// The share of a triangle that is seen from `direction` (unit, body axes): the mean of the bits of `seen_from`, one per direction,
+/// weighted by (cos angle)⁸, over all directions from which the triangle shows its outer side, whose normal is `outward`.
 fn seen_part(seen_from: u32, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
     var sum = 0.0;
     var all = 0.0;

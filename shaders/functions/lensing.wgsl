@@ -1,6 +1,6 @@
 // The lookup: from a point's place to the direction in which it is seen and the time its light takes.
 //
-// Glossary (r_s = c = 1, radians; DESIGN section 2)
+// Glossary (r_s = c = 1, radians; docs/glossary.md)
 //   a = 1/L, c = 1/r       inverse radii of camera and point         lapse2     1 − 1/r (or 1 − 1/L), free of cancellation
 //   sweep, Φ               the angle the ray sweeps: φ, 2π − φ, 2π + φ
 //   w, w_e                 du/dΦ at the camera and at the point      e        1/b: e² = w² + a² − a³ = w_e² + c² − c³

@@ -1,13 +1,13 @@
-// Exposure: one workgroup looks at a coarse level of the bloom chain and moves the exposure towards what shows it well.
+// Exposure: one workgroup reads a coarse level of the bloom chain and moves the exposure towards the target.
 
 @group(2) @binding(0) var source: texture_2d<f32>;
-/// What the last frame measured and chose: x: exposure, y: mean log luminance, z: 1 once it has been set.
+/// State from the last frame: x: exposure, y: mean log luminance, z: 1 once it has been set.
 @group(2) @binding(1) var<storage, read_write> adaptation: vec4<f32>;
 
 var<workgroup> sums: array<vec2<f32>, 64>;
 
-/// How much a texel counts: not the player's own ship, which is lit for the exposure and not the exposure for it. The circle's edge is
-/// soft, so that nothing jumps as it moves.
+/// Weight of a texel: 0 on the player's own ship, since the ship is lit for the exposure and not the exposure chosen for the ship. The
+/// circle's edge is soft, so that nothing jumps as it moves.
 fn metered_part(texel: vec2<f32>, size: vec2<f32>) -> f32 {
     let radius = max(frame.unmetered.z, 1e-6);
     let place = (texel + 0.5 - 0.5 * size) / size.x;
@@ -20,7 +20,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
     var sum = vec2<f32>(0.0);
     for (var k = lane; k < size.x * size.y; k += 64u) {
         let light = luminance(textureLoad(source, vec2<u32>(k % size.x, k / size.x), 0).rgb);
-        // Weighted by itself: what shines is metered, not the black between.
+        // Weighted by light itself: what shines is metered, not the black between.
         if light > 0.0 && light < 1e5 {
             sum += vec2<f32>(light * light, light) * metered_part(vec2<f32>(vec2<u32>(k % size.x, k / size.x)), vec2<f32>(size));
         }
@@ -36,7 +36,7 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         // Stars alone, brought to the light of a disk, would be a field of snow.
         let key = select(frame.unmetered.w, frame.sky_x.w, any(frame.disk != vec4<u32>(0u)));
         let wanted = clamp(key / max(metered, 1e-9), frame.exposure.x, frame.exposure.y);
-        // In stops, as the eye does it; the first frame starts where it should be.
+        // In stops, like the eye; the first frame begins at the target.
         let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.exposure.z, 1.0, adaptation.z == 0.0)));
         let exposure = select(nearer, adaptation.x, (frame.switches.x & FLAG_HOLD_EXPOSURE) != 0u);
         adaptation = vec4<f32>(exposure, metered, 1.0, 0.0);

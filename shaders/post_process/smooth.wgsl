@@ -1,24 +1,24 @@
-// Smooth: outlines of bodies without steps. The picture for the eye is blurred along its edges, as FXAA does it (Lottes 2009); light is
-// not, for an edge beside a bright one would stay a step. Where no body is within a pixel nothing changes: stars and lines of light have
-// their own ways. It is drawn over the finished picture in tiles, of those alone that have an outline: on a software driver all pixels
-// would take three times as long as their tone mapping.
+// Smooths the outlines of bodies. The tone-mapped picture is blurred along its edges, as FXAA does it (Lottes 2009); in linear light an
+// edge beside a bright one would stay a step. Pixels without a body within a pixel do not change: stars and thin lines are smooth by
+// themselves. It is drawn over the finished picture in tiles, and only in those with an outline: on a software driver all pixels would take
+// three times as long as tone mapping.
 
 @group(2) @binding(0) var display: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
 @group(2) @binding(2) var depth: texture_depth_2d;
 
-/// Steps smaller than this stay, in roots of light: this part of the brightest neighbour, and this in the dark.
+/// Steps below this stay, in square roots of light: this share of the brightest neighbour, and this in the dark.
 const LEAST_STEP: vec2<f32> = vec2<f32>(0.125, 0.03);
 /// Half the length of the longest blur, in pixels.
 const LONGEST: f32 = 8.0;
 
 /// Pixels along the side of a tile; as in src/render/post_process/mod.rs.
 const TILE: u32 = 16u;
-/// A tile has an outline if of its depths the nearest is this many times the farthest, or some are nothing's.
+/// A tile has an outline if its nearest depth is this many times the farthest, or if a part of it shows no body.
 const STEP: f32 = 1.01;
 
-/// Two triangles of the tile `tile`; of one without an outline nothing. Every other pixel is asked, and those beside the tile: outlines are
-/// longer.
+/// The two triangles of the tile `tile`, or nothing if it has no outline. Every other pixel is tested, and those beside the tile, since
+/// outlines extend beyond it.
 @vertex
 fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) tile: u32) -> @builtin(position) vec4<f32> {
     let size = textureDimensions(depth);
@@ -43,7 +43,7 @@ fn colour_at(uv: vec2<f32>) -> vec3<f32> {
     return textureSampleLevel(display, linear_sampler, uv, 0.0).rgb;
 }
 
-/// About what the eye makes of light.
+/// Roughly the perceived brightness.
 fn lightness(colour: vec3<f32>) -> f32 {
     return sqrt(dot(colour, vec3<f32>(0.2126, 0.7152, 0.0722)));
 }

@@ -38,7 +38,7 @@ pub struct Stage {
     /// Light of the scene where nothing else shines: ships and props are lit by it.
     ambient: f32,
     has_ships: bool,
-    /// Of each ship of the scene: whether it flees, and its greatest thrust (c²/r_s) where the scene says it.
+    /// For each ship of the scene: whether it flees, and its greatest thrust (c²/r_s) if the scene gives it.
     engines: Vec<(bool, Option<f64>)>,
     planet: Option<Planet>,
     /// Inner and outer radius of the disk.
@@ -47,7 +47,7 @@ pub struct Stage {
     show: Arc<Mutex<Option<AuroraAnimation>>>,
 }
 
-/// A model, what stands for it in images a few pixels wide, and in those narrower than so many pixels, the coarsest first.
+/// A model; its stand-in for images a few pixels wide; its stand-ins for wider images, each up to a width in pixels, the coarsest first.
 #[derive(Clone, Debug)]
 struct Fineness {
     model: ModelRange,
@@ -90,7 +90,7 @@ impl Stage {
             let coarse = coarse(model).map_or(fine, |model| add(&model));
             ranges.push(Fineness { model: fine, coarse, stand_ins: Vec::new() });
         }
-        // A globe needs the fewer triangles the smaller it is.
+        // A smaller globe needs fewer triangles.
         let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
         for (number, globe) in globes.zip(&scene.planet).map(|(object, planet)| (object.model, planet)) {
             let stand_ins = globe.stand_ins(&assembly.models[number]);
@@ -130,7 +130,7 @@ impl Stage {
         self
     }
 
-    /// The aurora goes on by other numbers; nothing else is made anew. For a watched stage.
+    /// Gives the aurora other settings; nothing else is made anew. For a stage in real time.
     pub fn change_aurora(&self, config: &AuroraConfig) {
         let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
         if show.as_mut().is_none_or(|show| !show.change(config)) {
@@ -226,7 +226,7 @@ impl Stage {
         if let Some(planet) = &self.planet {
             let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
             aurora = show.as_mut().and_then(|show| show.frame(&view, time, back(planet), settings.orders));
-            // Its light is on the planet alone.
+            // Only the planet is lit by it.
             let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
             if let (Some(ground), Some(number)) = (aurora.as_mut().and_then(|aurora| aurora.ground.as_mut()), globe) {
                 ground.light.planet[0] = number as u32 + 1;
@@ -242,20 +242,20 @@ impl Stage {
     }
 }
 
-/// What nozzles shine with where nothing is burnt, as a share of full thrust's.
+/// Light of nozzles that burn nothing, as a share of that at full thrust.
 const IDLE_GLOW: f64 = 1e-3;
-/// Nozzles grow bright and dark over so much T, in r_s/c: a quarter of a second at the usual pace.
+/// Time in which nozzles become bright or dark, in r_s/c: a quarter of a second at the usual pace.
 const GLOW_SPAN: f64 = 0.375;
 
 /// The light of a ship's nozzles at T = `time`, as a share of that at the thrust `full` (c²/r_s).
 fn glow(history: &History, time: f64, full: f64) -> f64 {
     let share = (history.thrust(time, GLOW_SPAN) / full.max(1e-12)).clamp(0.0, 1.0);
-    // Steeper than the thrust: before a dark sky, exposed for long, what the assist burns would look like full thrust.
+    // Steeper than the thrust: in front of a dark sky, with a long exposure, the small thrust of the assist would look like full thrust.
     IDLE_GLOW + (1.0 - IDLE_GLOW) * share * share
 }
 
-/// Where a ship of radius `reach` (r_s) is seen, as if light came straight from it through space that falls evenly: middle and radius in
-/// widths of the picture. That is exact enough for what is a few lengths away, and what is far away is small.
+/// Where a ship of radius `reach` (r_s) is seen, approximately: along straight light through space that falls evenly. Its middle and
+/// radius, in widths of the picture. That is exact enough within a few lengths, and farther away ships are small.
 fn circle(camera: &Observer, image: &Placed, reach: f64) -> [f32; 3] {
     let [x, y, z, delay] = image.instance.offset.map(f64::from);
     // Space falls inwards at √(1/r) and takes the light with it.

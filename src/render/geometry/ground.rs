@@ -1,4 +1,4 @@
-//! What the surfaces read of the aurora's light on the ground (`shaders/geometry/aurora_light.wgsl`).
+//! The aurora's light on the ground, as the surfaces read it (`shaders/geometry/aurora_light.wgsl`).
 
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ impl Ground {
     }
 }
 
-/// A square map of halves: all adapters read those straight between texels.
+/// A square map of 16-bit floats: all adapters can interpolate them.
 fn map(device: &wgpu::Device, size: u32) -> (wgpu::Texture, wgpu::TextureView) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("ground light"),

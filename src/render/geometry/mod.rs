@@ -30,9 +30,9 @@ const GROUPS: u32 = 32_768;
 /// Passes of splitting: one for each depth, and one for those at the last depth.
 const REFINE_PASSES: u32 = 25;
 
-/// Room past that of the models for `budget` vertices of the mesh stage: a vertex is in two triangles of three indices at most, less at
-/// edges; blocks of the mesh stage have some ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is
-/// larger than `most` bytes, which the device allows, as long as the models fit: seen vertices are what takes the most.
+/// Room beyond that of the models for `budget` vertices of the mesh stage. A vertex is in at most two triangles of three indices; blocks of
+/// the mesh stage have about ten vertices. A fifth of the indices is enough for every triangle of the models. No buffer is larger than
+/// `most` bytes, the device's limit, as long as the models fit; seen vertices take the most.
 fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
     let budget = budget.min(((most / size_of::<SeenVertex>() as u64) as u32).saturating_sub(vertices));
     Capacity { vertices: vertices + budget, indices: 3 * (2 * budget + 5 * triangles), work: budget / 10, thin: 3 * (budget / 3) }
@@ -71,7 +71,7 @@ pub struct Geometry {
 struct Draws {
     opaque: wgpu::RenderPipeline,
     thin: wgpu::RenderPipeline,
-    /// Those whose light crosses the disk's plane never, once, twice, three times.
+    /// Thin images whose light crosses the disk's plane never, once, twice, three times.
     thin_across: [wgpu::RenderPipeline; 4],
     layers: wgpu::RenderPipeline,
     layers_thin: wgpu::RenderPipeline,
@@ -89,7 +89,7 @@ fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
 }
 
 impl Geometry {
-    /// Compiles the stages, for models whose points go along such worldlines.
+    /// Compiles the stages, for models whose points have such worldlines.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, worldlines: Worldlines) -> Self {
         use Slot::{Read, Write};
         let group_layout = layout(
@@ -175,7 +175,7 @@ impl Geometry {
         self.stages.choose((method, inside));
     }
 
-    /// The camera will go to the other side of the horizon: its stages are compiled meanwhile.
+    /// The camera may soon be on the other side of the horizon: compiles its stages in the background.
     pub fn foresee(&mut self, method: Method, inside: bool) {
         self.stages.foresee((method, inside));
     }
@@ -190,12 +190,12 @@ impl Geometry {
         self.thin_across.contains(&true)
     }
 
-    /// Whether any of them may be thin and of light that crosses the disk's plane so often, up to three times.
+    /// Whether any of them may be thin and have light that crosses the disk's plane this often, up to three times.
     pub fn has_thin_across(&self, crossings: u32) -> bool {
         self.thin_across.get(crossings as usize).is_some_and(|any| *any)
     }
 
-    /// Room in the buffers, as the shaders are told.
+    /// Room in the buffers, as given to the shaders.
     pub fn capacity(&self) -> Capacity {
         self.capacity
     }
@@ -214,7 +214,7 @@ impl Geometry {
         let mut refused = 0;
         for item in placed {
             if !item.instance.is_finite() {
-                // Caught at the door: counted with what the shaders catch.
+                // Left out here; counted with what the shaders leave out.
                 refused += 1;
                 continue;
             }
@@ -366,7 +366,7 @@ impl Geometry {
     fn draw(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline, thin: bool) {
         let Some((_, group)) = &self.groups else { return };
         if self.is_empty() {
-            // What the arguments say is from another frame.
+            // The arguments are from another frame.
             return;
         }
         pass.set_pipeline(pipeline);
@@ -397,7 +397,7 @@ impl Geometry {
         self.draw(pass, &self.draws.layers_thin, true);
     }
 
-    /// What was counted, for reading back.
+    /// The counters, for reading back.
     pub fn counters(&self) -> &wgpu::Buffer {
         &self.counters
     }

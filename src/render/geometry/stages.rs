@@ -66,7 +66,7 @@ pub(super) struct Shelf {
     now: Arc<Stages>,
     side: Side,
     kept: Vec<(Side, Arc<Stages>)>,
-    /// What is being compiled meanwhile.
+    /// What is being compiled in the background.
     ahead: Option<(Side, JoinHandle<Stages>)>,
 }
 
@@ -82,7 +82,7 @@ impl Shelf {
         &self.now
     }
 
-    /// The stages of this side are in use from now on.
+    /// Uses the stages of this side from now on.
     pub fn choose(&mut self, side: Side) {
         if side == self.side {
             return;
@@ -97,9 +97,9 @@ impl Shelf {
         });
     }
 
-    /// This side will be asked for: it is compiled meanwhile, unless it has been or another is.
+    /// This side will be needed: compiles it in the background, unless it is there or another is being compiled.
     pub fn foresee(&mut self, side: Side) {
-        // What was foreseen and not asked for is kept as well.
+        // What was compiled in advance and not used is kept as well.
         if let Some((other, thread)) = self.ahead.take_if(|ahead| ahead.1.is_finished())
             && let Ok(stages) = thread.join()
         {
@@ -107,7 +107,7 @@ impl Shelf {
         }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
             let makings = self.makings.clone();
-            // Without a thread it is compiled when it is chosen.
+            // Without a thread it is compiled when it is needed.
             let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || makings.stages(side));
             self.ahead = thread.ok().map(|thread| (side, thread));
         }
@@ -116,7 +116,7 @@ impl Shelf {
 
 impl Drop for Shelf {
     fn drop(&mut self) {
-        // A driver that compiles must not lose its device.
+        // The device must stay alive while a driver compiles.
         if let Some((_, thread)) = self.ahead.take() {
             let _ = thread.join();
         }

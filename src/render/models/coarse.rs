@@ -1,4 +1,4 @@
-//! A coarse stand-in for a model whose image is a few pixels wide: vertices clustered in cells (Rossignac and Borrel 1993).
+//! A coarse stand-in for a model whose image is a few pixels wide: vertices clustered in cells (Rossignac & Borrel 1993).
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ const CELLS: f32 = 6.0;
 /// A model of fewer triangles is its own stand-in.
 const FEW: usize = 200;
 
-/// The model with all vertices of a cell and material drawn together into their mean; None if it is small already.
+/// The model with all vertices of a cell and material merged into their mean; None if it is small already.
 pub fn coarse(model: &Model) -> Option<Model> {
     if model.triangles.len() < FEW {
         return None;

@@ -1,7 +1,7 @@
 //! Which triangles other parts of a model hide, seen from 32 directions around it.
 //!
-//! A thin image has no depth: it is drawn by the areas of its triangles, and of what stands inside or behind another part those would count
-//! too. So each triangle knows from where it is seen past the rest of its model, as a depth map from each direction tells.
+//! A thin image has no depth: its brightness is the sum of the areas of its triangles. Triangles inside or behind another part would count
+//! too. So for each triangle it is known from which directions the rest of its model does not hide it, by a depth map for each direction.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -14,7 +14,7 @@ use crate::scene::model::Model;
 pub const DIRECTIONS: u32 = 32;
 /// Cells along each side of a depth map.
 const SIDE: usize = 256;
-/// Points of a triangle that are looked at, as weights of its corners: the middles of its four quarters. It counts as seen if half of them
+/// Points of a triangle that are tested, as weights of its corners: the middles of its four quarters. It counts as seen if half of them
 /// are.
 const POINTS: [[f32; 3]; 4] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
@@ -60,8 +60,7 @@ pub fn seen_from(model: &Model) -> Vec<u32> {
     found
 }
 
-/// Models that were looked at last, by their corners, with what was found: the same ones are uploaded again and again where many pictures
-/// are drawn.
+/// The last models, by their corners, with the result: the same models are uploaded again and again where many pictures are drawn.
 static KNOWN: Mutex<Vec<Known>> = Mutex::new(Vec::new());
 /// How many are kept.
 const MOST_KNOWN: usize = 12;
@@ -99,7 +98,7 @@ fn seen_in(triangles: &[[Vec3; 3]], direction: Vec3) -> Vec<bool> {
         .iter()
         .map(|corners| {
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-            // The map knows the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
+            // The map has the depth at the middle of a cell: on a plane this much nearer at most, and rounding.
             let slope = normal.truncate().length() / normal.z.abs().max(0.05);
             let slack = 1.5 * slope * cell + 1e-4 * (high - low).max_element();
             let seen = POINTS.iter().filter(|weights| {

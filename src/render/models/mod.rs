@@ -41,16 +41,16 @@ pub const ALONE: u32 = u32::MAX;
 pub struct Prepared {
     /// Vertices, each of one material, sorted by position.
     pub vertices: Vec<ModelVertex>,
-    /// Two vertices each, the lower first, and those opposite to it in the two triangles that meet there; of another number of triangles,
-    /// [`ALONE`] twice.
+    /// The two vertices of an edge, the lower first, and those opposite to it in the two triangles that meet there. If another number of
+    /// triangles meets there, [`ALONE`] twice.
     pub edges: Vec<[u32; 4]>,
     /// Triangles with ascending vertices.
     pub triangles: Vec<ModelTriangle>,
 }
 
 impl Prepared {
-    /// Sorts vertices by position and triangles by vertex. An edge then has one direction, the same for all triangles that share it, even
-    /// where the model keeps two vertices at one place for their normals: so its points are the same bits from every side and no crack
+    /// Sorts vertices by position and triangles by vertex. Then an edge has one direction, the same for all triangles that share it, even
+    /// if the model has two vertices at one position for their normals. So its points have the same bits from every side, and no crack
     /// opens.
     pub fn new(model: &Model) -> Prepared {
         let mut corners: Vec<(u32, u32)> = Vec::new();
@@ -102,7 +102,7 @@ impl Prepared {
     }
 }
 
-/// Fills in the vertices opposite to each edge. Vertices at one place are one corner of the body, whatever their normals.
+/// Fills in the vertices opposite to each edge. Vertices at one position are one corner of the body, whatever their normals.
 fn find_opposite(vertices: &[ModelVertex], triangles: &[ModelTriangle], edges: &mut [[u32; 4]]) {
     let mut corners: HashMap<[u32; 3], u32> = HashMap::new();
     let corner: Vec<u32> = (0u32..)
@@ -146,7 +146,7 @@ impl PartialOrd for Total {
 
 impl Ord for Total {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        // −0 and 0 are one place.
+        // −0 and 0 are the same position.
         (self.0 + 0.0).total_cmp(&(other.0 + 0.0))
     }
 }

@@ -1,22 +1,22 @@
-//! Which side of a triangle is outside: what lies on a closed body hides those of its own triangles that turn their back.
+//! Which side of a triangle is outside. A closed body hides those of its own triangles that are turned away.
 
 use std::collections::HashMap;
 
 use crate::scene::model::Model;
 
-/// No side is outside: the triangle lies on an open sheet, and both its sides are seen.
+/// No side is outside: the triangle is part of an open sheet, and both its sides are seen.
 pub const OPEN: u32 = 0;
 /// The cross product of the sides 0–1 and 0–2 points outward; as in shaders/types.wgsl.
 pub const ALONG: u32 = 1;
 /// It points inward; as in shaders/types.wgsl.
 pub const AGAINST: u32 = 2;
 
-/// Added where the whole model is one closed body. Bodies that a model is put together from may abut, and where their edges are divided
-/// differently, their backs fill the crack: only the backs of a lone body may be left out.
+/// Added if the whole model is one closed body. Bodies that make up a model may abut, and where their edges are divided differently their
+/// backs fill the crack: only the backs of a single body may be left out.
 pub const LONE: u32 = 4;
 
-/// Of each triangle of the model, in the order of its corners there, whether the cross product of its sides points out of the body that it
-/// is a part of. A body is what hangs together by edges; it is closed if each of its edges is passed as often one way as the other.
+/// For each triangle of the model: whether the cross product of its sides, in the order of its corners, points out of its body. A body is a
+/// set of triangles connected by edges; it is closed if each of its edges is passed equally often both ways.
 pub fn sides(model: &Model) -> Vec<u32> {
     // Vertices at one place are one corner of the body, whatever their normals.
     let mut places: HashMap<[u32; 3], usize> = HashMap::new();
@@ -49,7 +49,7 @@ pub fn sides(model: &Model) -> Vec<u32> {
             open[body] = true;
         }
     }
-    // Six times the volume that a body's triangles enclose, positive where they are wound outward.
+    // Six times the volume that a body's triangles enclose, positive if they are wound outward.
     let mut volumes = vec![0.0; places.len()];
     for (c, triangle) in corners.iter().zip(&model.triangles).filter(|(c, _)| whole(c)) {
         let [p, q, r] = triangle.map(|vertex| glam::Vec3::from(model.vertices[vertex as usize].position).as_dvec3());
@@ -71,7 +71,7 @@ pub fn sides(model: &Model) -> Vec<u32> {
         .collect()
 }
 
-/// The corner that stands for the body of a corner, with the way there shortened.
+/// The representative corner of the body of a corner, with path compression.
 fn root(bodies: &mut [usize], mut corner: usize) -> usize {
     while bodies[corner] != corner {
         bodies[corner] = bodies[bodies[corner]];

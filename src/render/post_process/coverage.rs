@@ -1,6 +1,6 @@
 //! Coverage of a pixel by several thin images, and by parts of one: the twin of `shaders/functions/coverage.wgsl`.
 
-/// The part of a pixel that thin images cover together, from the sum of their coverages and the sum with each image's sign: `covered` of
+/// The share of a pixel that thin images cover together, from the sum of their coverages and the sum with each object's sign: `covered` of
 /// WGSL.
 pub fn covered(sum: f32, signed: f32) -> f32 {
     if sum <= 0.0 {
@@ -11,8 +11,8 @@ pub fn covered(sum: f32, signed: f32) -> f32 {
     1.0 - (1.0 - each).powf(count)
 }
 
-/// What a part of an image takes of a pixel, of which it covers `part`, if the nearer part of the same image is laid over it and covers
-/// `later`: `before_later` of WGSL.
+/// The opacity with which a part of an image is drawn that covers `part` of a pixel, if the nearer part of the same image is laid over it
+/// and covers `later`: `before_later` of WGSL.
 pub fn before_later(part: f32, later: f32) -> f32 {
     (part / (1.0 - later.max(0.0)).max(1e-3)).min(1.0)
 }

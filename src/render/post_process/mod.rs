@@ -32,7 +32,7 @@ pub struct PostProcess {
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
-    /// What the exposure pass chose, for the pixels.
+    /// The exposure that the exposure pass chose, for the pixels.
     adapted: wgpu::Buffer,
     groups: Option<Groups>,
 }
@@ -167,13 +167,13 @@ impl PostProcess {
             let (from, to) = (&groups.sampled[level + 1], &[Some(colour(&targets.bloom[level - 1], false))]);
             begin(encoder, timing.render("bloom"), "bloom up", to, &self.up, frame, from).draw(0..3, 0..1);
         }
-        // There and back.
+        // Down the levels and up again.
         let last = targets.bloom.len() + 1;
         for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
             let (from, to) = (&groups.sampled[from], &[Some(colour(to, true))]);
             begin(encoder, timing.render("bloom"), "bloom soften", to, &self.soften, frame, from).draw(0..3, 0..1);
         }
-        // What smooths outlines reads the picture as it was before.
+        // The pass that smooths outlines reads the picture before that.
         let both = [output, &groups.display].map(|view| Some(colour(view, true)));
         let (to, tone_map) = if smooth { (&both[..], &self.tone_map_twice) } else { (&both[..1], &self.tone_map) };
         begin(encoder, timing.render("tone map"), "tone map", to, tone_map, frame, &groups.tone_map).draw(0..3, 0..1);
@@ -185,7 +185,7 @@ impl PostProcess {
     }
 }
 
-/// Begins a pass that draws to `targets`, with all that it needs but its triangles: most have one, over the whole picture.
+/// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture.
 fn begin<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,

@@ -49,7 +49,7 @@ impl Background {
             view_formats: &[],
         });
         for (mip, (width, height, pixels)) in milky_way.iter().enumerate() {
-            // The root, so that eight bits suffice for the faint parts.
+            // The square root, so that eight bits are enough for the faint parts.
             let roots: Vec<u8> = pixels.iter().map(|brightness| (255.0 * brightness.clamp(0.0, 1.0).sqrt()).round() as u8).collect();
             gpu.queue.write_texture(
                 wgpu::TexelCopyTextureInfo {

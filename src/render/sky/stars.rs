@@ -23,7 +23,7 @@ const SEEN_STAR_BYTES: u64 = 32;
 const ORDERS: u32 = 2;
 /// Most stars of a cluster.
 const CLUSTER: usize = 64;
-/// Clusters that a workgroup of the projection takes on, with eight threads for each.
+/// Clusters per workgroup of the projection, with eight threads for each.
 const CLUSTERS: u32 = 8;
 
 /// Stars that are near each other on the sky, the brightest first.
@@ -62,7 +62,7 @@ fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
     (sorted, clusters)
 }
 
-/// Whether the image of this order of a cluster may touch the screen. Errs towards yes: the image is held in a cone around it.
+/// Whether the image of this order of a cluster may be on the screen, by a cone that holds the image. In doubt the answer is yes.
 fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Observer, table: &[[f32; 4]], edge: f64, aspect: f64) -> bool {
     let n = camera.axis_frame()[0];
     let phi = cluster.middle.angle_between(n);
