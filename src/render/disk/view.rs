@@ -28,8 +28,8 @@ const MEAN: [f64; 2] = [0.75, 2.0];
 pub const THIN_SAMPLES: usize = 8;
 /// Cuts are left out while arcs on the outermost circle are shorter than this many pixels; splitting arcs into segments restores the shape.
 const LEAST_ARC: f64 = 128.0;
-/// If the camera is nearer to the disk than this, in r_s, each pixel of order 1 looks the pattern up without a grain and works out the
-/// slant itself. From there on a texel of the far pattern is hardly larger than a pixel of the default picture.
+/// If the camera is nearer to the disk than this, in r_s, order 1 is drawn as from near: each pixel uses the smooth pattern and computes
+/// the slant itself. From there on a texel of the far pattern is hardly larger than a pixel of the default picture.
 const CLOSE: f64 = 10.0;
 /// The same for orders 2 and 3. Their images are narrow unless the camera is close to the disk.
 const CLOSE_BEHIND: f64 = 3.0;

@@ -265,8 +265,8 @@ impl View<'_> {
         Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width }
     }
 
-    /// The largest number of screen units per radian of ψ, by aberration and by the projection onto the plane screen. For directions
-    /// between two angles from outwards `n`, up to `round` (radians of azimuth) on both sides of `side`.
+    /// The largest number of pixels per radian of ψ on the screen, by aberration and by the projection onto the plane screen. For
+    /// directions between two angles from outwards `n`, up to `round` (radians of azimuth) on both sides of `side`.
     fn enlargement(&self, n: DVec3, side: DVec3, [low, high]: [f64; 2], round: f64) -> f64 {
         let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(1e-4));
         let edge = 1.1 * (0.5 * self.camera.field_of_view).tan() * self.aspect.unwrap_or(1.0).max(1.0);

@@ -1,7 +1,7 @@
 //! The disk as arcs (Yamashita 2025, section 2.3): circles, cut along radii. Between two circles and two cuts lies an arc.
 //!
-//! The arcs are places that gas flows through. They do not turn: what turns is the pattern of the gas in them. So an arc is seen where it
-//! is at any time, and its neighbours always touch it.
+//! Arcs are fixed and gas flows through them: only the pattern of the gas turns. So an arc is seen in its own place at any time, and it
+//! always touches its neighbours.
 
 use std::f64::consts::TAU;
 
@@ -23,7 +23,7 @@ pub struct Arcs {
 
 /// How much widths and opening angles vary about their mean, either way.
 const JITTER: f64 = 0.3;
-/// Fewest cuts: an arc is shorter than a quarter turn.
+/// Fewest cuts, so that an arc is shorter than a quarter turn.
 const FEWEST_CUTS: usize = 6;
 
 impl Arcs {

@@ -1,13 +1,14 @@
-//! The accretion disk: one model of the gas, in f64, that the renderer draws in three ways and the judge evaluates at single points.
+//! The accretion disk: one model of the gas, in f64. The renderer draws it in three representations; the judge evaluates it at single
+//! points.
 //!
-//! The gas lies in the plane z = 0 and turns counter-clockwise seen from +z. [`Gas::emission`] says what a point of the plane does to light
-//! at a time; [`Gas::momentum`] how the gas moves there. Light that crosses the plane at (r, azimuth) at its emission time T_e adds the
-//! Planck spectrum at gT times a, and keeps the part 1 − a of what came from behind, with a = [`Emission::opacity`].
+//! The gas lies in the plane z = 0 and turns counter-clockwise as seen from +z. [`Gas::emission`] is the temperature and opacity at a point
+//! and time; [`Gas::momentum`] the motion of the gas there. Light that crosses the plane at (r, azimuth) at its emission time T_e gains the
+//! Planck spectrum at gT times a, and keeps the share 1 − a of what came from behind, with a = [`Emission::opacity`].
 //!
-//! The rule of composition: a ray crosses the plane once for each image order it has, and the orders follow one another along it: order 1
-//! is nearest to the camera. So the light of a pixel is a₁B₁ + (1 − a₁)(a₂B₂ + (1 − a₂)(a₃B₃ + (1 − a₃) sky)), whatever the order in which
-//! the arcs of one image order are drawn: within it no two places of the disk are seen at one pixel. What is solid lies before or behind a
-//! crossing by its light path.
+//! The rule of composition: a ray crosses the plane once for each image order of the disk, order 1 nearest to the camera. So the light of a
+//! pixel is a₁B₁ + (1 − a₁)(a₂B₂ + (1 − a₂)(a₃B₃ + (1 − a₃) sky)). The order in which the arcs of one image order are drawn does not
+//! matter, because no two points of the disk are seen at one pixel in the same order. Whether a solid body is in front of a crossing or
+//! behind it is decided by light path.
 
 pub mod arcs;
 pub mod noise;
@@ -23,28 +24,28 @@ use super::config;
 use noise::streaks;
 use radial::Radial;
 
-/// Time after which another generation of streaks begins to grow, in r_s/c. Each lives for twice this: it grows while the one before fades.
-/// In this time orbits at r = 3 and r = 4 part by 2.1 rad, enough to draw knots out into streaks and too little to wind them up.
+/// Time, in r_s/c, after which another generation of streaks begins to grow. Each lives for twice this: it grows while the one before
+/// fades. In this time orbits at r = 3 and r = 4 separate by 2.1 rad: enough to shear knots into streaks, too little to wind them up.
 pub const RENEWAL: f64 = 40.0;
-/// Time, in r_s/c, for which a generation has already been sheared when it appears: gas is never seen unsheared.
+/// Time, in r_s/c, for which a generation has already been sheared when it appears, so that unsheared gas is never seen.
 pub const SHEARED: f64 = 20.0;
-/// The height of the pattern in ln r: after a factor of 16 in radius it begins anew. More than a disk shows at once with detail.
+/// The height of the pattern in ln r: it repeats after a factor of 16 in radius, more than a disk shows at once in detail.
 pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
-/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). A disk of less than three thousand
-/// kelvin outshines a lit ship a few times, and stars show beside it.
+/// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). With it a disk of less than 3,000 K is
+/// a few times as bright as a lit ship, and stars are visible beside it.
 pub const DISK_UNIT: f64 = 24.0;
-/// Octaves for close looks: the pattern again, this many times finer, this strong.
+/// Finest octaves, for near views: the pattern again, this many times finer, this strong.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);
-/// From one generation's place in the pattern to the next one's, in turns and heights: powers of the plastic number's inverse (Roberts
-/// 2018), of which no small multiple comes near to a whole number in both.
+/// Step from one generation's position in the pattern to the next, in turns and heights: powers of the plastic number's inverse (Roberts
+/// 2018), of which no small multiple is close to a whole number in both.
 pub const OFFSET_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
 /// Standard deviation of ln density at turbulence 1.
 const FULL_TURBULENCE: f64 = 0.95;
 
-/// What a point of the disk does to light.
+/// Temperature and opacity of a point of the disk.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
-    /// Of the black body, in K, in the gas's own frame.
+    /// Temperature of its black-body light, in K, in the gas's own frame.
     pub temperature: f64,
     /// Optical depth straight through the disk.
     pub depth: f64,
@@ -53,18 +54,19 @@ pub struct Emission {
 }
 
 impl Emission {
-    /// The part of light that a crossing stops (and, by Kirchhoff, the part of a black body's light that it adds). `cosine` is |cos| of the
-    /// angle between ray and normal in the gas's frame, [`Gas::cosine`]; `path` the light path from the camera to the crossing, in r_s.
+    /// The share of light that a crossing stops (and, by Kirchhoff, the share of a black body's light that it adds). `cosine` is |cos| of
+    /// the angle between ray and normal in the gas's frame, [`Gas::cosine`]; `path` is the light path from the camera to the crossing, in
+    /// r_s.
     ///
-    /// 1 − exp(−τ f/cosine); f = 1 − exp(−x²/2) with x = path·cosine/half height takes away the gas that a camera inside the disk's
-    /// thickness has behind it, so that nothing jumps when the camera goes through the disk.
+    /// It is 1 − exp(−τ f/cosine). The factor f = 1 − exp(−x²/2), with x = path·cosine/half height, leaves out the gas behind a camera that
+    /// is inside the disk's thickness, so that nothing jumps when the camera goes through the disk.
     pub fn opacity(&self, cosine: f64, path: f64) -> f64 {
         -(-self.depth * slant(cosine, path, self.half_height)).exp_m1()
     }
 }
 
-/// The optical depth along a ray over that straight through; see [`Emission::opacity`]. No ray is more slanted than
-/// [`LEAST_COSINE`]: the disk's thickness ends before.
+/// Optical depth along a ray over that straight through the disk; see [`Emission::opacity`]. No ray is more slanted than [`LEAST_COSINE`]:
+/// the disk is not infinite.
 pub fn slant(cosine: f64, path: f64, half_height: f64) -> f64 {
     let x = path * cosine / half_height.max(1e-9);
     -(-0.5 * x * x).exp_m1() / cosine.max(LEAST_COSINE)
@@ -88,7 +90,7 @@ pub struct Gas {
 /// A generation of streaks as seen at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Generation {
-    /// Which, from the beginning of time.
+    /// Its number, counted from T = 0.
     pub number: i64,
     /// Time for which it has been sheared, in r_s/c.
     pub age: f64,
@@ -112,7 +114,7 @@ impl Gas {
         self.radial.extent()
     }
 
-    /// What the gas at radius `r` (r_s) and `azimuth` (rad, from +x towards +y) does to light at T = `time` (r_s/c).
+    /// Temperature and opacity of the gas at radius `r` (r_s) and `azimuth` (rad, from +x towards +y) at T = `time` (r_s/c).
     pub fn emission(&self, r: f64, azimuth: f64, time: f64) -> Emission {
         let ln_density = self.contrast * self.turbulence(r, azimuth, time);
         Emission {
@@ -128,10 +130,10 @@ impl Gas {
         (self.thickness * self.radial.pattern_radius(r)).max(1e-3)
     }
 
-    /// The streaks at a place and time: about normally distributed, mean 0, deviation 1.
+    /// The streaks at a point and time: approximately normally distributed, mean 0, deviation 1.
     ///
     /// Every generation is a pattern fixed in the gas: at radius r its azimuth is φ₀ + Ω(r)·age, so it moves with the orbits and is sheared
-    /// by them. It grows, fades, and another has taken its place before it is wound up; the generations are the pattern at other offsets.
+    /// by them. It grows and fades; before it is wound up another has replaced it. The generations are the pattern at other offsets.
     pub fn turbulence(&self, r: f64, azimuth: f64, time: f64) -> f64 {
         let y = self.radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
         let (rate, lag) = (self.radial.turning_rate(r), self.radial.lag(r));
@@ -145,7 +147,7 @@ impl Gas {
             .sum()
     }
 
-    /// Where in the pattern a generation begins, in turns and heights: steps of [`OFFSET_STEP`], which never come back to where they were.
+    /// Position of a generation in the pattern, in turns and heights: steps of [`OFFSET_STEP`], which never repeat.
     pub fn offset(&self, generation: i64) -> [f64; 2] {
         let bits = noise::hash(0, u64::from(self.seed));
         let first = [(bits >> 32) as f64, (bits & 0xffff_ffff) as f64].map(|half| half / 4_294_967_296.0);
@@ -169,7 +171,7 @@ impl Gas {
     }
 }
 
-/// The pattern of one generation at x turns and y heights, with the octaves that only close looks show.
+/// The pattern of one generation at x turns and y heights, with the octaves that only near views show.
 pub fn pattern(x: f64, y: f64) -> f64 {
     streaks(x, y) + DETAIL.1 * streaks(DETAIL.0 * x, DETAIL.0 * y)
 }

@@ -1,6 +1,6 @@
 //! The pattern of the gas: streaks along the orbits, periodic both ways, as a lattice with smooth interpolation.
 //!
-//! The lattice is what the GPU has as a texture, so both evaluate the same function; nothing in it depends on a scene.
+//! The GPU has the lattice as a texture, so both evaluate the same function. It does not depend on the scene.
 
 use std::sync::LazyLock;
 
@@ -9,14 +9,15 @@ pub const WIDTH: usize = 1024;
 /// Rows of the lattice, over ln r.
 pub const HEIGHT: usize = 512;
 
-/// Octaves: cells round the hole, cells over the height, amplitude. Cells are some ten times as long as wide, and rings longer still.
+/// Octaves: cells round the hole, cells over the height, amplitude. Cells are about ten times as long as wide; those of rings are longer
+/// still.
 const OCTAVES: [(usize, usize, f64); 8] =
     [(3, 16, 0.75), (4, 48, 0.70), (7, 28, 0.70), (14, 56, 0.55), (10, 128, 0.50), (28, 112, 0.40), (56, 224, 0.28), (112, 256, 0.16)];
 
 /// The lattice, row by row; each row has mean 0 and deviation 1.
 pub static LATTICE: LazyLock<Vec<f32>> = LazyLock::new(lattice);
 
-/// The pattern at x turns and y heights: the lattice, between its points weighted by 3t² − 2t³, so that no crease shows close up.
+/// The pattern at x turns and y heights: the lattice, interpolated by weights 3t² − 2t³, so that no crease is visible from near.
 pub fn streaks(x: f64, y: f64) -> f64 {
     let (i, u) = cell(x, WIDTH);
     let (j, v) = cell(y, HEIGHT);
@@ -72,8 +73,8 @@ fn lattice() -> Vec<f32> {
             }
         }
     }
-    // Each row by itself: a ring that is brighter all round than its neighbours would make the whole disk brighter until its generation
-    // dies.
+    // Each row is normalised by itself: a ring brighter than its neighbours all round would make the whole disk brighter until its
+    // generation dies.
     for row in sum.chunks_mut(WIDTH) {
         let mean = row.iter().sum::<f64>() / WIDTH as f64;
         let deviation = (row.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / WIDTH as f64).sqrt();

@@ -28,12 +28,12 @@ pub fn model(disk: &config::Disk, radial: &Radial) -> Model {
     annulus(&radii, sectors)
 }
 
-/// How far a ring reaches under the next inner one beyond the chords of that, over its width: both are tessellated by themselves, and drawn
-/// to a pixel.
+/// How far a ring extends under the next inner one beyond that one's chords, over its width: both are tessellated separately and drawn to a
+/// pixel.
 const UNDER: f64 = 0.1;
 
-/// The same triangles as rings that turn with the gas, the innermost first. Each reaches so far under the next inner one that no gap opens
-/// between two rings that slide along one another.
+/// The same triangles as rings that turn with the gas, the innermost first. Each extends under the next inner one, so that no gap opens
+/// between rings that slide along each other.
 pub fn rings(disk: &config::Disk, radial: &Radial) -> Vec<Ring> {
     let (radii, sectors) = division(disk, radial);
     let last = radii.len() - 2;
@@ -59,7 +59,7 @@ fn annulus(radii: &[f64], sectors: u32) -> Model {
     let mut vertices = Vec::new();
     for &r in radii {
         for sector in 0..=sectors {
-            // The last is where the first is, to the bit.
+            // The last is where the first is, with the same bits.
             let (sine, cosine) = (f64::from(sector % sectors) / f64::from(sectors) * TAU).sin_cos();
             vertices.push(Vertex {
                 position: [(r * cosine) as f32, (r * sine) as f32, 0.0],

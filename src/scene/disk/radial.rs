@@ -10,15 +10,16 @@ use glam::DVec3;
 pub const LAST_ORBIT: f64 = 3.0;
 /// Energy and angular momentum per mass of the last stable orbit: √(8/9) and √3 r_s.
 const PLUNGE: (f64, f64) = (0.942_809_041_582_063_4, 1.732_050_807_568_877_2);
-/// Where the falling gas ends to be drawn, in r_s: it is thinner there than a hundredth of the disk and redshifted away.
+/// Inner edge of the falling gas as drawn, in r_s: farther in it has less than a hundredth of the disk's density, and its light is
+/// redshifted away.
 const PLUNGE_END: f64 = 1.25;
-/// Speed at which gas drifts in at the last stable orbit, in c: slow, as friction lets it. Falling gas thins out as its speed grows beyond
-/// it, and what is behind shows through.
+/// Speed, in c, at which friction lets gas drift in at the last stable orbit. Falling gas thins out as its speed grows beyond this, and
+/// what is behind becomes visible.
 const DRIFT: f64 = 0.002;
-/// Share of the outer part of the disk over which it thins out.
+/// Share of the outer part of the disk over which the gas thins out.
 const OUTER_FADE: f64 = 0.35;
-/// Temperature of the gas at the last stable orbit over that of the hottest ring. In Page and Thorne's disk no torque acts there and its
-/// surface is cold; gas that moves keeps heat, which is what the falling part is seen by.
+/// Temperature of the gas at the last stable orbit over that of the hottest ring. By Page & Thorne 1974 no torque acts there and the
+/// surface is cold. Moving gas keeps heat; the falling part is visible by it.
 const CARRIED_HEAT: f64 = 0.5;
 
 // SI, CODATA 2018 and IAU 2015.
@@ -28,8 +29,8 @@ const SOLAR_LENGTH: f64 = 1_476.625_038;
 /// Eddington luminosity of one solar mass, 4πGM☉ m_p c/σ_T, in W.
 const EDDINGTON: f64 = 1.256_6e31;
 
-/// Page and Thorne's flux for a hole without spin, times M²/Ṁ (G = c = 1), at x = r/M > 6: Page & Thorne 1974, ApJ 191, 499, eq. 15n, with
-/// the logarithm's factor √3/2. Zero at and inside x = 6.
+/// Flux of a disk round a hole without spin, times M²/Ṁ (G = c = 1), at x = r/M > 6: Page & Thorne 1974, eq. 15n, with the logarithm's
+/// factor √3/2. Zero at x ≤ 6.
 pub fn page_thorne_flux(x: f64) -> f64 {
     if x <= 6.0 {
         return 0.0;
@@ -67,13 +68,13 @@ impl Radial {
             inner: disk.inner,
             outer: disk.outer.max(disk.inner + 0.1),
             peak: (PEAK_FLUX * flow / (length * length) / STEFAN_BOLTZMANN).powf(0.25),
-            // At 1 nothing at all would pass: e⁻⁷ is left.
+            // At 1 nothing would pass; e⁻⁷ is left.
             depth: -(1.0 - disk.opacity).max(1e-3).ln(),
             lags: lags(),
         }
     }
 
-    /// The radii between which there is gas, in r_s: a disk that reaches the last stable orbit goes on falling inside it.
+    /// The radii between which there is gas, in r_s. A disk that reaches the last stable orbit continues inside it as falling gas.
     pub fn extent(&self) -> [f64; 2] {
         let inner = if self.inner <= LAST_ORBIT { PLUNGE_END } else { self.inner };
         [inner, self.outer]
@@ -84,12 +85,12 @@ impl Radial {
         let disk = (page_thorne_flux(2.0 * r) / PEAK_FLUX).powf(0.25);
         let carried = CARRIED_HEAT
             * if r < LAST_ORBIT {
-                // Thinner gas radiates less: by the fourth root, as everywhere.
+                // Thinner gas radiates less: the temperature goes as the fourth root of the density, as everywhere.
                 thinning(r).powf(0.25)
             } else {
                 (-((r - LAST_ORBIT) / 0.2).powi(2)).exp()
             };
-        // The hotter of the two, without a kink: 0.25 r_s from the edge Page and Thorne's value stands to a part in 10⁷.
+        // The hotter of the two, without a kink: 0.25 r_s from the edge the value of Page & Thorne 1974 is right to a part in 10⁷.
         self.peak * (disk.powi(8) + carried.powi(8)).powf(0.125)
     }
 
@@ -118,18 +119,18 @@ impl Radial {
         [p.x, p.y]
     }
 
-    /// dφ/dT by which the pattern turns, in c/r_s: Ω = 1/√(2r³), and inside the last stable orbit as it.
+    /// dφ/dT of the pattern, in c/r_s: Ω = 1/√(2r³); inside the last stable orbit that of this orbit.
     pub fn turning_rate(&self, r: f64) -> f64 {
         orbital_frequency(self.pattern_radius(r))
     }
 
-    /// The radius that the gas at `r` comes from, as far as its pattern tells: gas inside the last stable orbit has left that.
+    /// The radius whose pattern the gas at `r` shows, in r_s: gas inside the last stable orbit came from that orbit.
     pub fn pattern_radius(&self, r: f64) -> f64 {
         r.max(LAST_ORBIT)
     }
 
-    /// How far, in rad, falling gas at `r` is ahead of the last stable orbit that it left, when that turns on: ∫(dφ − Ω dT) along the
-    /// plunge. With it every bit of the pattern falls on a geodesic.
+    /// Azimuth, in rad, by which falling gas at `r` is ahead of the last stable orbit that it left, while that turns on: ∫(dφ − Ω dT) along
+    /// the plunge. With it every part of the pattern falls on a geodesic.
     pub fn lag(&self, r: f64) -> f64 {
         if r >= LAST_ORBIT {
             return 0.0;
@@ -147,7 +148,7 @@ fn plunge(r: f64) -> (f64, f64) {
     (-speed, (1.0 + (angular / r).powi(2) - energy * energy) / (energy / r.sqrt() + speed))
 }
 
-/// Density of falling gas over that at the last stable orbit: as much passes every circle.
+/// Density of falling gas over that at the last stable orbit: the same mass passes every circle.
 fn thinning(r: f64) -> f64 {
     DRIFT / (DRIFT - plunge(r).0)
 }

@@ -7,19 +7,19 @@ use crate::scene::config;
 use super::noise::hash;
 use super::radial::Radial;
 
-/// How many times as long as wide a spot is: streaks are some ten times as long. Pictures of 480 × 270 pixels from 0°, 30° and 80° are off
-/// by 2.1, 1.7 and 1.3 times as much with round ones.
+/// Length of a spot over its width: streaks are about ten times as long as wide. With round spots, pictures of 480 × 270 pixels from 0°,
+/// 30° and 80° are off by 2.1, 1.7 and 1.3 times as much.
 const LENGTH: f64 = 3.0;
 
-/// One spot: a place that gas flows through.
+/// One spot: fixed, with gas flowing through it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sprite {
     /// Radius in r_s.
     pub radius: f64,
-    /// Where on its ring it is, in rad from the camera's azimuth: in σ, in which the disk's image is smooth all round
+    /// Position on its ring, in rad from the camera's azimuth: in σ, in which the disk's image is smooth all round
     /// (`shaders/disk/sigma.wgsl`).
     pub sigma: f64,
-    /// To the next of the same ring, in rad.
+    /// Distance to the next of the same ring, in rad.
     pub step: f64,
 }
 
@@ -28,13 +28,13 @@ pub struct Sprite {
 pub struct Sprites {
     /// Ring by ring outwards, each along the rotation.
     pub all: Vec<Sprite>,
-    /// From one ring to the next, in r_s.
+    /// Distance of rings, in r_s.
     pub width: f64,
 }
 
 impl Sprites {
-    /// `most` of them at most, but for three in each ring, evenly over the disk's area: rings of one width, each beginning at an azimuth of
-    /// its own.
+    /// At most `most` of them, but at least three in each ring, evenly over the disk's area: rings of one width, each beginning at its own
+    /// azimuth.
     pub fn new(most: u32, disk: &config::Disk, radial: &Radial) -> Sprites {
         let most = f64::from(most);
         let [start, end] = radial.extent();
@@ -45,7 +45,7 @@ impl Sprites {
         let mut all = Vec::new();
         for ring in 0..rings as u64 {
             let radius = start + (ring as f64 + 0.5) * width;
-            // Two would have no way from one to the next across the hole.
+            // With two, the way from one to the next would lead across the hole.
             let count = (most * TAU * radius * width / area).floor().max(3.0);
             let step = TAU / count;
             let first = hash(ring, u64::from(disk.seed) << 8 | 2) as f64 / 2f64.powi(64);
