@@ -1,4 +1,4 @@
-//! What one frame needs from below: a camera, things to see, settings. Plain data, made by `extract` in the game and by hand in tests.
+//! What one frame is made from: a camera, objects, settings. Plain data, made by the stage in the game and by hand in tests.
 
 use crate::render::settings::{Capacity, Settings};
 use crate::spacetime::Observer;
@@ -48,7 +48,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         }
     }
     let bends = settings.method.bends();
-    // Without a hole there is no rain: all directions are those of what hovers.
+    // Without a hole there is no rain frame: all directions are those of static observers.
     let river = if bends { DVec3::ZERO } else { static_momentum(camera.position).unwrap_or(DVec3::ZERO) };
     let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
     let edge = if bends { light::shadow_angle(1.0 / radius) } else { std::f64::consts::PI };

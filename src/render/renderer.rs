@@ -272,7 +272,7 @@ impl Renderer {
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
-        // The own ship is lit by what the frame before was exposed for, and stars that could not be seen then are left out.
+        // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);

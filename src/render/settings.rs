@@ -23,8 +23,8 @@ pub struct Settings {
     pub thin_below: f64,
     /// Images narrower than this show the coarse model, in pixels: at six its cells (a sixth of the object) are a pixel wide.
     pub coarse_below: f64,
-    /// Images of order 2 and 3 narrower than this are not drawn, in pixels: a line of which they cover a twentieth is lost among the stars
-    /// that crowd at the edge of the shadow, and the stages of geometry would take longer over it than over the ship itself.
+    /// Images of order 2 and 3 narrower than this are not drawn, in pixels. A line of which they cover a twentieth is lost among the stars
+    /// at the edge of the shadow, and the geometry would take longer for it than for the ship itself.
     pub least_width: f64,
     /// Light changes its colour with g.
     pub doppler: bool,
@@ -56,8 +56,8 @@ pub struct Settings {
     pub hold_exposure: bool,
     /// The player's own ship, by its number among the scene's: lit for the picture and not metered. None for what is measured.
     pub own_ship: Option<usize>,
-    /// Greatest thrust (c²/r_s) of ships that hunt and of those that flee, where the scene does not say it: nozzles shine by what share of
-    /// it the ship burns. None: as at full thrust.
+    /// Greatest thrust (c²/r_s) of ships that hunt and of those that flee, if the scene does not give it: nozzles shine by the share of it
+    /// that the ship burns. None: as at full thrust.
     pub engines: Option<[f64; 2]>,
     /// Least and greatest light that middle grey on the own ship is brought to, of 1 for white.
     pub fill: [f32; 2],

@@ -52,7 +52,7 @@ pub fn missing_limits(limits: &wgpu::Limits) -> Option<String> {
     None
 }
 
-/// What a device said went wrong. Without somebody who listens, wgpu ends the program at the first word.
+/// Errors that a device reports. If nobody listens, wgpu ends the program at the first one.
 #[derive(Clone, Debug, Default)]
 pub struct Watch(Arc<Mutex<Option<String>>>);
 

@@ -1,5 +1,5 @@
-//! What all passes stand on: the device, bindings and buffers, the layouts that cross to the shaders, the shaders' text, targets, reading
-//! back, time.
+//! What all passes use: the device, bindings and buffers, the types that cross to the shaders, the shaders' text, targets, reading back,
+//! times.
 
 pub mod device;
 pub mod layout;

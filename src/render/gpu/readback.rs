@@ -158,7 +158,7 @@ impl DeferredCopy {
 pub struct Picture {
     /// Width and height in pixels.
     pub size: [u32; 2],
-    /// Developed, sRGB, 4 bytes a pixel.
+    /// After post-processing: sRGB, 4 bytes a pixel.
     pub display: Vec<u8>,
     /// Linear light before post-processing, RGBA.
     pub linear: Vec<[f32; 4]>,

@@ -64,7 +64,7 @@ pub struct Instance {
 }
 
 impl Instance {
-    /// Whether every number of it is one.
+    /// Whether none of its numbers is NaN or infinite.
     pub fn is_finite(&self) -> bool {
         let rows = [
             self.offset,
@@ -178,7 +178,7 @@ pub struct Counters {
 }
 
 impl Counters {
-    /// What a person should know of these counts, in words; None if all is well.
+    /// A warning about these counts, in words; None if all is well.
     pub fn complaint(&self) -> Option<String> {
         let mut parts = Vec::new();
         if self.coarse > 0 {
