@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::Resource;
 use thiserror::Error;
 
+use crate::scene::ship::Ai;
 use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
 
 /// The scene where none is named.
@@ -52,6 +53,11 @@ impl Session {
     /// Index of the ship that the player flies: the one marked so, else the first.
     pub fn player(&self) -> usize {
         self.scene.ships.iter().position(|ship| ship.player).unwrap_or(0)
+    }
+
+    /// A ship's length, in r_s.
+    pub fn length(&self, ship: usize) -> f64 {
+        if self.scene.ships[ship].ai == Ai::Flee { self.config.enemy.size } else { self.config.ship.size }
     }
 
     /// Index of the ship that the player is after: the one its entry names, else the first other; None for a lone ship.

@@ -20,7 +20,6 @@ use crate::render::gpu::targets::target;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
-use crate::scene::ship::Ai;
 use crate::sim::simulate::app_of;
 use crate::sim::{Clock, Fleet, History, outcome};
 
@@ -114,20 +113,11 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
     settings.own_ship = Some(session.player());
     settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
-    let length = |ship: usize| if session.scene.ships[ship].ai == Ai::Flee { session.config.enemy.size } else { session.config.ship.size };
-    let hunter = session.player();
-    let cast = Cast {
-        hunter: (histories[hunter], length(hunter)),
-        quarry: session.target().map(|quarry| (histories[quarry], length(quarry))),
-        hunter_index: hunter,
-    };
+    let cast = cast(session, &histories);
 
     let sheet_file = flight.folder.join("contact-sheet.png");
     let writer = Writer::start(frames_folder.clone(), sheet_file.clone(), flight.size, flight.frames);
-    let bar = ProgressBar::new(u64::from(flight.frames));
-    if let Ok(style) = ProgressStyle::with_template("demonstration flight {wide_bar} {pos}/{len} frames, {eta} left") {
-        bar.set_style(style);
-    }
+    let bar = progress(flight.frames);
     let started = Instant::now();
     let mut times = Vec::new();
     let mut passes = Vec::new();
@@ -165,6 +155,21 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
         rate: f64::from(flight.frames) / started.elapsed().as_secs_f64(),
         passes,
     })
+}
+
+/// The ships that the director follows.
+fn cast<'a>(session: &Session, histories: &[&'a History]) -> Cast<'a> {
+    let of = |ship: usize| (histories[ship], session.length(ship));
+    let hunter = session.player();
+    Cast { hunter: of(hunter), quarry: session.target().map(of), hunter_index: hunter }
+}
+
+fn progress(frames: u32) -> ProgressBar {
+    let bar = ProgressBar::new(u64::from(frames));
+    match ProgressStyle::with_template("demonstration flight {wide_bar} {pos}/{len} frames, {eta} left") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
 }
 
 /// Plays the chase to its end; the app, the span to show, and how it ended.

@@ -1,6 +1,7 @@
 //! The HUD: dials, painted with egui, and the messages. The numbers come from [`crate::play::hud::instruments`], the markers from
 //! [`crate::play::hud::markers`].
 
+pub mod dials;
 pub mod instruments;
 pub mod layout;
 pub mod markers;
@@ -9,16 +10,16 @@ pub mod paint;
 pub mod panel;
 
 use bevy::prelude::*;
-use bevy_egui::egui::{self, Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
+use bevy_egui::egui::{self, Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
 use crate::play::camera::View;
-use crate::play::hud::instruments::{Countdown, Instruments, Scale, hold_words};
+use crate::play::hud::instruments::{Countdown, Scale, hold_words};
 use crate::play::hud::notice::Notice;
-use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox, text};
+use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::Screen;
 use crate::play::picture::Staged;
@@ -79,7 +80,7 @@ fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes = dials(&painter, rect, &session, &player, &read);
+    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read);
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         if chase.held > 0.0 {
@@ -156,93 +157,6 @@ fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown
     TextBox::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
-/// The dials in the corners, and above the speed who flies and what is in the tanks.
-fn dials(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments) -> Vec<TextBox> {
-    let mut text_boxes = Vec::new();
-    let lay = |at, anchor, lines: &[(&str, f32, Color32)]| TextBox::lay(painter, at, anchor, f32::INFINITY, lines);
-    let mut text_box = |at, anchor, lines: &[(&str, f32, Color32)]| text_boxes.push(lay(at, anchor, lines));
-    let scale = Scale::of(session.config.hole.mass_solar);
-    let [left, right] = [rect.left() + MARGIN, rect.right() - MARGIN];
-    let [top, bottom] = [rect.top() + MARGIN, rect.bottom() - MARGIN];
-
-    let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
-    text_box(
-        pos2(left, top),
-        Align2::LEFT_TOP,
-        &[
-            ("OWN CLOCK", 11.0, FAINT),
-            (&scale.clock(read.own_time), 19.0, TEXT),
-            ("FAR CLOCK", 11.0, FAINT),
-            (&scale.clock(read.far_time), 19.0, TEXT),
-            (&rate, 12.0, FAINT),
-        ],
-    );
-
-    let near = if read.radius < 1.0 {
-        ALARM
-    } else if read.radius < 3.0 {
-        TRUE
-    } else {
-        TEXT
-    };
-    text_box(
-        pos2(right, top),
-        Align2::RIGHT_TOP,
-        &[
-            ("FROM THE HOLE  r", 11.0, FAINT),
-            (&format!("{:.2} r_s", read.radius), 19.0, near),
-            (&scale.kilometres(read.radius), 13.0, TEXT),
-            (&format!("camera  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
-        ],
-    );
-
-    let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
-    let gees = scale.gees(read.acceleration);
-    let load = format!("{gees:.1} g");
-    text_box(
-        pos2(left, bottom),
-        Align2::LEFT_BOTTOM,
-        &[
-            ("SPEED  (0: hovering)", 11.0, FAINT),
-            (&speed, 30.0, TEXT),
-            ("LOAD", 11.0, FAINT),
-            (&load, 19.0, if gees > 15.0 { TRUE } else { TEXT }),
-        ],
-    );
-
-    if let Some(target) = read.target {
-        let closing = format!("{:+.3} c", target.closing);
-        text_box(
-            pos2(right, bottom),
-            Align2::RIGHT_BOTTOM,
-            &[
-                ("RANGE", 11.0, FAINT),
-                (&format!("{:.2} r_s", target.range), 30.0, TEXT),
-                (&scale.kilometres(target.range), 12.0, FAINT),
-                ("CLOSING", 11.0, FAINT),
-                (&closing, 19.0, if target.closing > 0.0 { OWN } else { TRUE }),
-            ],
-        );
-    }
-
-    let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
-    let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
-    let view = match player.view {
-        _ if player.gaze.aside() => "at the target",
-        View::Cockpit => "cockpit",
-        View::ThirdPerson => "third person",
-    };
-    let state = format!("{pilot}  ·  {view}");
-    let pace = format!("pace {:.2} r_s/c a second", session.config.clock.pace);
-    let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
-    let [colour, filled] = if read.fuel.is_some_and(|share| share < 0.15) { [ALARM; 2] } else { [TEXT, OWN] };
-    let lines = [(&*state, 12.0, TEXT), (&*pace, 12.0, TEXT), (&*tanks, 12.0, colour)];
-    // Above the speed: below the middle it would lie on one's own ship.
-    let above = text_boxes[2].frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM);
-    text_boxes.push(lay(above, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled));
-    text_boxes
-}
-
 /// What must not be missed, in large letters.
 fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
     let words = match (avoiding, radius < 1.0) {
@@ -256,6 +170,7 @@ fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::play::hud::instruments::Instruments;
     use crate::play::hud::layout::overlap;
     use crate::play::hud::paint::tests::on_canvas;
     use crate::scene::config::parse;
@@ -293,7 +208,7 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut text_boxes = dials(painter, rect, &session, &PlayerState::default(), &read);
+                let mut text_boxes = dials::lay(painter, rect, &session, &PlayerState::default(), &read);
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);
                 for (k, text_box) in text_boxes.iter().enumerate() {

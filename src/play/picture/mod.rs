@@ -86,12 +86,12 @@ fn point_camera(
     let rigid = player.view == View::Cockpit || video.reduced_motion;
     let attitude = player.follower.follow(state.attitude, seconds, rigid);
     let sought = now.target().filter(|_| player.looking && sight == Sight::Own);
-    let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.length(me), attitude, time, target));
+    let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
     shot.0 = Some(match (sight, now.target()) {
-        (Sight::Own, _) => Shot::own(me, &state, player.view, attitude, now.length(me), field_of_view),
+        (Sight::Own, _) => Shot::own(me, &state, player.view, attitude, now.session.length(me), field_of_view),
         (Sight::Caught, Some((caught, history))) => {
-            Shot::caught((caught, history, now.length(caught)), state.position, time, field_of_view)
+            Shot::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
         }
         _ => {
             let turn = if video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };

@@ -4,7 +4,6 @@ use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 
 use crate::play::session::Session;
-use crate::scene::ship::Ai;
 use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Fuel, History};
 
 /// What the picture and the HUD are made of.
@@ -46,11 +45,5 @@ impl Now<'_, '_> {
         let index = self.session.target()?;
         let ship = self.fleet.0.get(index)?;
         Some((index, self.ships.get(*ship).ok()?.0))
-    }
-
-    /// A ship's length, in r_s.
-    pub fn length(&self, ship: usize) -> f64 {
-        let config = &self.session.config;
-        if self.session.scene.ships[ship].ai == Ai::Flee { config.enemy.size } else { config.ship.size }
     }
 }
