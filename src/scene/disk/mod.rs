@@ -163,8 +163,8 @@ impl Gas {
         outward * radial + DVec3::Z.cross(outward) * along
     }
 
-    /// |cos| of the angle between the disk's normal and light of rain-frame momentum `photon` (any scale), in the frame of gas with `momentum`
-    /// per mass.
+    /// |cos| of the angle between the disk's normal and light of rain-frame momentum `photon` (any scale), in the frame of gas with the
+    /// rain-frame momentum `momentum` per mass.
     pub fn cosine(momentum: DVec3, photon: DVec3) -> f64 {
         let gamma = (1.0 + momentum.length_squared()).sqrt();
         photon.z.abs() / (gamma * photon.length() - momentum.dot(photon))
