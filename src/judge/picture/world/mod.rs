@@ -1,17 +1,26 @@
 //! The scene as the judge sees it: bodies with their models, positions and worldlines.
+//!
+//! - `worldline`: how they move.
+//! - [`tree`]: bounding volume hierarchies over triangles, traced along pieces of a curve.
+//! - `sweep`: where flying bodies may be, by delay; `span`: the delays between which a camera may see them.
 
-use super::worldline::Motion;
+pub(in crate::judge::picture) mod span;
+pub(in crate::judge::picture) mod sweep;
+pub mod tree;
+pub(in crate::judge::picture) mod worldline;
+
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
 use glam::{DMat3, DVec3};
 
-use super::span::{CLINGING, Scope};
-use super::sweep::Sweep;
-use super::tree::Tree;
 use crate::scene::lighting::Surroundings;
 use crate::scene::model::Model;
+use span::{CLINGING, Scope};
+use sweep::Sweep;
+use tree::Tree;
+use worldline::Motion;
 
 /// One visible thing.
 #[derive(Clone, Copy)]
@@ -38,21 +47,21 @@ pub struct World<'a> {
     pub time: f64,
     /// Whether there is a hole; without one light goes straight and nothing falls.
     pub hole: bool,
-    pub(super) held: Held,
-    pub(super) flying: Vec<Flying>,
+    pub(in crate::judge::picture) held: Held,
+    pub(in crate::judge::picture) flying: Vec<Flying>,
     /// Nothing is held in place beyond this radius, in r_s.
-    pub(super) held_radius: f64,
+    pub(in crate::judge::picture) held_radius: f64,
     /// What light to the latest camera may meet, and at which delays.
-    pub(super) scope: Mutex<Option<Arc<Scope>>>,
+    pub(in crate::judge::picture) scope: Mutex<Option<Arc<Scope>>>,
     /// How many rays were given up.
-    pub(super) given_up: AtomicUsize,
+    pub(in crate::judge::picture) given_up: AtomicUsize,
     /// The deadline; below, whether it has passed.
     deadline: Option<Instant>,
     late: AtomicBool,
 }
 
 /// All triangles that are held in place, together.
-pub(super) struct Held {
+pub(in crate::judge::picture) struct Held {
     pub vertices: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle its thing and its number in the model.
@@ -61,7 +70,7 @@ pub(super) struct Held {
 }
 
 /// A flying thing in its rest frame.
-pub(super) struct Flying {
+pub(in crate::judge::picture) struct Flying {
     pub thing: u32,
     /// Corners in body axes, in r_s.
     pub vertices: Vec<DVec3>,
@@ -135,7 +144,7 @@ impl<'a> World<'a> {
         self.late.load(Ordering::Relaxed)
     }
 
-    pub(super) fn count_given_up(&self, is: bool) {
+    pub(in crate::judge::picture) fn count_given_up(&self, is: bool) {
         self.given_up.fetch_add(usize::from(is), Ordering::Relaxed);
     }
 
@@ -148,7 +157,7 @@ impl<'a> World<'a> {
 
 impl World<'_> {
     /// What light to a camera at radius `camera` (r_s) may meet; kept for the next ray.
-    pub(super) fn scope(&self, camera: f64) -> Arc<Scope> {
+    pub(in crate::judge::picture) fn scope(&self, camera: f64) -> Arc<Scope> {
         let mut kept = self.scope.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         match &*kept {
             Some(scope) if scope.is_of(camera) => scope.clone(),

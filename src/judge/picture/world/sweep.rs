@@ -17,7 +17,7 @@ const MOST_WINDOWS: usize = 256;
 
 /// The boxes of one body.
 #[derive(Clone, Debug)]
-pub(super) struct Sweep {
+pub(in crate::judge::picture) struct Sweep {
     /// Children after their parents; the first `windows` are the windows from delay 0 on.
     nodes: Vec<Node>,
     windows: usize,
@@ -95,16 +95,16 @@ impl Sweep {
 }
 
 /// Bound on the speed |dx/dT| ≤ 1 + β of anything at r (r_s), in c, that holds while r stays above 0.4 of its value here (1/√0.4 < 1.6).
-pub(super) fn fastest(r: f64) -> f64 {
+pub(in crate::judge::picture) fn fastest(r: f64) -> f64 {
     1.0 + 1.6 / r.sqrt()
 }
 
 /// The same bound for every earlier time: inside the horizon r only falls with T, and what is outside now was never inside.
-pub(super) fn fastest_since(r: f64) -> f64 {
+pub(in crate::judge::picture) fn fastest_since(r: f64) -> f64 {
     1.0 + 1.0 / r.min(1.0).sqrt()
 }
 
 /// Whether r stays above 0.4 of itself for a delay of `half` to either side.
-pub(super) fn is_short(half: f64, r: f64) -> bool {
+pub(in crate::judge::picture) fn is_short(half: f64, r: f64) -> bool {
     half * fastest(r) <= 0.25 * r
 }

@@ -13,7 +13,7 @@ pub struct Tree(bvh::Tree<f64>);
 
 /// A chord against boxes that are grown on all sides.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chord {
+pub(in crate::judge::picture) struct Chord {
     from: DVec3,
     step: DVec3,
     grow: DVec3,
@@ -105,7 +105,7 @@ impl Tree {
     }
 
     /// Adds to `leaves` those whose boxes the chord passes. Returns false, and `leaves` is of no use, if there are more than `most`.
-    pub(super) fn gather(&self, chord: &Chord, most: usize, leaves: &mut Vec<u32>) -> bool {
+    pub(in crate::judge::picture) fn gather(&self, chord: &Chord, most: usize, leaves: &mut Vec<u32>) -> bool {
         if self.0.nodes.is_empty() {
             return true;
         }
@@ -133,7 +133,7 @@ impl Tree {
     }
 
     /// Whether the chord passes the box of a leaf.
-    pub(super) fn passes(&self, leaf: u32, chord: &Chord) -> bool {
+    pub(in crate::judge::picture) fn passes(&self, leaf: u32, chord: &Chord) -> bool {
         chord.enters(&self.0.nodes[leaf as usize].bounds, 1.0).is_some()
     }
 }

@@ -9,7 +9,7 @@ use crate::spacetime::matter::gamma;
 const WINDING: f64 = 100.0;
 /// For how long light that clings to the horizon is followed, in r_s/c. Its frequency has then fallen by e^−100, below the least number in
 /// f32.
-pub(super) const CLINGING: f64 = 200.0;
+pub(in crate::judge::picture) const CLINGING: f64 = 200.0;
 /// Oldest light that is searched for, in r_s/c. A ship that comes straight at the camera with 1 − v below about 10⁻⁴ is not seen at its
 /// earlier positions.
 const OLDEST: f64 = 1e5;
@@ -24,7 +24,7 @@ const STILL: f64 = 1e-3;
 
 /// What light to a camera at one radius may meet.
 #[derive(Clone, Debug)]
-pub(super) struct Scope {
+pub(in crate::judge::picture) struct Scope {
     /// The camera's radius, in r_s.
     camera: f64,
     /// Outgoing light beyond this radius, in r_s, meets nothing.

@@ -11,11 +11,12 @@ use std::sync::atomic::Ordering;
 
 use glam::{DVec2, DVec3};
 
-use super::disk::Crossing;
-use super::find::{MOST_LOOKS, Near, Seen, beyond, growth, pieces};
-use super::span::Scope;
-use super::tree::Chord;
-use super::world::World;
+use super::piece::{growth, pieces};
+use super::{MOST_LOOKS, Near, Seen, Step, beyond};
+use crate::judge::picture::disk::Crossing;
+use crate::judge::picture::world::World;
+use crate::judge::picture::world::span::Scope;
+use crate::judge::picture::world::tree::Chord;
 use crate::judge::ray::{End, Follower, Stop, orbit_plane, sky_radius};
 use crate::judge::segments::{LANES, PIECES, Segments};
 
@@ -45,8 +46,8 @@ struct Stride {
     /// Φ at the start of the step, radians.
     swept: f64,
     /// Positions at the ends of the step's pieces, in r_s.
-    places: [DVec3; PIECES + 1],
-    /// How far the curve, and the grown boxes of a ray alone, may be from the chords between the places, in r_s.
+    positions: [DVec3; PIECES + 1],
+    /// How far the curve, and the grown boxes of a ray alone, may be from the chords between the positions, in r_s.
     strays: f64,
     /// Delay at the start, and how much of it the step covers, in r_s/c.
     start: f64,
@@ -164,8 +165,9 @@ impl March<'_> {
             let Walk { axes, seen, looks, stride, .. } = &mut self.walks[ray];
             if seen.is_none() && asked(stride) {
                 let segment = self.steps[stride.slot / LANES].lane(stride.slot % LANES);
+                let step = Step { segment: &segment, axes: *axes, swept: stride.swept };
                 let mut cross = |crossing| (self.cross)(ray, crossing);
-                *seen = self.world.meet(&segment, *axes, stride.swept, near, self.scope, &mut cross, looks).map(Seen::Hit);
+                *seen = self.world.meet(step, near, self.scope, &mut cross, looks).map(Seen::Hit);
             }
         }
     }
@@ -184,11 +186,11 @@ impl Stride {
         let along = step.along(lane);
         let ends = [along[0], along[PIECES]];
         let own = length / pieces(bend, length, ends[0].distance(ends[1]));
-        let height = |place: DVec2| axes[0].z * place.x + axes[1].z * place.y;
+        let height = |position: DVec2| axes[0].z * position.x + axes[1].z * position.y;
         Stride {
             slot,
             swept,
-            places: along.map(|place| axes[0] * place.x + axes[1] * place.y),
+            positions: along.map(|position| axes[0] * position.x + axes[1] * position.y),
             // From the sheaf's chords to the curve, from the curve to the chords of a ray alone, and from those to the limit of the boxes
             // grown for it.
             strays: growth(bend, length / PIECES as f64, ends) + 2.0 * growth(bend, own, ends),
@@ -219,8 +221,8 @@ impl Sheaf {
         };
         for stride in strides {
             for k in 0..=PIECES {
-                sheaf.low[k] = sheaf.low[k].min(stride.places[k]);
-                sheaf.high[k] = sheaf.high[k].max(stride.places[k]);
+                sheaf.low[k] = sheaf.low[k].min(stride.positions[k]);
+                sheaf.high[k] = sheaf.high[k].max(stride.positions[k]);
                 let time = stride.start + stride.length * (k as f64 / PIECES as f64);
                 sheaf.times[k] = [sheaf.times[k][0].min(time), sheaf.times[k][1].max(time)];
             }

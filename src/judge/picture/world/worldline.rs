@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::roots::Bend;
+use crate::judge::picture::roots::Bend;
 use crate::spacetime::matter::gamma;
 
 /// A body at one moment.
@@ -58,7 +58,7 @@ impl Sway {
     ///
     /// A point there is y = M (x − c), M = Rᵀ B with the rotation R of the attitude and the boost B = 1 + p pᵀ/(1 + γ), |B| = γ. With f =
     /// 1/(1 + γ), |p| f < 1 and |γ'| ≤ |p'|: |B'| ≤ 3|p'| and |B''| ≤ 3|p''| + (8f + 1/γ)|p'|². The rest is the product rule.
-    pub(super) fn bend(&self, away: f64, light: f64, bend: f64) -> Bend {
+    pub(in crate::judge::picture) fn bend(&self, away: f64, light: f64, bend: f64) -> Bend {
         let [least, gamma] = self.momentum.map(|p| p.hypot(1.0));
         let rate = self.turning * gamma + 3.0 * self.force;
         let boost = 3.0 * self.surge + (8.0 / (1.0 + least) + 1.0 / least) * self.force * self.force;
