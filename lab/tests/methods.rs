@@ -2,8 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
+use lensrunner::lensing::lookup::source_point::source_point;
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear};
-use lensrunner::lensing::source_point::source_point;
 use lensrunner::lensing::{LensRay, SMALL_NODES, Scheme, Slice, Table, bake, closed, shooting};
 use lensrunner::render::method::Method;
 use lensrunner::render::method::race::Race;

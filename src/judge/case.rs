@@ -13,9 +13,9 @@ use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
+use crate::scene::camera::viewpoint::CameraEnded;
 use crate::scene::disk::Gas;
 use crate::scene::planet::{AuroraShape, Planet};
-use crate::scene::viewpoint::CameraEnded;
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
 use crate::sim::history::Bounds;
 use crate::sim::{History, Moment};
@@ -304,11 +304,11 @@ impl Case {
     ) -> Picture {
         let sky = &self.scene.sky;
         let disk = self.scene.disk(&self.config).map(|disk| Disk::new(Gas::new(&disk, self.config.hole.mass_solar)));
-        let (milky_way, _) = scene::milky_way::load_or_dark();
+        let (milky_way, _) = scene::sky::milky_way::load_or_dark();
         let brightness = if with_sky && sky.milky_way { self.config.sky.milky_way_brightness * sky.brightness } else { 0.0 };
         let background = Background::new(&milky_way, brightness as f32);
         let spots = if with_sky && sky.stars {
-            let (catalogue, _) = scene::stars::load_or_stand_in();
+            let (catalogue, _) = scene::sky::stars::load_or_stand_in();
             let brightness = self.config.sky.star_brightness * sky.brightness;
             stars(&catalogue, &self.camera, self.config.render.lensing, quality.tolerance, brightness, self.shift())
         } else {

@@ -5,7 +5,7 @@ use wide::f32x8;
 
 use super::lookup::{LEAST_LAPSE2, LensRay, YOUNG, lens_lookup_aged};
 use super::single::{BEND_RANGE, BEND_START, HALF_TURN, LensCamera, SMALLEST_SWEEP, SWEEP_LENGTH};
-use super::slice::{HEADER, Slice};
+use super::table::slice::{HEADER, Slice};
 
 /// Points in a batch.
 pub const LANES: usize = 8;

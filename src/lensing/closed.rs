@@ -4,9 +4,9 @@
 //! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ, with the angle α of the ray from the outward radial in the static frame and χ,
 //! the angle it still sweeps on its way to infinity; the impact parameter is the same at both ends. Sources: `lensing::methods`.
 
+use super::lookup::source_point::SourcePoint;
 use super::lookup::{LensRay, NOTHING, finite, ray_of};
 use super::single::{HALF_TURN, LensCamera, energy};
-use super::source_point::SourcePoint;
 
 /// X of Beloborodov 2002, eq. 1.
 pub fn tilt_beloborodov(u: f32, y: f32) -> f32 {

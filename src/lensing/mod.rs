@@ -1,20 +1,17 @@
 //! The tables: from (r, Φ, L) to the direction in which a point is seen and the time its light takes.
 //!
-//! `formulas` holds closed forms that are right near the camera and where the field is weak; the table holds what is left, over
-//! coordinates that open up the Einstein ring, the horizon and the surroundings of the camera (`grid`). `bake` makes it, `table`
-//! files it, `slice` cuts it at one camera radius for a frame, `lookup` evaluates it in f32 as the GPU does, with `inside` for camera
-//! and point both inside the horizon; `batch` does eight points at once on the processor. `paper` is the
-//! method of Yamashita 2012, for comparison, and `score` measures the error of either. `orbit`, `shooting` and `closed` are f32 methods
-//! without a table. `methods` is all of them by name, `project` the command that asks one, `adversarial` the points where they break.
+//! `closed_form` is right near the camera and where the field is weak; `table` holds what is left, over coordinates that open up the
+//! Einstein ring, the horizon and the surroundings of the camera (`table::grid`): how it is baked, filed and cut at one camera radius for a
+//! frame. `lookup` evaluates it in f32 as the GPU does, with `lookup::inside` for camera and point both inside the horizon; `batch` does
+//! eight points at once on the processor. `paper` is the method of Yamashita 2012, for comparison, and `score` measures the error of
+//! either. `orbit`, `shooting` and `closed` are f32 methods without a table. `methods` is all of them by name, `project` the command that
+//! asks one, `adversarial` the points where they break.
 
 pub mod adversarial;
-pub mod bake;
 pub mod batch;
 pub mod closed;
+pub mod closed_form;
 pub mod command;
-pub mod elementary;
-pub mod grid;
-pub mod inside;
 pub mod lookup;
 pub mod methods;
 pub mod orbit;
@@ -23,41 +20,15 @@ pub mod paper_format;
 pub mod project;
 pub mod score;
 pub mod shooting;
-pub mod slice;
-pub mod source_point;
-pub mod spline;
 pub mod table;
 
-/// The formulas in f64, for the bake.
-#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
-pub mod double {
-    use super::elementary::double::{above, ln, stumpff};
-
-    /// The precision of this copy.
-    pub type Real = f64;
-    /// Four of them.
-    pub type Four = wide::f64x4;
-    include!("formulas.rs");
-}
-
-/// The formulas in f32, the twins of the shader's.
-#[allow(clippy::unnecessary_cast, clippy::too_many_arguments, clippy::excessive_precision)]
-pub mod single {
-    use super::elementary::single::{above, ln, stumpff};
-
-    /// The precision of this copy.
-    pub type Real = f32;
-    /// Four of them.
-    pub type Four = wide::f32x4;
-    include!("formulas.rs");
-}
-
+pub use closed_form::{double, single};
 pub use lookup::{LensRay, lens_lookup, lens_lookup_aged, lens_lookup_at};
-pub use slice::Slice;
 use std::path::Path;
+pub use table::slice::Slice;
 pub use table::{Scheme, Table, TableError};
 
-/// The camera radii of a full-size bake (`bake::size`).
+/// The camera radii of a full-size bake (`table::bake::size`).
 pub const FULL_NODES: usize = 112;
 /// The camera radii of the small committed table.
 pub const SMALL_NODES: usize = 96;
@@ -65,7 +36,7 @@ pub const SMALL_NODES: usize = 96;
 /// Bakes a table of `scheme` with `nodes` (at least 5) along each axis; `done` is called with finished shares that add up to 1.
 pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
     match scheme {
-        Scheme::Residual => bake::residual_table(nodes, done),
+        Scheme::Residual => table::bake::residual_table(nodes, done),
         Scheme::Paper | Scheme::PaperUniform => paper::bake(scheme, nodes, done),
     }
 }

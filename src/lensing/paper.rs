@@ -113,7 +113,8 @@ pub fn lookup(table: &Table, [r, phi, l]: [f64; 3], order: u8) -> [f64; 2] {
     let inside = r <= l;
     let z = camera_mesh(table.scheme, inside).coordinate(l);
     let [radial, angular] = slice_meshes(table.scheme, inside, l);
-    let cells = [radial.coordinate(r), angular.coordinate(phi), z].map(|v| super::spline::cell(if v.is_finite() { v } else { 0.0 }, n));
+    let cells =
+        [radial.coordinate(r), angular.coordinate(phi), z].map(|v| super::table::spline::cell(if v.is_finite() { v } else { 0.0 }, n));
     let channel = if inside { 0 } else { 4 } + 2 * (order as usize - 1);
     let mut sum = [0.0f32; 2];
     for corner in 0..8usize {
@@ -145,7 +146,7 @@ pub fn slice(table: &Table, l: f64) -> Vec<[f32; 4]> {
         let meshes = slice_meshes(table.scheme, inside, l);
         texels.extend(meshes.map(|mesh| [mesh.bias as f32, mesh.first as f32, mesh.last as f32, 0.0]));
         let z = camera_mesh(table.scheme, inside).coordinate(l);
-        super::spline::cell(if z.is_finite() { z } else { 0.0 }, n)
+        super::table::spline::cell(if z.is_finite() { z } else { 0.0 }, n)
     });
     let node = |layer: usize, i: usize, h: usize| table.values[(layer * n * n + i) * CHANNELS + h];
     for i in 0..n * n {

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::lookup::{LensRay, OLD, YOUNG, lens_lookup_aged};
 use super::paper;
-use super::slice::Slice;
+use super::table::slice::Slice;
 use super::table::{Scheme, Table};
 use crate::spacetime::light::{Branch, Order, connect, rain_angle, static_angle};
 

@@ -4,11 +4,11 @@
 //! A shot is fired from the camera with a slope; Newton's method in a bracket finds the slope that meets the point. It starts from the
 //! table's closed form.
 
-use super::inside::INSIDE_NODES;
+use super::lookup::inside::INSIDE_NODES;
+use super::lookup::source_point::SourcePoint;
 use super::lookup::{LEAST_LAPSE2, LensRay, NOTHING, finite, ray_of};
 use super::orbit::{CRITICAL_SQUARE, FELL, LEFT, MET, PHOTON_SPHERE, carry, critical_excess, pole_orbit, shoot};
 use super::single::{HALF_TURN, LensCamera, SMALLEST_SWEEP, bent_sweep, energy, slope_guess};
-use super::source_point::SourcePoint;
 
 /// A shot from the camera: its fate, u − a and du/dΦ at the end, ∂u/∂x there and the time it took.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,9 @@ use crate::render::settings::{Capacity, Settings};
 use crate::spacetime::Observer;
 use glam::DVec3;
 
-use crate::scene::stars::SKY_UNIT;
-use crate::scene::{blackbody, milky_way};
+use crate::scene::blackbody;
+use crate::scene::sky::milky_way;
+use crate::scene::sky::stars::SKY_UNIT;
 use crate::spacetime::orbit::static_momentum;
 use crate::spacetime::{frames, light};
 

@@ -1,4 +1,4 @@
-//! The render passes that lay the disk and the aurora over the picture and sum thin images, and what passes draw to.
+//! The passes of a frame in their order, and what they draw to; [`crate::render::post_process`] has the last of them.
 
 use std::ops::RangeInclusive;
 
@@ -7,27 +7,150 @@ use crate::render::disk::DiskPasses;
 use crate::render::geometry::Geometry;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
+use crate::render::sky::{Background, Stars};
 
-/// Lays these orders of the disk over the picture, if there are any.
-pub fn draw_disk(
-    disk: Option<&DiskPasses>,
-    orders: RangeInclusive<u32>,
-    timing: &mut Timing,
-    encoder: &mut wgpu::CommandEncoder,
-    group: &wgpu::BindGroup,
-    targets: &Targets,
-) {
-    let Some(disk) = disk.filter(|_| !orders.is_empty()) else { return };
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("disk"),
-        color_attachments: &[Some(colour(&targets.picture, false))],
-        // Polygons write it.
-        depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
-        timestamp_writes: timing.render("disk"),
-        ..Default::default()
-    });
-    pass.set_bind_group(0, group, &[]);
-    timing.count("disk", &mut pass, |pass| disk.draw(pass, orders));
+/// What every pass of a frame needs.
+pub struct Recording<'a> {
+    /// Where passes are recorded.
+    pub encoder: &'a mut wgpu::CommandEncoder,
+    /// Where they write their times.
+    pub timing: &'a mut Timing,
+    /// The frame's bindings: group 0 of each.
+    pub frame: &'a wgpu::BindGroup,
+    /// What is drawn to.
+    pub targets: &'a Targets,
+}
+
+impl Recording<'_> {
+    /// A compute pass of this name.
+    fn compute(&mut self, label: &'static str, run: impl FnOnce(&mut wgpu::ComputePass)) {
+        let timestamp_writes = self.timing.compute(label);
+        let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
+        pass.set_bind_group(0, self.frame, &[]);
+        run(&mut pass);
+    }
+}
+
+/// The passes of all that a frame shows.
+pub struct Shown<'a> {
+    /// Bodies.
+    pub geometry: &'a Geometry,
+    /// The Milky Way.
+    pub background: &'a Background,
+    /// Stars.
+    pub stars: &'a Stars,
+    /// The aurora.
+    pub aurora: &'a Aurora,
+    /// The disk, if there is one.
+    pub disk: Option<&'a DiskPasses>,
+}
+
+impl Shown<'_> {
+    /// The compute passes before anything is drawn.
+    pub fn compute(&self, recording: &mut Recording) {
+        let geometry = self.geometry;
+        if !geometry.is_empty() {
+            recording.compute("vertices", |pass| geometry.vertices(pass));
+            recording.compute("edges", |pass| geometry.edges(pass));
+            recording.compute("triangles", |pass| geometry.triangles(pass));
+            recording.compute("refine", |pass| geometry.refine(pass));
+            recording.compute("mesh", |pass| geometry.mesh(pass));
+        }
+        recording.compute("sky", |pass| self.background.cells(pass));
+        recording.compute("stars", |pass| self.stars.project(pass));
+        if self.aurora.images() > 0 {
+            recording.compute("aurora project", |pass| self.aurora.project(pass));
+            recording.compute("aurora ends", |pass| self.aurora.ends(pass));
+        }
+        if let Some(disk) = self.disk {
+            recording.compute("disk arcs", |pass| disk.compute(pass));
+            recording.compute("disk mesh", |pass| disk.compute_rest(pass));
+        }
+    }
+
+    /// Draws what has depth, and the sky behind it.
+    pub fn draw_opaque(&self, recording: &mut Recording) {
+        let Recording { encoder, timing, frame, targets } = recording;
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("draw"),
+            color_attachments: &[Some(colour(&targets.picture, true))],
+            depth_stencil_attachment: Some(depth(&targets.depth, true)),
+            timestamp_writes: timing.render("draw"),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, *frame, &[]);
+        timing.count("draw", &mut pass, |pass| {
+            self.geometry.draw_opaque(pass);
+            self.background.draw(pass);
+            self.stars.draw(pass);
+        });
+    }
+
+    /// The aurora's walk on the screen, once all that has depth has been drawn: it asks what is before and behind of it.
+    pub fn walk(&self, recording: &mut Recording) {
+        if self.aurora.images() > 0 {
+            self.aurora.ranges(recording.encoder, recording.timing, recording.frame);
+            recording.compute("aurora walk", |pass| self.aurora.walk(pass));
+        }
+    }
+
+    /// Lays images of the disk over the picture from the farthest on, each over what is behind it, with thin images among them; `compose`
+    /// lays those over the picture once they are summed. Thin images have no depth: they come among those of the disk, by how often their
+    /// light crosses its plane. Polygons have depth.
+    pub fn lay_over(&self, recording: &mut Recording, compose: impl Fn(&mut Recording)) {
+        let geometry = self.geometry;
+        let laid_over = self.disk.is_some_and(DiskPasses::is_laid_over);
+        let among = |crossings: u32| if laid_over { geometry.has_thin_across(crossings) } else { crossings == 0 && geometry.has_thin() };
+        let mut left = 3;
+        for crossings in (0..=3).rev().filter(|crossings| among(*crossings)) {
+            self.draw_disk(recording, crossings + 1..=left);
+            left = crossings;
+            let Recording { encoder, timing, frame, targets } = &mut *recording;
+            draw_thin(geometry, laid_over.then_some(crossings), timing.render("thin"), encoder, frame, targets);
+            compose(recording);
+        }
+        self.draw_disk(recording, 1..=left);
+    }
+
+    /// Lays these orders of the disk over the picture, if there are any.
+    fn draw_disk(&self, recording: &mut Recording, orders: RangeInclusive<u32>) {
+        let Recording { encoder, timing, frame, targets } = recording;
+        let Some(disk) = self.disk.filter(|_| !orders.is_empty()) else { return };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("disk"),
+            color_attachments: &[Some(colour(&targets.picture, false))],
+            // Polygons write it.
+            depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
+            timestamp_writes: timing.render("disk"),
+            ..Default::default()
+        });
+        pass.set_bind_group(0, *frame, &[]);
+        timing.count("disk", &mut pass, |pass| disk.draw(pass, orders));
+    }
+
+    /// Adds the images of the aurora that are behind the disk, or the others.
+    pub fn draw_aurora(&self, recording: &mut Recording, behind: bool) {
+        let aurora = self.aurora;
+        let Recording { encoder, timing, frame, targets } = recording;
+        for image in aurora.images_behind(behind) {
+            let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some(label),
+                    color_attachments: &[Some(colour(target, fresh))],
+                    depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
+                    timestamp_writes: timing.render(label),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, *frame, &[]);
+                run(&mut pass);
+            };
+            // The finest level is cleared only where it has light.
+            for (level, light) in aurora.levels() {
+                draw("aurora strokes", light, level > 0, level == 0, &|pass| aurora.draw(pass, image, level));
+            }
+            draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
+        }
+    }
 }
 
 /// Sums thin images: all, or those whose light crosses the disk's plane so often.
@@ -48,35 +171,6 @@ pub fn draw_thin(
     });
     pass.set_bind_group(0, group, &[]);
     geometry.draw_thin(&mut pass, crossings);
-}
-
-/// Adds the images of the aurora that are behind the disk, or the others.
-pub fn draw_aurora(
-    aurora: &Aurora,
-    behind: bool,
-    timing: &mut Timing,
-    encoder: &mut wgpu::CommandEncoder,
-    group: &wgpu::BindGroup,
-    targets: &Targets,
-) {
-    for image in aurora.images_behind(behind) {
-        let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some(label),
-                color_attachments: &[Some(colour(target, fresh))],
-                depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
-                timestamp_writes: timing.render(label),
-                ..Default::default()
-            });
-            pass.set_bind_group(0, group, &[]);
-            run(&mut pass);
-        };
-        // The finest level is cleared only where it has light.
-        for (level, light) in aurora.levels() {
-            draw("aurora strokes", light, level > 0, level == 0, &|pass| aurora.draw(pass, image, level));
-        }
-        draw("aurora resolve", &targets.picture, false, false, &|pass| aurora.resolve(pass, image));
-    }
 }
 
 /// A target of colours, drawn from nothing where it is `fresh`, else onto what is there.

@@ -24,7 +24,7 @@ use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
-use crate::render::passes::{colour, depth, draw_aurora, draw_disk, draw_thin};
+use crate::render::passes::{Recording, Shown, colour, depth, draw_thin};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
@@ -273,81 +273,26 @@ impl Renderer {
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
-        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, offset_of!(types::Frame, fill) as u64 + 8, 4);
-        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, offset_of!(types::Frame, fill) as u64 + 12, 4);
+        let fill = offset_of!(types::Frame, fill) as u64;
+        encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, fill + 8, 4);
+        encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, fill + 12, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
-        let geometry = &self.geometry;
-        let timing = &mut self.timing;
-        let group = &self.frame_group;
-        let mut compute = |encoder: &mut wgpu::CommandEncoder, label: &'static str, run: &dyn Fn(&mut wgpu::ComputePass)| {
-            let mut pass =
-                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes: timing.compute(label) });
-            pass.set_bind_group(0, group, &[]);
-            run(&mut pass);
-        };
-        if !geometry.is_empty() {
-            compute(encoder, "vertices", &|pass| geometry.vertices(pass));
-            compute(encoder, "edges", &|pass| geometry.edges(pass));
-            compute(encoder, "triangles", &|pass| geometry.triangles(pass));
-            compute(encoder, "refine", &|pass| geometry.refine(pass));
-            compute(encoder, "mesh", &|pass| geometry.mesh(pass));
+        let shown = Shown { geometry: &self.geometry, background: &self.background, stars: &self.stars, aurora: &self.aurora, disk };
+        let mut recording =
+            Recording { encoder: &mut *encoder, timing: &mut self.timing, frame: &self.frame_group, targets: &self.targets };
+        shown.compute(&mut recording);
+        if let Some(disk) = disk.filter(|disk| disk.is_of_arcs()) {
+            // Whether any of it is in the picture.
+            let [from, to] = [offset_of!(DiskCounters, indices), offset_of!(types::Frame, disk)].map(|offset| offset as u64);
+            recording.encoder.copy_buffer_to_buffer(disk.arcs().counters(), from, &self.frame, to, 16);
         }
-        compute(encoder, "sky", &|pass| self.background.cells(pass));
-        compute(encoder, "stars", &|pass| self.stars.project(pass));
-        if self.aurora.images() > 0 {
-            compute(encoder, "aurora project", &|pass| self.aurora.project(pass));
-            compute(encoder, "aurora ends", &|pass| self.aurora.ends(pass));
-        }
-        if let Some(disk) = disk {
-            compute(encoder, "disk arcs", &|pass| disk.compute(pass));
-            compute(encoder, "disk mesh", &|pass| disk.compute_rest(pass));
-            if disk.is_of_arcs() {
-                // Whether any of it is in the picture.
-                let [from, to] = [offset_of!(DiskCounters, indices), offset_of!(types::Frame, disk)].map(|offset| offset as u64);
-                encoder.copy_buffer_to_buffer(disk.arcs().counters(), from, &self.frame, to, 16);
-            }
-        }
-
-        {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("draw"),
-                color_attachments: &[Some(colour(&self.targets.picture, true))],
-                depth_stencil_attachment: Some(depth(&self.targets.depth, true)),
-                timestamp_writes: self.timing.render("draw"),
-                ..Default::default()
-            });
-            pass.set_bind_group(0, group, &[]);
-            self.timing.count("draw", &mut pass, |pass| {
-                geometry.draw_opaque(pass);
-                self.background.draw(pass);
-                self.stars.draw(pass);
-            });
-        }
-        if self.aurora.images() > 0 {
-            // It asks what is before and behind of it.
-            self.aurora.ranges(encoder, &mut self.timing, group);
-            let label = "aurora walk";
-            let timestamp_writes = self.timing.compute(label);
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
-            pass.set_bind_group(0, group, &[]);
-            self.aurora.walk(&mut pass);
-        }
+        shown.draw_opaque(&mut recording);
+        shown.walk(&mut recording);
         // What is behind the disk is dimmed by it.
-        draw_aurora(&self.aurora, true, &mut self.timing, encoder, group, &self.targets);
-        // Images of the disk from the farthest on, each over what is behind it. Thin images have no depth: they come among those of the
-        // disk, by how often their light crosses its plane. Polygons have depth.
-        let laid_over = disk.is_some_and(DiskPasses::is_laid_over);
-        let among = |crossings: u32| if laid_over { geometry.has_thin_across(crossings) } else { crossings == 0 && geometry.has_thin() };
-        let mut left = 3;
-        for crossings in (0..=3).rev().filter(|crossings| among(*crossings)) {
-            draw_disk(disk, crossings + 1..=left, &mut self.timing, encoder, group, &self.targets);
-            left = crossings;
-            draw_thin(geometry, laid_over.then_some(crossings), self.timing.render("thin"), encoder, group, &self.targets);
-            self.post_process.compose(encoder, &mut self.timing, group, &self.targets);
-        }
-        draw_disk(disk, 1..=left, &mut self.timing, encoder, group, &self.targets);
-        draw_aurora(&self.aurora, false, &mut self.timing, encoder, group, &self.targets);
-        self.post_process.run(encoder, &mut self.timing, group, &self.targets, &self.adaptation, self.smooth, output);
+        shown.draw_aurora(&mut recording, true);
+        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
+        shown.draw_aurora(&mut recording, false);
+        self.post_process.run(&mut recording, &self.adaptation, self.smooth, output);
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
             if let Some(disk) = disk {

@@ -8,8 +8,8 @@ use bevy::log::warn;
 use thiserror::Error;
 
 use crate::lensing;
+use crate::scene::camera::viewpoint::CameraEnded;
 pub use crate::scene::picture_size as size;
-use crate::scene::viewpoint::CameraEnded;
 use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
 use crate::sim::History;
 pub use crate::sim::Moment;
@@ -74,11 +74,11 @@ pub fn surroundings() -> Surroundings {
     let file = lensing::default_file();
     let complain = |error: &lensing::TableError| warn!("{error}; the table is baked anew");
     let table = lensing::load_or_bake(&file, lensing::Scheme::Residual, lensing::SMALL_NODES, complain, |_| ());
-    let (stars, wrong) = scene::stars::load_or_stand_in();
+    let (stars, wrong) = scene::sky::stars::load_or_stand_in();
     if let Some(error) = wrong {
         warn!("{error}; a made-up sky stands in");
     }
-    let (milky_way, wrong) = scene::milky_way::load_or_dark();
+    let (milky_way, wrong) = scene::sky::milky_way::load_or_dark();
     if let Some(error) = wrong {
         warn!("{error}; the sky stays dark");
     }
@@ -89,7 +89,7 @@ pub fn surroundings() -> Surroundings {
     }
 }
 
-fn star(star: &scene::stars::Star) -> Star {
+fn star(star: &scene::sky::stars::Star) -> Star {
     let [x, y, z] = star.direction.to_array();
     Star { direction: [x, y, z, star.flux], colour: [star.temperature, 0.0, 0.0, 0.0] }
 }

@@ -6,16 +6,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 use glam::{DQuat, DVec3};
 
 use crate::lensing::{Slice, Table};
+use crate::scene::camera::viewpoint;
 use crate::scene::config::AuroraConfig;
 use crate::scene::ship::Ai;
-use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting, viewpoint};
+use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::static_momentum;
 
 use crate::render::Renderer;
-use crate::render::aurora::{AuroraAnimation, planet_history};
+use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
 use crate::render::disk::Disk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
@@ -172,31 +173,20 @@ impl Stage {
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
         let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };
+        // Light of the higher orders goes once round the hole.
+        let back = self.planet.as_ref().map_or(0.0, |planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0);
+        let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back, DQuat::IDENTITY));
         let mut placed = Vec::new();
         let mut unmetered = [0.0; 3];
-        // Light of the higher orders goes once round the hole.
-        let back = |planet: &Planet| 1.5 * (camera.radius() + planet.orbit.semi_latus_rectum) + 60.0;
-        let globe = self.planet.as_ref().and_then(|planet| planet_history(planet, time, back(planet), DQuat::IDENTITY));
         for (number, (object, model)) in self.objects.iter().enumerate() {
-            let (motion, position) = match object.body {
-                Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
-                Body::Ship(index) => match histories.get(index) {
-                    Some(history) if hidden != Some(index) => (Motion::Flying(history), history.at(time).position),
-                    _ => continue,
-                },
-                Body::Planet => match &globe {
-                    Some(history) => (Motion::Flying(history), history.at(time).position),
-                    None => continue,
-                },
-            };
-            let number_of_ship = match object.body {
+            let ship = match object.body {
                 Body::Ship(index) => Some(index),
                 _ => None,
             };
-            let light = match object.body {
-                Body::Planet => lighting::on_planet(position, self.disk.is_some()),
-                _ => lighting::at(position, self.has_ships, self.ambient),
-            };
+            if ship.is_some() && ship == hidden {
+                continue;
+            }
+            let Some((motion, position)) = motion(&object.body, time, histories, globe.as_ref()) else { continue };
             let object = Object {
                 model: model.model,
                 coarse: model.coarse,
@@ -205,40 +195,68 @@ impl Stage {
                 reach: self.reaches[number],
                 scale: object.scale,
                 id: number as u32 + 1,
-                light,
+                light: match object.body {
+                    Body::Planet => lighting::on_planet(position, self.disk.is_some()),
+                    _ => lighting::at(position, self.has_ships, self.ambient),
+                },
             };
-            let images = placed.len();
-            placed.extend(instances_of(&view, time, &object, settings.orders));
-            if let Some(ship) = number_of_ship
-                && let Some(full) = self.full_thrust(ship, settings)
-            {
-                placed[images..].iter_mut().for_each(|image| {
-                    let emitted = time - f64::from(image.instance.offset[3]);
-                    image.instance.position[3] = (1.0 - glow(histories[ship], emitted, full)) as f32;
-                });
+            let mut images = instances_of(&view, time, &object, settings.orders);
+            if let Some(ship) = ship {
+                if let Some(full) = self.full_thrust(ship, settings) {
+                    shine(&mut images, histories[ship], time, full);
+                }
+                if settings.own_ship == Some(ship) {
+                    images.iter_mut().for_each(|image| image.instance.triangles[3] |= OWN);
+                    unmetered = images.first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
+                }
             }
-            if matches!(number_of_ship, Some(ship) if settings.own_ship == Some(ship)) {
-                placed[images..].iter_mut().for_each(|image| image.instance.triangles[3] |= OWN);
-                unmetered = placed[images..].first().map_or([0.0; 3], |image| circle(&camera, image, object.reach));
-            }
+            placed.append(&mut images);
         }
-        let mut aurora = None;
-        if let Some(planet) = &self.planet {
-            let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-            aurora = show.as_mut().and_then(|show| show.frame(&view, time, back(planet), settings.orders));
-            // Only the planet is lit by it.
-            let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
-            if let (Some(ground), Some(number)) = (aurora.as_mut().and_then(|aurora| aurora.ground.as_mut()), globe) {
-                ground.light.planet[0] = number as u32 + 1;
-            }
+        let aurora = self.aurora(&view, time, back);
+        FrameInput { camera, time, placed, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
+    }
+
+    /// The planet's aurora at T = `time`, if it has one and that is seen; light comes from `back` r_s/c before at most.
+    fn aurora(&self, view: &View, time: f64, back: f64) -> Option<AuroraFrame> {
+        self.planet.as_ref()?;
+        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut aurora = show.as_mut()?.frame(view, time, back, view.settings.orders)?;
+        // Only the planet is lit by it.
+        let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
+        if let (Some(ground), Some(number)) = (aurora.ground.as_mut(), globe) {
+            ground.light.planet[0] = number as u32 + 1;
         }
-        let mut settings = *settings;
-        settings.unmetered = unmetered;
-        settings.stars &= self.sky.0;
-        settings.milky_way &= self.sky.1;
-        settings.star_brightness *= self.sky.2;
-        settings.sky_brightness *= self.sky.2;
-        FrameInput { camera, time, placed, aurora, settings }
+        Some(aurora)
+    }
+
+    /// The settings with what the scene says of its sky.
+    fn with_sky(&self, settings: &Settings) -> Settings {
+        let (stars, milky_way, brightness) = self.sky;
+        Settings {
+            stars: settings.stars && stars,
+            milky_way: settings.milky_way && milky_way,
+            star_brightness: settings.star_brightness * brightness,
+            sky_brightness: settings.sky_brightness * brightness,
+            ..*settings
+        }
+    }
+}
+
+/// How a body moves, and where it is at T = `time`; None for a ship or a planet whose worldline is not known.
+fn motion<'a>(body: &Body, time: f64, ships: &[&'a History], globe: Option<&'a History>) -> Option<(Motion<'a>, DVec3)> {
+    let history = match body {
+        &Body::Held { position, attitude } => return Some((Motion::Held { position, attitude }, position)),
+        Body::Ship(index) => ships.get(*index).copied()?,
+        Body::Planet => globe?,
+    };
+    Some((Motion::Flying(history), history.at(time).position))
+}
+
+/// Lets the nozzles in the images of a ship at T = `time` shine by its thrust; `full` (c²/r_s) is all that it has.
+fn shine(images: &mut [Placed], history: &History, time: f64, full: f64) {
+    for image in images {
+        let emitted = time - f64::from(image.instance.offset[3]);
+        image.instance.position[3] = (1.0 - glow(history, emitted, full)) as f32;
     }
 }
 

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use glam::{DQuat, DVec3};
 
 use super::config::GameConfig;
-use super::import::load_or_placeholder;
 use super::load::Scene;
 use super::model::Model;
+use super::model::import::load_or_placeholder;
 use super::prop::Shape;
 use super::ship::{Ai, ShipSpec};
 

@@ -26,9 +26,9 @@ use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::fault::{Fault, in_range};
+use super::document::fault::{Fault, in_range};
 use super::model::{Material, Model};
-use super::{shapes, texture};
+use super::model::{shapes, texture};
 use crate::spacetime::matter::ShipState;
 use crate::spacetime::orbit::{Elements, orbital_frequency};
 

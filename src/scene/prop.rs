@@ -18,15 +18,17 @@
 //! clearance = 1.2                # "lattice" only: spheres that come nearer to the hole than this are left out, r_s
 //! ```
 
+use std::ops::RangeInclusive;
+
 use glam::{DQuat, DVec3};
 use serde::Deserialize;
 use toml::Spanned;
 
 use super::document::exactly_or_none;
-use super::fault::{Fault, fault, in_range};
+use super::document::fault::{Fault, fault, in_range};
+use super::model::shapes::{self, Anchor};
+use super::model::texture;
 use super::model::{Material, Model};
-use super::shapes::{self, Anchor};
-use super::texture;
 
 /// The most spheres in one lattice.
 pub const MAX_LATTICE: u64 = 200_000;
@@ -130,60 +132,10 @@ pub fn check_props(entries: &[Spanned<PropEntry>]) -> Result<Vec<Prop>, Fault> {
 }
 
 fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
-    let or = |value: &Option<Spanned<f64>>, key, low, high, unit, default| {
-        value.as_ref().map_or(Ok(default), |value| in_range(value, key, low..=high, unit))
-    };
-    let triangles = match &entry.triangles {
-        Some(place) if !(2..=MAX_TRIANGLES_EACH).contains(place.get_ref()) => {
-            return fault(place, format!("triangles = {} must be from 2 to {MAX_TRIANGLES_EACH}", place.get_ref()));
-        }
-        Some(place) => Some(*place.get_ref()),
-        None => None,
-    };
-    let model = entry.model.get_ref().as_str();
-    let shape = match model {
-        "sphere" => Shape::Sphere(triangles.unwrap_or(480)),
-        "icosphere" => Shape::Icosphere(triangles.unwrap_or(320)),
-        "lattice" => Shape::Icosphere(triangles.unwrap_or(20)),
-        "square" => Shape::Square(triangles.unwrap_or(200), entry.anchor.as_ref().map(|place| *place.get_ref()).unwrap_or_default()),
-        file if file.ends_with(".glb") || file.ends_with(".gltf") => Shape::File(file.to_owned()),
-        _ => {
-            return fault(
-                &entry.model,
-                format!("model = {model:?} must be \"sphere\", \"icosphere\", \"square\", \"lattice\" or a .glb file"),
-            );
-        }
-    };
-    if let (Some(place), false) = (&entry.anchor, model == "square") {
-        return fault(place, "anchor goes with model = \"square\" only".into());
-    }
-    let size = or(&entry.size, "size", 1e-4, 1e4, "r_s", 1.0)?;
-    let attitude = match &entry.attitude {
-        None => DQuat::IDENTITY,
-        Some(place) => {
-            let [w, x, y, z] = *place.get_ref();
-            let attitude = DQuat::from_xyzw(x, y, z, w);
-            if !(1e-6..1e6).contains(&attitude.length()) {
-                return fault(place, "attitude must be a quaternion [w, x, y, z] of finite length, not zero".into());
-            }
-            attitude.normalize()
-        }
-    };
-    let [r, g, b] = colour(&entry.colour, "colour", 1.0, [0.8; 3])?;
-    // What only shines is a light and no surface: it mirrors nothing. In glTF's model a black metal without gloss is that.
-    let surface = if [r, g, b] == [0.0; 3] { (1.0, 1.0) } else { (Material::default().metallic, Material::default().roughness) };
-    let material = Material {
-        base_colour: [r, g, b, 1.0],
-        metallic: surface.0,
-        roughness: surface.1,
-        emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
-        temperature: or(&entry.temperature, "temperature", 0.0, 1e9, "K", 0.0)? as f32,
-        drive: false,
-        texture: entry.texture.map(|name| match name {
-            TextureName::Checker => texture::checker(),
-            TextureName::Galaxy => texture::galaxy(),
-        }),
-    };
+    let shape = shape(entry)?;
+    let size = number(&entry.size, "size", 1e-4..=1e4, "r_s", 1.0)?;
+    let attitude = attitude(entry)?;
+    let material = material(entry)?;
     Ok(Prop {
         name: entry.name.clone().unwrap_or_else(|| format!("prop {index}")),
         shape,
@@ -194,36 +146,103 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
     })
 }
 
+/// A number inside `range`, or the default where the key is absent.
+fn number(value: &Option<Spanned<f64>>, key: &str, range: RangeInclusive<f64>, unit: &str, default: f64) -> Result<f64, Fault> {
+    value.as_ref().map_or(Ok(default), |value| in_range(value, key, range, unit))
+}
+
+fn shape(entry: &PropEntry) -> Result<Shape, Fault> {
+    let triangles = match &entry.triangles {
+        Some(count) if !(2..=MAX_TRIANGLES_EACH).contains(count.get_ref()) => {
+            return fault(count, format!("triangles = {} must be from 2 to {MAX_TRIANGLES_EACH}", count.get_ref()));
+        }
+        Some(count) => Some(*count.get_ref()),
+        None => None,
+    };
+    let model = entry.model.get_ref().as_str();
+    let shape = match model {
+        "sphere" => Shape::Sphere(triangles.unwrap_or(480)),
+        "icosphere" => Shape::Icosphere(triangles.unwrap_or(320)),
+        "lattice" => Shape::Icosphere(triangles.unwrap_or(20)),
+        "square" => Shape::Square(triangles.unwrap_or(200), entry.anchor.as_ref().map(|anchor| *anchor.get_ref()).unwrap_or_default()),
+        file if file.ends_with(".glb") || file.ends_with(".gltf") => Shape::File(file.to_owned()),
+        _ => {
+            return fault(
+                &entry.model,
+                format!("model = {model:?} must be \"sphere\", \"icosphere\", \"square\", \"lattice\" or a .glb file"),
+            );
+        }
+    };
+    match &entry.anchor {
+        Some(anchor) if model != "square" => fault(anchor, "anchor goes with model = \"square\" only".into()),
+        _ => Ok(shape),
+    }
+}
+
+fn attitude(entry: &PropEntry) -> Result<DQuat, Fault> {
+    let Some(written) = &entry.attitude else { return Ok(DQuat::IDENTITY) };
+    let [w, x, y, z] = *written.get_ref();
+    let attitude = DQuat::from_xyzw(x, y, z, w);
+    if !(1e-6..1e6).contains(&attitude.length()) {
+        return fault(written, "attitude must be a quaternion [w, x, y, z] of finite length, not zero".into());
+    }
+    Ok(attitude.normalize())
+}
+
+fn material(entry: &PropEntry) -> Result<Material, Fault> {
+    let [r, g, b] = colour(&entry.colour, "colour", 1.0, [0.8; 3])?;
+    // What only shines is a light and no surface: it mirrors nothing. In glTF's model a black metal without gloss is that.
+    let surface = if [r, g, b] == [0.0; 3] { (1.0, 1.0) } else { (Material::default().metallic, Material::default().roughness) };
+    Ok(Material {
+        base_colour: [r, g, b, 1.0],
+        metallic: surface.0,
+        roughness: surface.1,
+        emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
+        temperature: number(&entry.temperature, "temperature", 0.0..=1e9, "K", 0.0)? as f32,
+        drive: false,
+        texture: entry.texture.map(|name| match name {
+            TextureName::Checker => texture::checker(),
+            TextureName::Galaxy => texture::galaxy(),
+        }),
+    })
+}
+
+/// Centres of the prop, in r_s: one, or those of a lattice.
 fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
-    let centre = DVec3::from_array(entry.position.as_ref().map_or([0.0; 3], |place| *place.get_ref()));
-    let lattice = entry.model.get_ref() == "lattice";
+    let centre = DVec3::from_array(entry.position.as_ref().map_or([0.0; 3], |position| *position.get_ref()));
+    let is_lattice = entry.model.get_ref() == "lattice";
     let radius = centre.length();
-    let nearest = if lattice { 0.0 } else { 1.001 };
+    let nearest = if is_lattice { 0.0 } else { 1.001 };
     if !(nearest..=1e4).contains(&radius) {
         let message = format!("position is {radius} r_s from the hole, allowed {nearest} to 10000 r_s: inside r = 1 nothing can be held");
         return match &entry.position {
-            Some(place) => fault(place, message),
+            Some(position) => fault(position, message),
             None => fault(&entry.model, message),
         };
     }
-    if !lattice {
-        let count = entry.count.as_ref().map(Spanned::span);
-        let misplaced = [count, entry.spacing.as_ref().map(Spanned::span), entry.clearance.as_ref().map(Spanned::span)];
-        return match misplaced.into_iter().flatten().next() {
-            Some(span) => Err(Fault { span, message: "count, spacing and clearance go with model = \"lattice\" only".into() }),
-            None => Ok(vec![centre]),
-        };
+    if is_lattice {
+        return lattice(entry, centre, size);
     }
-    let Some(place) = &entry.count else {
+    let count = entry.count.as_ref().map(Spanned::span);
+    let misplaced = [count, entry.spacing.as_ref().map(Spanned::span), entry.clearance.as_ref().map(Spanned::span)];
+    match misplaced.into_iter().flatten().next() {
+        Some(span) => Err(Fault { span, message: "count, spacing and clearance go with model = \"lattice\" only".into() }),
+        None => Ok(vec![centre]),
+    }
+}
+
+/// Centres of the spheres of a lattice about `centre`; those too near to the hole are left out.
+fn lattice(entry: &PropEntry, centre: DVec3, size: f64) -> Result<Vec<DVec3>, Fault> {
+    let Some(written) = &entry.count else {
         return fault(&entry.model, "a lattice needs count = [nx, ny, nz]".into());
     };
-    let count = *place.get_ref();
+    let count = *written.get_ref();
     let total: u64 = count.iter().map(|&n| u64::from(n).min(MAX_LATTICE + 1)).fold(1, u64::saturating_mul);
     if !(1..=MAX_LATTICE).contains(&total) {
-        return fault(place, format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"));
+        return fault(written, format!("count makes {total} spheres, allowed 1 to {MAX_LATTICE}"));
     }
-    let spacing = entry.spacing.as_ref().map_or(Ok(2.0), |place| in_range(place, "spacing", 1e-3..=1e3, "r_s"))?;
-    let clearance = entry.clearance.as_ref().map_or(Ok(1.2), |place| in_range(place, "clearance", 1.0..=1e4, "r_s"))?;
+    let spacing = number(&entry.spacing, "spacing", 1e-3..=1e3, "r_s", 2.0)?;
+    let clearance = number(&entry.clearance, "clearance", 1.0..=1e4, "r_s", 1.2)?;
     let along = |index: u32, axis: usize| (f64::from(index) - 0.5 * f64::from(count[axis] - 1)) * spacing;
     let mut positions = Vec::with_capacity(total as usize);
     for x in 0..count[0] {
@@ -242,9 +261,9 @@ fn positions(entry: &PropEntry, size: f64) -> Result<Vec<DVec3>, Fault> {
 fn colour(value: &Option<Spanned<[f64; 3]>>, key: &str, most: f64, default: [f32; 3]) -> Result<[f32; 3], Fault> {
     match value {
         None => Ok(default),
-        Some(place) if place.get_ref().iter().all(|channel| (0.0..=most).contains(channel)) => {
-            Ok(place.get_ref().map(|channel| channel as f32))
+        Some(colour) if colour.get_ref().iter().all(|channel| (0.0..=most).contains(channel)) => {
+            Ok(colour.get_ref().map(|channel| channel as f32))
         }
-        Some(place) => fault(place, format!("{key} = {:?} must be three numbers from 0 to {most}", place.get_ref())),
+        Some(colour) => fault(colour, format!("{key} = {:?} must be three numbers from 0 to {most}", colour.get_ref())),
     }
 }

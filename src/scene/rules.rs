@@ -11,7 +11,7 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::fault::{Fault, in_range};
+use super::document::fault::{Fault, in_range};
 
 /// What ends the chase.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@
 //! χ), 0 at the periapsis); `inclination`, `node` (azimuth of the ascending node), `phase` (angle from the node to the ship along its
 //! motion) place it. Angles in radians, 0 if absent; inclination π/2 … π goes round the other way.
 
-use super::fault::{Fault, fault, in_range};
+use super::document::fault::{Fault, fault, in_range};
 use std::f64::consts::PI;
 use std::ops::Range;
 

@@ -59,6 +59,9 @@ pub struct Assisted {
     pub avoiding: bool,
 }
 
+/// Where it thrusts to keep off the hole, a unit vector outward, along the motion and along the orbit's axis: chosen by hand, outward to
+/// stop the fall, and along the motion to raise the orbit.
+const AWAY: DVec3 = DVec3::new(0.6, 0.8, 0.0);
 /// How far ahead it looks for the hole, in r_s/c, and in how many steps.
 const LOOK_AHEAD: (f64, usize) = (12.0, 24);
 
@@ -83,7 +86,7 @@ pub fn assisted(state: &ShipState, stick: &Stick, engine: &Engine, reference: Re
     command.thrust = command.thrust.clamp_length_max(engine.max_thrust);
     let avoiding = settings.avoid_radius.is_some_and(|radius| falls_below(state, radius));
     if avoiding {
-        let away = Point::from(state).from_local(DVec3::new(0.6, 0.8, 0.0));
+        let away = Point::from(state).from_local(AWAY);
         command.thrust = to_body * away * engine.max_thrust;
     }
     Assisted { command, avoiding }

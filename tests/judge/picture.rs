@@ -283,7 +283,7 @@ fn stars_are_seen_where_shooting_sees_them() {
     use lensrunner::judge::picture::shade::Shift;
     use lensrunner::judge::picture::sky::stars;
     use lensrunner::judge::shoot_sky;
-    use lensrunner::scene::stars::Star;
+    use lensrunner::scene::sky::stars::Star;
     let mut rng = StdRng::seed_from_u64(17);
     let mut seen = [0; 3];
     for radius in [0.6, 1.2, 8.0] {

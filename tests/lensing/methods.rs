@@ -11,11 +11,11 @@ use crate::lensing::stability::{QUARTER_PIXEL, angle, finite, seen};
 use crate::support::table;
 
 /// A method of the shader: its name and its answer for a place in an order.
-type Twin = (&'static str, fn(&Slice, lensrunner::lensing::source_point::SourcePoint, u32) -> LensRay);
+type Twin = (&'static str, fn(&Slice, lensrunner::lensing::lookup::source_point::SourcePoint, u32) -> LensRay);
 
 /// The methods without a table in f32, as the shader has them.
 fn without_a_table() -> [Twin; 6] {
-    fn swept(at: lensrunner::lensing::source_point::SourcePoint, order: u32) -> f32 {
+    fn swept(at: lensrunner::lensing::lookup::source_point::SourcePoint, order: u32) -> f32 {
         lookup::swept(at, order)
     }
     [
@@ -40,7 +40,7 @@ fn hostile_numbers_give_no_nan_without_a_table() {
         for along in hostile {
             for across in hostile {
                 for height in hostile {
-                    let at = lensrunner::lensing::source_point::source_point(&slice.camera, along, across, height);
+                    let at = lensrunner::lensing::lookup::source_point::source_point(&slice.camera, along, across, height);
                     for (name, method) in without_a_table() {
                         for order in [1, 2, 3] {
                             let ray = method(&slice, at, order);
@@ -68,8 +68,12 @@ fn single_precision_follows_double_without_a_table() {
         let slice = Slice::new(table(), l);
         let half = (0.5 * phi).sin();
         let along = (r - l) - 2.0 * r * half * half;
-        let at =
-            lensrunner::lensing::source_point::source_point(&slice.camera, along as f32, (r * phi.sin()) as f32, (r * phi.cos()) as f32);
+        let at = lensrunner::lensing::lookup::source_point::source_point(
+            &slice.camera,
+            along as f32,
+            (r * phi.sin()) as f32,
+            (r * phi.cos()) as f32,
+        );
         for order in Order::ALL {
             let truth = light::connect(1.0 / r, order.swept(phi), 1.0 / l, Branch::Plus).expect("there is light");
             let psi = light::rain_angle(truth.slope, truth.energy, 1.0 / l);
@@ -94,7 +98,7 @@ fn the_approximations_are_the_same_in_both_precisions() {
         [(3.0f64, 1.0f64, 50.0f64), (5.0, 1.5, 200.0), (40.0, 1.2, 4.0), (6.0, 0.3, 8.0), (1.5, 2.0, 1.2), (900.0, 0.1, 30.0)]
     {
         let slice = Slice::new(table(), camera);
-        let at = lensrunner::lensing::source_point::source_point(
+        let at = lensrunner::lensing::lookup::source_point::source_point(
             &slice.camera,
             (r * phi.cos() - camera) as f32,
             (r * phi.sin()) as f32,
@@ -231,7 +235,7 @@ fn watchers<'a>(projectors: &'a [(&'a str, f64, Box<dyn Projector>)]) -> Vec<Wat
             let slice = Slice::new(table(), l);
             let half = (0.5 * phi).sin();
             let along = (r - l) - 2.0 * r * half * half;
-            let at = lensrunner::lensing::source_point::source_point(
+            let at = lensrunner::lensing::lookup::source_point::source_point(
                 &slice.camera,
                 along as f32,
                 (r * phi.sin()) as f32,

@@ -1,7 +1,7 @@
 //! A slice of the table: its texels, how they are interpolated, eight places at once, and its shader beside it.
 
 use lensrunner::lensing::lookup::{residuals, residuals_linear};
-use lensrunner::lensing::slice::Cut;
+use lensrunner::lensing::table::slice::Cut;
 use lensrunner::lensing::{Slice, lens_lookup_at, score};
 use rand::SeedableRng;
 
@@ -124,10 +124,10 @@ fn the_shader_has_every_function_of_its_twin() {
     let lensing = shaders!("lensing", "residuals");
     let others = shaders!("orbit", "shooting", "exact", "integrate", "refine", "closed", "static_ray");
     for (twin, shader) in [
-        (include_str!("../../src/lensing/elementary.rs"), lensing),
-        (include_str!("../../src/lensing/formulas.rs"), lensing),
-        (include_str!("../../src/lensing/inside.rs"), lensing),
-        (include_str!("../../src/lensing/lookup.rs"), lensing),
+        (include_str!("../../src/lensing/closed_form/elementary.rs"), lensing),
+        (include_str!("../../src/lensing/closed_form/formulas.rs"), lensing),
+        (include_str!("../../src/lensing/lookup/inside.rs"), lensing),
+        (include_str!("../../src/lensing/lookup/mod.rs"), lensing),
         (include_str!("../../src/lensing/orbit.rs"), others),
         (include_str!("../../src/lensing/shooting.rs"), others),
         (include_str!("../../src/lensing/closed.rs"), others),

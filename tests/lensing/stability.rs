@@ -5,8 +5,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use lensrunner::lensing::closed_form::elementary;
 use lensrunner::lensing::methods::{self, Projector, Query};
-use lensrunner::lensing::{LensRay, Slice, double, elementary, grid, lens_lookup_aged, lens_lookup_at, score, single};
+use lensrunner::lensing::table::grid;
+use lensrunner::lensing::{LensRay, Slice, double, lens_lookup_aged, lens_lookup_at, score, single};
 use lensrunner::spacetime::light::{self, Branch, Fate, Order};
 use proptest::prelude::*;
 
@@ -220,7 +222,7 @@ fn single_precision_follows_double() {
 /// The polynomials of the f32 copy against the library, over the ranges that they are for.
 #[test]
 fn elementary_functions_are_the_librarys() {
-    use lensrunner::lensing::elementary::single::{above, ln, ln4, log1p, short_arctan, stumpff, stumpffs};
+    use lensrunner::lensing::closed_form::elementary::single::{above, ln, ln4, log1p, short_arctan, stumpff, stumpffs};
     for i in 0..=20_000 {
         let part = f64::from(i) / 20_000.0;
         let x = (10f64.powf(60.0 * part - 30.0)) as f32;

@@ -3,9 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
+use lensrunner::lensing::lookup::source_point::SourcePoint;
 use lensrunner::lensing::lookup::{YOUNG, lookup};
-use lensrunner::lensing::source_point::SourcePoint;
-use lensrunner::lensing::{Scheme, Slice, Table, TableError, double, grid, lens_lookup, lens_lookup_at, load_or_bake, paper, score};
+use lensrunner::lensing::table::grid;
+use lensrunner::lensing::{Scheme, Slice, Table, TableError, double, lens_lookup, lens_lookup_at, load_or_bake, paper, score};
 use lensrunner::spacetime::light::Order;
 use proptest::prelude::*;
 use rand::SeedableRng;

@@ -11,7 +11,7 @@ use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::model::Vertex;
-use lensrunner::scene::shapes::{Anchor, icosphere, square, uv_sphere};
+use lensrunner::scene::model::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::{self, GameConfig, Material, Model};
 
 use crate::gpu::GPU;

@@ -5,7 +5,7 @@ use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::method::Method;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
-use lensrunner::scene::milky_way;
+use lensrunner::scene::sky::milky_way;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use std::sync::LazyLock;

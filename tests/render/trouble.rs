@@ -8,7 +8,8 @@ use lensrunner::render::instances::{Motion, Placed};
 use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
-use lensrunner::scene::{Material, shapes};
+use lensrunner::scene::Material;
+use lensrunner::scene::model::shapes;
 use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light;
 

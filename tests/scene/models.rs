@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
-use lensrunner::scene::import::{ModelError, load_model, load_or_placeholder};
-use lensrunner::scene::shapes::{Anchor, icosphere, square, uv_sphere};
-use lensrunner::scene::{Material, Model, assets_folder, texture};
+use lensrunner::scene::model::import::{ModelError, load_model, load_or_placeholder};
+use lensrunner::scene::model::shapes::{Anchor, icosphere, square, uv_sphere};
+use lensrunner::scene::model::texture;
+use lensrunner::scene::{Material, Model, assets_folder};
 
 /// How often each edge of the surface is used, vertices being the same where their positions are, bit by bit.
 fn edges(model: &Model) -> HashMap<([u32; 3], [u32; 3]), u32> {

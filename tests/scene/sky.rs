@@ -1,7 +1,8 @@
 //! Stars, Milky Way and black-body colours against published values.
 
 use glam::{Vec2, Vec3};
-use lensrunner::scene::{assets_folder, blackbody, milky_way, stars};
+use lensrunner::scene::sky::{milky_way, stars};
+use lensrunner::scene::{assets_folder, blackbody};
 
 fn towards(ra_degrees: f64, dec_degrees: f64) -> Vec3 {
     let (ra, dec) = (ra_degrees.to_radians(), dec_degrees.to_radians());

@@ -1,26 +1,19 @@
 //! Whole pictures by the judge: any scene, any camera, one geodesic for every sample of a pixel.
 //!
 //! - [`world`]: the bodies of a scene; their worldlines are handed in.
-//! - [`tree`]: bounding volume hierarchies over triangles, traced along pieces of a curve.
-//! - `find`: what is seen in one direction; `packet`: the same for neighbours together.
+//! - `find`: what is seen in one direction, or in neighbouring ones together.
 //! - `roots`: crossings of a curve of bounded bend with a plane.
-//! - `sweep`: where flying bodies may be, by delay; `span`: the delays between which a camera may see them.
 //! - [`shade`], [`texture`], [`sky`], [`disk`]: the game's rules of colour.
 //! - [`post_process`]: linear light to a picture for the eye.
 
 pub mod disk;
 mod find;
-mod packet;
 pub mod post_process;
 mod roots;
 pub mod shade;
 pub mod sky;
-mod span;
-mod sweep;
 pub mod texture;
-pub mod tree;
 pub mod world;
-mod worldline;
 
 use std::collections::HashMap;
 use std::f64::consts::PI;
@@ -31,8 +24,8 @@ use rayon::prelude::*;
 
 pub use disk::{Crossing, Disk};
 pub use find::Seen;
+pub use world::worldline::{Motion, Pose, Sway, Worldline};
 pub use world::{Thing, World};
-pub use worldline::{Motion, Pose, Sway, Worldline};
 
 use super::bvh::order::squares;
 use super::trace::{Hit, PixelCamera};
@@ -226,6 +219,18 @@ struct Band {
 }
 
 impl Band {
+    /// Empty, with room for so many pixels.
+    fn with_capacity(pixels: usize) -> Band {
+        Band {
+            light: Vec::with_capacity(pixels),
+            layers: Vec::with_capacity(pixels),
+            shares: Vec::with_capacity(pixels),
+            open: Vec::with_capacity(pixels),
+            dark: Vec::with_capacity(pixels),
+            missing: 0,
+        }
+    }
+
     /// Black and empty: so many pixels for which there was no time.
     fn missing(pixels: usize) -> Band {
         Band {
@@ -251,53 +256,51 @@ impl Painter<'_> {
         };
         let samples = self.samples(columns, rows, &place);
         let grid = Grid { samples: &samples, columns, rows };
-        let pixels = (width * (end - first)) as usize;
-        let mut band = Band {
-            light: Vec::with_capacity(pixels),
-            layers: Vec::with_capacity(pixels),
-            shares: Vec::with_capacity(pixels),
-            open: Vec::with_capacity(pixels),
-            dark: Vec::with_capacity(pixels),
-            missing: 0,
-        };
-        let weight = 1.0 / (n * n) as f32;
+        let mut band = Band::with_capacity((width * (end - first)) as usize);
         for y in 0..(end - first) as usize {
             for x in 0..width as usize {
-                let mut light = Vec3::ZERO;
-                let mut open = 0.0;
-                let mut dark = true;
-                let mut shares: Vec<(u32, u32, f32)> = Vec::new();
-                for k in 0..(n * n) as usize {
-                    let (row, column) = (y * n as usize + k / n as usize, x * n as usize + k % n as usize);
-                    let sample = &samples[row * columns + column];
-                    light += (sample.veil + self.colour(&grid, row, column) * sample.through) * weight;
-                    dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
-                    match &sample.end {
-                        Ending::Surface { hit, .. } => {
-                            let key = (self.world.things[hit.object].id, hit.order);
-                            match shares.iter_mut().find(|share| (share.0, share.1) == key) {
-                                Some(share) => share.2 += weight,
-                                None => shares.push((key.0, key.1, weight)),
-                            }
-                        }
-                        _ => open += weight * sample.through,
-                    }
-                }
-                shares.sort_unstable_by_key(|share| (share.0, share.1));
                 // With an even number of samples none lies at the centre: one more ray is traced for the layers.
                 let centre = if n % 2 == 1 {
-                    samples[(y * n as usize + n as usize / 2) * columns + x * n as usize + n as usize / 2]
+                    *grid.at(y * n as usize + n as usize / 2, x * n as usize + n as usize / 2)
                 } else {
                     self.sample(x as f64 + 0.5, f64::from(first) + y as f64 + 0.5)
                 };
-                band.light.push(light.to_array());
+                self.add_pixel(&mut band, &grid, [x, y]);
                 band.layers.push(self.layer(&centre));
-                band.shares.push(shares);
-                band.open.push(open);
-                band.dark.push(dark);
             }
         }
         band
+    }
+
+    /// Adds the mean of a pixel's samples to a band, and what they have met.
+    fn add_pixel(&self, band: &mut Band, grid: &Grid, [x, y]: [usize; 2]) {
+        let n = self.quality.samples as usize;
+        let weight = 1.0 / (n * n) as f32;
+        let mut light = Vec3::ZERO;
+        let mut open = 0.0;
+        let mut dark = true;
+        let mut shares: Vec<(u32, u32, f32)> = Vec::new();
+        for k in 0..n * n {
+            let (row, column) = (y * n + k / n, x * n + k % n);
+            let sample = grid.at(row, column);
+            light += (sample.veil + self.colour(grid, row, column) * sample.through) * weight;
+            dark &= matches!(sample.end, Ending::Dark) && sample.through == 1.0;
+            match &sample.end {
+                Ending::Surface { hit, .. } => {
+                    let key = (self.world.things[hit.object].id, hit.order);
+                    match shares.iter_mut().find(|share| (share.0, share.1) == key) {
+                        Some(share) => share.2 += weight,
+                        None => shares.push((key.0, key.1, weight)),
+                    }
+                }
+                _ => open += weight * sample.through,
+            }
+        }
+        shares.sort_unstable_by_key(|share| (share.0, share.1));
+        band.light.push(light.to_array());
+        band.shares.push(shares);
+        band.open.push(open);
+        band.dark.push(dark);
     }
 
     /// The rays of a band, `place` giving the place of each on the screen.

@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec2, Vec3};
 
 use super::texture::Pyramid;
+use super::world::worldline::Motion;
 use super::world::{Thing, World};
-use super::worldline::Motion;
 use crate::judge::trace::Hit;
 use crate::scene::lighting::Surroundings;
 use crate::scene::model::Material;

@@ -10,8 +10,8 @@ use super::texture::{Level, Pyramid};
 use crate::judge::ray::{Follower, Stop, sky_radius};
 use crate::judge::trace::PixelCamera;
 use crate::scene::blackbody;
-use crate::scene::milky_way::{self, MilkyWay};
-use crate::scene::stars::{SKY_UNIT, Star};
+use crate::scene::sky::milky_way::{self, MilkyWay};
+use crate::scene::sky::stars::{SKY_UNIT, Star};
 use crate::spacetime::metric::{CRITICAL_IMPACT, river_speed};
 
 /// The Milky Way as linear light.

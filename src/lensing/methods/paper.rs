@@ -5,8 +5,8 @@ use wide::f32x8;
 
 use super::{Frame, Projector, Query, Sight, Vertex, each};
 use crate::lensing::batch::{self, LANES};
+use crate::lensing::lookup::source_point::source_point;
 use crate::lensing::single::{LensCamera, camera};
-use crate::lensing::source_point::source_point;
 use crate::lensing::{Table, paper};
 use crate::spacetime::light::{Branch, Order};
 
@@ -65,7 +65,7 @@ impl Paper {
         let nodes = self.0.size[0] as usize;
         let half = |inside: bool| {
             let z = paper::camera_mesh(self.0.scheme, inside).coordinate(l);
-            let (layer, share) = crate::lensing::spline::cell(if z.is_finite() { z } else { 0.0 }, nodes);
+            let (layer, share) = crate::lensing::table::spline::cell(if z.is_finite() { z } else { 0.0 }, nodes);
             let [radial, angular] = paper::slice_meshes(self.0.scheme, inside, l);
             let first = radial.ends()[0] as f32;
             Half { radial: Axis::new(radial, nodes), angular: Axis::new(angular, nodes), layer, share: share as f32, first }

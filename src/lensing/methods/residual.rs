@@ -5,10 +5,11 @@ use half::f16;
 
 use super::slice::{in_range, seen};
 use super::{Frame, Projector, Query, Sight, Vertex, each};
+use crate::lensing::Table;
+use crate::lensing::lookup::source_point::source_point;
 use crate::lensing::lookup::{LensRay, OLD, YOUNG, lookup_with, swept};
 use crate::lensing::single::{LensCamera, camera};
-use crate::lensing::source_point::source_point;
-use crate::lensing::{Table, grid, spline};
+use crate::lensing::table::{grid, spline};
 use crate::spacetime::light::{Branch, Order};
 
 /// How values between the nodes are found.

@@ -2,10 +2,10 @@
 
 use super::{Frame, Projector, Query, Sight, Vertex, each, sight};
 use crate::lensing::batch::{LANES, LensRays, lens_lookup_batch};
+use crate::lensing::lookup::source_point::source_point;
 use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged, lookup_with, residuals_half, residuals_linear, swept};
 use crate::lensing::single::LensCamera;
-use crate::lensing::slice::Cut;
-use crate::lensing::source_point::source_point;
+use crate::lensing::table::slice::Cut;
 use crate::lensing::{self, LensRay, Slice};
 use crate::spacetime::light::{self, Branch, Order};
 
@@ -14,7 +14,7 @@ pub struct Table(pub lensing::Table);
 
 /// Whether the tables reach so far.
 pub(super) fn in_range(query: Query) -> bool {
-    let [low, high] = lensing::grid::CAMERA_RANGE;
+    let [low, high] = lensing::table::grid::CAMERA_RANGE;
     (low..=high).contains(&query.camera) && 1.0 / query.r >= lensing::double::POINT_RANGE[0]
 }
 

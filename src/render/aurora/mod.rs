@@ -5,12 +5,12 @@
 //! [`race`] draws the experiment of Sekiguchi et al. for the chart.
 
 mod animation;
-mod chords;
 mod colours;
 pub mod ground;
 mod levels;
 pub mod node_history;
 mod pass;
+mod pipelines;
 pub mod race;
 pub mod ration;
 pub mod rooms;
@@ -18,7 +18,8 @@ pub mod shift;
 pub mod sight;
 pub mod veil;
 
-pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD, planet_history};
+pub use animation::planet_view::planet_history;
+pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;
 pub use levels::PYRAMID;
 pub use pass::Aurora;

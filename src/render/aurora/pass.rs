@@ -1,17 +1,18 @@
-//! The passes of the aurora, and their buffers.
+//! The passes of the aurora, and their buffers; `pipelines` compiles them.
 
 use std::sync::Arc;
 
-use wgpu::{BufferUsages, ShaderStages};
+use wgpu::BufferUsages;
 
 use crate::render::Gpu;
 use crate::render::aurora::animation::AuroraFrame;
 use crate::render::aurora::colours::Colours;
-use crate::render::aurora::levels::{Levels, PYRAMID, Ranges, light_format};
+use crate::render::aurora::levels::{Levels, PYRAMID, Ranges};
 use crate::render::aurora::node_history::{NodeHistory, ROWS};
+use crate::render::aurora::pipelines::{Layouts, Pipelines};
 use crate::render::aurora::rooms::{DRAWS_BYTES, LIT_TILES, Rooms};
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, Segment};
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, compute_of, layout, module, raster};
+use crate::render::gpu::layout::{Growing, bind, buffer, compute_of};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
@@ -39,23 +40,10 @@ fn chord_room(chords: u32) -> u32 {
 /// Pipelines, buffers and the textures in which light is added up.
 #[derive(Debug)]
 pub struct Aurora {
-    project: wgpu::ComputePipeline,
-    ends: wgpu::ComputePipeline,
-    walk: wgpu::ComputePipeline,
+    pipelines: Pipelines,
+    layouts: Layouts,
     ranges: Ranges,
-    /// Draws strokes into the finest level, with depth test, and into the others.
-    draw: [wgpu::RenderPipeline; 2],
-    spread: wgpu::RenderPipeline,
-    /// Clears the tiles of the finest level that get light.
-    wipe: wgpu::RenderPipeline,
-    /// Three pipelines, for tiles with light in the finest level alone, in coarser ones alone, in both.
-    resolve: [wgpu::RenderPipeline; 3],
     linear: wgpu::Sampler,
-    walk_layout: wgpu::BindGroupLayout,
-    draw_layout: wgpu::BindGroupLayout,
-    spread_layout: wgpu::BindGroupLayout,
-    tiles_layout: wgpu::BindGroupLayout,
-    resolve_layout: wgpu::BindGroupLayout,
     settings: wgpu::Buffer,
     instances: wgpu::Buffer,
     nodes: Growing,
@@ -96,45 +84,14 @@ struct Groups {
 impl Aurora {
     /// Compiles the passes.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
-        use Slot::{Read, Uniform, Write};
         let device = &gpu.device;
-        let slots = [Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Slot::Numbers];
-        let walk_layout = layout(device, "aurora walk", ShaderStages::COMPUTE, &slots);
-        let draw_layout = layout(device, "aurora strokes", ShaderStages::VERTEX, &[Uniform, Read]);
-        let spread_layout = layout(device, "aurora spread", ShaderStages::VERTEX_FRAGMENT, &[Slot::Texture, Slot::Sampler, Read]);
-        let tiles_layout = layout(device, "aurora tiles", ShaderStages::VERTEX, &[Uniform, Read]);
-        let resolve_layout = layout(device, "aurora resolve", ShaderStages::FRAGMENT, &[Slot::Numbers, Slot::Texture, Slot::Sampler]);
-        let one = wgpu::BlendComponent {
-            src_factor: wgpu::BlendFactor::One,
-            dst_factor: wgpu::BlendFactor::One,
-            operation: wgpu::BlendOperation::Add,
-        };
-        let sum = Some(wgpu::BlendState { color: one, alpha: one });
-        let light = light_format(device);
-        let stage = |fragment, targets, depth| Raster { vertex: "vertex", fragment, targets, depth };
-        let add = [(light, sum)];
-        let set = [(light, None)];
-        let picture = [(HDR_FORMAT, sum)];
-        let groups = [Some(frame_layout), Some(&walk_layout)];
+        let layouts = Layouts::new(device);
         let uniform = |label, size| buffer(device, label, size, BufferUsages::UNIFORM);
-        let draw_module = module(device, "aurora strokes", Pass::AuroraDraw);
-        let draw_groups = [Some(frame_layout), Some(&draw_layout)];
-        let draw_strokes = |depth| raster(device, "aurora strokes", &draw_module, stage("fragment", &add, depth), &draw_groups);
-        let spread_module = module(device, "aurora spread", Pass::AuroraSpread);
-        let spread_groups = [Some(frame_layout), Some(&spread_layout)];
-        let resolve_module = module(device, "aurora resolve", Pass::AuroraResolve);
-        let wipe_module = module(device, "aurora wipe", Pass::AuroraWipe);
-        let resolve_groups = [Some(frame_layout), Some(&tiles_layout), Some(&resolve_layout)];
-        let resolve = |fragment| raster(device, "aurora resolve", &resolve_module, stage(fragment, &picture, None), &resolve_groups);
+        let growing = |label| Growing::new(device, label, BufferUsages::STORAGE);
         Aurora {
-            project: compute(device, "aurora project", Pass::AuroraProject, "main", &groups),
-            ends: compute(device, "aurora ends", Pass::AuroraEnds, "main", &groups),
-            walk: compute(device, "aurora walk", Pass::AuroraWalk, "main", &groups),
+            pipelines: Pipelines::new(device, frame_layout, &layouts),
+            layouts,
             ranges: Ranges::new(device, frame_layout),
-            draw: [Some(false), None].map(draw_strokes),
-            spread: raster(device, "aurora spread", &spread_module, stage("fragment", &set, None), &spread_groups),
-            wipe: raster(device, "aurora wipe", &wipe_module, stage("fragment", &set, Some(false)), &resolve_groups[..2]),
-            resolve: ["finest", "coarser", "both"].map(resolve),
             linear: device.create_sampler(&wgpu::SamplerDescriptor {
                 mag_filter: wgpu::FilterMode::Linear,
                 min_filter: wgpu::FilterMode::Linear,
@@ -142,12 +99,12 @@ impl Aurora {
             }),
             settings: uniform("aurora", size_of::<AuroraSettings>() as u64),
             instances: buffer(device, "aurora instances", (ORDERS * size_of::<Instance>()) as u64, BufferUsages::STORAGE),
-            nodes: Growing::new(device, "aurora nodes", BufferUsages::STORAGE),
-            segments: Growing::new(device, "aurora segments", BufferUsages::STORAGE),
-            falls: Growing::new(device, "aurora falls", BufferUsages::STORAGE),
-            chords: Growing::new(device, "aurora chords", BufferUsages::STORAGE),
-            strokes: Growing::new(device, "aurora strokes", BufferUsages::STORAGE),
-            references: Growing::new(device, "aurora references", BufferUsages::STORAGE),
+            nodes: growing("aurora nodes"),
+            segments: growing("aurora segments"),
+            falls: growing("aurora falls"),
+            chords: growing("aurora chords"),
+            strokes: growing("aurora strokes"),
+            references: growing("aurora references"),
             draws: buffer(device, "aurora draws", DRAWS_BYTES * ORDERS as u64, BufferUsages::STORAGE | BufferUsages::INDIRECT),
             colours: std::array::from_fn(|_| uniform("aurora colours", size_of::<Colours>() as u64)),
             levels: None,
@@ -158,18 +115,13 @@ impl Aurora {
             rooms: Rooms::default(),
             uploaded_rows: NodeHistory::default(),
             uploaded_falls: None,
-            walk_layout,
-            draw_layout,
-            spread_layout,
-            tiles_layout,
-            resolve_layout,
         }
     }
 
     /// Projects by another method from now on.
     pub fn set_method(&mut self, device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, method: Method) {
-        let groups = [Some(frame_layout), Some(&self.walk_layout)];
-        self.project = compute_of(device, "aurora project", &Pass::AuroraProject.source_by(method, false), "main", &groups);
+        let groups = [Some(frame_layout), Some(&self.layouts.walk)];
+        self.pipelines.project = compute_of(device, "aurora project", &Pass::AuroraProject.source_by(method, false), "main", &groups);
     }
 
     /// Uploads what the frame needs; None draws nothing.
@@ -255,7 +207,7 @@ impl Aurora {
         let walk = walk.iter().map(|buffer| buffer.as_entire_binding());
         let walk: Vec<_> = walk.chain([wgpu::BindingResource::TextureView(self.ranges.view())]).collect();
         let draw_strokes = levels.places.iter().map(|place| {
-            bind(device, "aurora strokes", &self.draw_layout, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding()))
+            bind(device, "aurora strokes", &self.layouts.draw, &[place, &self.strokes.buffer].map(|buffer| buffer.as_entire_binding()))
         });
         // A level, or black where it is not in use.
         let light = |level: u32| {
@@ -263,17 +215,18 @@ impl Aurora {
             wgpu::BindingResource::TextureView(coarse.unwrap_or(&levels.nothing))
         };
         let linear = || wgpu::BindingResource::Sampler(&self.linear);
-        let spread = (1..self.rooms.levels)
-            .map(|level| bind(device, "aurora spread", &self.spread_layout, &[light(level + 1), linear(), self.draws.as_entire_binding()]));
+        let spread = (1..self.rooms.levels).map(|level| {
+            bind(device, "aurora spread", &self.layouts.spread, &[light(level + 1), linear(), self.draws.as_entire_binding()])
+        });
         let tiles = self.colours.iter().map(|colours| {
-            bind(device, "aurora tiles", &self.tiles_layout, &[colours.as_entire_binding(), self.draws.as_entire_binding()])
+            bind(device, "aurora tiles", &self.layouts.tiles, &[colours.as_entire_binding(), self.draws.as_entire_binding()])
         });
         Some(Groups {
-            walk: bind(device, "aurora walk", &self.walk_layout, &walk),
+            walk: bind(device, "aurora walk", &self.layouts.walk, &walk),
             draw: draw_strokes.collect(),
             spread: spread.collect(),
             tiles: tiles.collect(),
-            resolve: bind(device, "aurora resolve", &self.resolve_layout, &[light(0), light(1), linear()]),
+            resolve: bind(device, "aurora resolve", &self.layouts.resolve, &[light(0), light(1), linear()]),
         })
     }
 
@@ -290,19 +243,19 @@ impl Aurora {
 
     /// Projects the middles of the parts of curtains through the lensing lookup.
     pub fn project(&self, pass: &mut wgpu::ComputePass) {
-        self.compute(pass, &self.project, self.projected.div_ceil(64), self.drawn[2]);
+        self.compute(pass, &self.pipelines.project, self.projected.div_ceil(64), self.drawn[2]);
     }
 
     /// Finds the ends of the chords from them.
     pub fn ends(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, chords, orders] = self.drawn;
-        self.compute(pass, &self.ends, (streaks * chord_room(chords)).div_ceil(64), orders);
+        self.compute(pass, &self.pipelines.ends, (streaks * chord_room(chords)).div_ceil(64), orders);
     }
 
     /// Walks along the chords and makes strokes.
     pub fn walk(&self, pass: &mut wgpu::ComputePass) {
         let [streaks, _, orders] = self.drawn;
-        self.compute(pass, &self.walk, streaks.div_ceil(64), orders);
+        self.compute(pass, &self.pipelines.walk, streaks.div_ceil(64), orders);
     }
 
     fn compute(&self, pass: &mut wgpu::ComputePass, pipeline: &wgpu::ComputePipeline, groups: u32, orders: u32) {
@@ -329,17 +282,17 @@ impl Aurora {
         self.within(pass, image, |part| levels.part(part, level));
         // The coarsest level has no coarser one to enlarge.
         if level > 0 && level + 1 < self.rooms.levels {
-            pass.set_pipeline(&self.spread);
+            pass.set_pipeline(&self.pipelines.spread);
             pass.set_bind_group(1, &bound.spread[level as usize - 1], &[]);
             let instance = 8 * image + level;
             pass.draw(0..3, instance..instance + 1);
         } else if level == 0 {
-            pass.set_pipeline(&self.wipe);
+            pass.set_pipeline(&self.pipelines.wipe);
             pass.set_bind_group(1, &bound.tiles[image as usize], &[]);
             draw_tiles(pass, image, 1);
             draw_tiles(pass, image, 3);
         }
-        pass.set_pipeline(&self.draw[usize::from(level > 0)]);
+        pass.set_pipeline(&self.pipelines.draw[usize::from(level > 0)]);
         pass.set_bind_group(1, &bound.draw[level as usize], &[]);
         pass.draw_indirect(&self.draws, DRAWS_BYTES * u64::from(image) + 16 * u64::from(level));
     }
@@ -350,7 +303,7 @@ impl Aurora {
         pass.set_bind_group(1, &bound.tiles[image as usize], &[]);
         pass.set_bind_group(2, &bound.resolve, &[]);
         self.within(pass, image, |part| part);
-        for (kind, pipeline) in (1..).zip(&self.resolve) {
+        for (kind, pipeline) in (1..).zip(&self.pipelines.resolve) {
             pass.set_pipeline(pipeline);
             draw_tiles(pass, image, kind);
         }

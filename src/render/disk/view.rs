@@ -59,22 +59,16 @@ impl DiskView {
     /// For the camera and time of `input` and a picture `width` pixels wide.
     pub fn new(disk: &Disk, input: &FrameInput, slice: &Slice, width: u32) -> DiskView {
         let camera = &input.camera;
-        let l = camera.radius();
-        let n = camera.position / l;
-        let height = if n.z.abs() < LEAST_HEIGHT { LEAST_HEIGHT.copysign(n.z) } else { n.z };
-        let towards = DVec3::new(n.x, n.y, 0.0).try_normalize().unwrap_or(DVec3::X);
-        let sideways = DVec3::Z.cross(towards);
-        let level = (1.0 - n.z * n.z).max(0.0).sqrt();
-        let upwards = DVec3::Z * level - towards * n.z;
-        let [_, end] = disk.gas.extent();
-        let origin = towards.y.atan2(towards.x);
-        let near = |limit: f64| camera.position.z.abs() < limit && l < end + limit;
-        let close = if near(CLOSE_BEHIND) { 3 } else { u32::from(near(CLOSE)) };
-
-        let mut circles = Vec::new();
-        let mut samples = Vec::new();
-        let mut rings = Vec::new();
-        let mut bends = Vec::new();
+        let plane = Plane::seen_by(camera);
+        let mut view = DiskView {
+            frame: DiskFrame::default(),
+            circles: Vec::new(),
+            samples: Vec::new(),
+            cuts: sigmas(&chosen_cuts(disk, camera, width), plane.origin(), plane.height.abs()),
+            rings: Vec::new(),
+            bends: Vec::new(),
+            close: close_orders(disk, camera),
+        };
         for order in 1..=3 {
             // The third order is drawn, behind the second, even if the settings do not ask for it, where it is wider than the pixel budget.
             let look = Look { disk, camera, slice, order, width, beaming: input.settings.beaming };
@@ -82,66 +76,109 @@ impl DiskView {
             if unasked && (order < 3 || input.settings.orders < 2 || widest(&look) < f64::from(input.settings.pixel_error)) {
                 continue;
             }
-            let first = circles.len() as u32;
-            let seen: Vec<SeenCircle> = radii(disk, order <= close).into_iter().map(|r| look.circle(r)).collect();
-            let own = own_shares(camera, &seen, width, order);
-            let gaps = disk.config.gap > 0.0;
-            let rows = if gaps {
-                Circles::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
-            } else {
-                look.rows(&seen, &own, if order == 1 && close > 0 { FROM_NEAR } else { FROM_FAR })
-            };
-            let last = first + rows.radii.len() as u32 - 1;
-            let behind = samples.len() as u32;
-            if order > 1 {
-                for azimuth in 0..AZIMUTHS {
-                    let shares = equal_shares(&seen, azimuth).into_iter();
-                    samples.extend(shares.map(|r| sample(disk, r, (order == 3).then(|| through_second(l, level, azimuth, r)))));
-                }
-            }
-            let mut own: Vec<Circle> = rows.radii.iter().map(|&r| circle(disk, r, level, l, [order, first, last, behind])).collect();
-            if gaps {
-                for (circle, closed) in own.iter_mut().zip(gap_middles(disk)) {
-                    circle.place[1] = closed as f32;
-                    circle.place[2] = disk.config.gap as f32;
-                    circle.place[3] = if closed < end { 2.0 } else { 1.0 };
-                }
-            }
-            circles.extend(own);
-            bends.extend(rows.bends.iter().flatten().map(Bend::row));
-            rings.extend(rows.pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
+            view.add_image(&look, &plane);
         }
+        let count = view.circles.len() as u32;
+        view.circles.iter_mut().for_each(|circle| circle.rows[3] += count);
+        view.frame = view.frame(disk, input.time, &plane);
+        view
+    }
 
-        let count = circles.len() as u32;
-        circles.iter_mut().for_each(|circle: &mut Circle| circle.rows[3] += count);
+    /// Adds the circles, rings and samples of one image order.
+    fn add_image(&mut self, look: &Look, plane: &Plane) {
+        let Look { disk, camera, order, width, .. } = *look;
+        let first = self.circles.len() as u32;
+        let seen: Vec<SeenCircle> = radii(disk, order <= self.close).into_iter().map(|r| look.circle(r)).collect();
+        let own = own_shares(camera, &seen, width, order);
+        let gaps = disk.config.gap > 0.0;
+        let rows = if gaps {
+            Circles::straight(if order == 1 { disk.arcs.circles.clone() } else { gap_middles(disk) }, disk.arcs.rings.clone())
+        } else {
+            look.rows(&seen, &own, if order == 1 && self.close > 0 { FROM_NEAR } else { FROM_FAR })
+        };
+        let last = first + rows.radii.len() as u32 - 1;
+        let behind = self.samples.len() as u32;
+        if order > 1 {
+            for azimuth in 0..AZIMUTHS {
+                let shares = equal_shares(&seen, azimuth).into_iter();
+                self.samples.extend(shares.map(|r| sample(disk, r, (order == 3).then(|| through_second(plane, azimuth, r)))));
+            }
+        }
+        let mut own: Vec<Circle> = rows.radii.iter().map(|&r| circle(disk, r, plane, [order, first, last, behind])).collect();
+        if gaps {
+            let [_, end] = disk.gas.extent();
+            for (circle, closed) in own.iter_mut().zip(gap_middles(disk)) {
+                circle.place[1] = closed as f32;
+                circle.place[2] = disk.config.gap as f32;
+                circle.place[3] = if closed < end { 2.0 } else { 1.0 };
+            }
+        }
+        self.circles.extend(own);
+        self.bends.extend(rows.bends.iter().flatten().map(Bend::row));
+        self.rings.extend(rows.pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
+    }
 
-        // Streaks: the camera's time, counted from the first generation that can be seen.
-        let nearest = (l - end).max(0.0);
-        let base = ((input.time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
+    /// What the shaders are told, once all images are added. The camera's time is counted from the first generation of
+    /// streaks that can be seen.
+    fn frame(&self, disk: &Disk, time: f64, plane: &Plane) -> DiskFrame {
+        let [_, end] = disk.gas.extent();
+        let nearest = (plane.l - end).max(0.0);
+        let base = ((time - nearest - 2.0 * end - DETOUR) / RENEWAL).floor() - 1.0;
         let [x, y] = disk.gas.offset(base as i64);
-        let cuts = sigmas(&chosen_cuts(disk, camera, width), origin, height.abs());
+        let cuts = self.cuts.len() as u32;
         let row = |v: DVec3, w: f64| [v.x as f32, v.y as f32, v.z as f32, w as f32];
-        DiskView {
-            frame: DiskFrame {
-                towards: row(towards, height),
-                sideways: row(sideways, level),
-                upwards: row(upwards, height.abs()),
-                renewal: [(input.time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
-                gas: [disk.gas.contrast as f32, 1.0 - disk.config.gap as f32, disk.config.error_budget as f32, disk.min_width as f32],
-                sizes: [2 * cuts.len() as u32 - 1, cuts.len() as u32 - 1, circles.len() as u32, rings.len() as u32],
-                regions: [0; 4],
-                room: [0, close, (disk.gas.thickness as f32).to_bits(), 0],
-                light: [DISK_UNIT as f32, CLOSE as f32, 0.0, 0.0],
-                offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
-            },
-            circles,
-            samples,
-            cuts,
-            rings,
-            bends,
-            close,
+        DiskFrame {
+            towards: row(plane.towards, plane.height),
+            sideways: row(plane.sideways, plane.level),
+            upwards: row(plane.upwards, plane.height.abs()),
+            renewal: [(time / RENEWAL - base) as f32, (1.0 / RENEWAL) as f32, RENEWAL as f32, SHEARED as f32],
+            gas: [disk.gas.contrast as f32, 1.0 - disk.config.gap as f32, disk.config.error_budget as f32, disk.min_width as f32],
+            sizes: [2 * cuts - 1, cuts - 1, self.circles.len() as u32, self.rings.len() as u32],
+            regions: [0; 4],
+            room: [0, self.close, (disk.gas.thickness as f32).to_bits(), 0],
+            light: [DISK_UNIT as f32, CLOSE as f32, 0.0, 0.0],
+            offset: [x, y, OFFSET_STEP[0], OFFSET_STEP[1]].map(|value| value as f32),
         }
     }
+}
+
+/// The disk's plane as a camera sees it: unit vectors in the scene's axes, the sine of the camera's height over it.
+struct Plane {
+    /// Radius of the camera, in r_s.
+    l: f64,
+    /// Sine of the camera's height, at least [`LEAST_HEIGHT`] in size.
+    height: f64,
+    /// Cosine of the camera's height.
+    level: f64,
+    /// In the plane, towards the camera.
+    towards: DVec3,
+    /// In the plane, across that.
+    sideways: DVec3,
+    /// Across the direction from the hole to the camera, upwards.
+    upwards: DVec3,
+}
+
+impl Plane {
+    fn seen_by(camera: &Observer) -> Plane {
+        let l = camera.radius();
+        let n = camera.position / l;
+        let height = if n.z.abs() < LEAST_HEIGHT { LEAST_HEIGHT.copysign(n.z) } else { n.z };
+        let towards = DVec3::new(n.x, n.y, 0.0).try_normalize().unwrap_or(DVec3::X);
+        let level = (1.0 - n.z * n.z).max(0.0).sqrt();
+        Plane { l, height, level, towards, sideways: DVec3::Z.cross(towards), upwards: DVec3::Z * level - towards * n.z }
+    }
+
+    /// Azimuth of the camera, in rad.
+    fn origin(&self) -> f64 {
+        self.towards.y.atan2(self.towards.x)
+    }
+}
+
+/// Orders up to this one are drawn as from near, with fine structure; 0 from far.
+fn close_orders(disk: &Disk, camera: &Observer) -> u32 {
+    let [_, end] = disk.gas.extent();
+    let near = |limit: f64| camera.position.z.abs() < limit && camera.radius() < end + limit;
+    if near(CLOSE_BEHIND) { 3 } else { u32::from(near(CLOSE)) }
 }
 
 /// For a disk with gaps between its rings: for each circle the middle of the gap beside it, in r_s. The circle is moved there where the gap
@@ -185,17 +222,17 @@ fn equal_shares(seen: &[SeenCircle], azimuth: usize) -> [f64; THIN_SAMPLES] {
 }
 
 /// The radius, in r_s, at which light of the third image crosses the disk's plane on its way, where the second image lies. It left radius
-/// `r` at azimuth number `k` and makes half a turn between the two crossings. The camera is at radius `l`; `level` is the cosine of its
-/// height over the plane. Both ends of the ray wind off the photon sphere like the rays that wind for ever: u + 1/3 = ((1 − ρ)/(1 + ρ))²,
-/// with ρ growing by a factor of e per radian (Chandrasekhar 1983, section 20). Near the photon sphere the two deviations of u add up.
-fn through_second(l: f64, level: f64, k: usize, r: f64) -> f64 {
+/// `r` at azimuth number `k` and makes half a turn between the two crossings. Both ends of the ray wind off the photon sphere like the rays
+/// that wind for ever: u + 1/3 = ((1 − ρ)/(1 + ρ))², with ρ growing by a factor of e per radian (Chandrasekhar 1983, section 20). Near the
+/// photon sphere the two deviations of u add up.
+fn through_second(plane: &Plane, k: usize, r: f64) -> f64 {
     let from_photon_sphere = |r: f64, turned: f64| {
         let y = (1.0 / r + 1.0 / 3.0).sqrt();
         let rho = (1.0 - y) / (1.0 + y) * (-turned).exp();
         ((1.0 - rho) / (1.0 + rho)).powi(2) - 1.0
     };
-    let angle = (azimuth(k).cos() * level).acos();
-    1.0 / (2.0 / 3.0 + from_photon_sphere(l, PI + angle) + from_photon_sphere(r, PI))
+    let angle = (azimuth(k).cos() * plane.level).acos();
+    1.0 / (2.0 / 3.0 + from_photon_sphere(plane.l, PI + angle) + from_photon_sphere(r, PI))
 }
 
 /// The width of the image of an order where it is widest, in pixels.
@@ -252,19 +289,23 @@ fn sample(disk: &Disk, r: f64, through: Option<f64>) -> Circle {
     let nearer = through.unwrap_or(r);
     let [outward, along] = radial.momentum(nearer);
     let behind = through.map_or(0.0, |r| radial.depth(r) as f32);
-    let mut circle = circle(disk, r, 0.0, 0.0, [0; 4]);
-    circle.place = [behind, outward as f32, along as f32, nearer as f32];
-    circle
+    let place = [behind, outward as f32, along as f32, nearer as f32];
+    Circle { place, ..gas_circle(disk, r) }
 }
 
-fn circle(disk: &Disk, r: f64, level: f64, l: f64, rows: [u32; 4]) -> Circle {
+/// A circle at radius `r` (r_s) that is drawn; `rows`: its order, the first and the last row of that, and the first of its samples.
+fn circle(disk: &Disk, r: f64, plane: &Plane, rows: [u32; 4]) -> Circle {
+    Circle { place: [(r * plane.level - plane.l) as f32, 0.0, 0.0, 0.0], rows, ..gas_circle(disk, r) }
+}
+
+/// The gas on a circle, and nothing of where it is seen.
+fn gas_circle(disk: &Disk, r: f64) -> Circle {
     let radial = &disk.gas.radial;
     let [outward, along] = radial.momentum(r);
     let pattern = radial.pattern_radius(r).ln() / PATTERN_HEIGHT;
     Circle {
         gas: [r as f32, radial.lag(r) as f32, radial.temperature(r).ln() as f32, radial.depth(r) as f32],
         motion: [outward as f32, along as f32, disk.gas.half_height(r) as f32, pattern as f32],
-        place: [(r * level - l) as f32, 0.0, 0.0, 0.0],
-        rows,
+        ..Circle::default()
     }
 }

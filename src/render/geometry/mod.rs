@@ -77,6 +77,44 @@ struct Draws {
     layers_thin: wgpu::RenderPipeline,
 }
 
+impl Draws {
+    /// Compiles what draws the triangles that the stages make.
+    fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, draw_layout: &wgpu::BindGroupLayout) -> Draws {
+        let shader = module(device, "draw", Pass::Draw);
+        let draw_groups = [Some(frame_layout), None, Some(draw_layout)];
+        let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
+        let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
+        let draw_to = |label, vertex, fragment, targets: &[_], write| {
+            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
+            let buffers: &[_] = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[] };
+            raster_of(device, label, &shader, stage, &draw_groups, buffers)
+        };
+        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
+        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
+        let thin = |vertex| draw_to(vertex, vertex, "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false);
+        Draws {
+            opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
+            thin: thin("thin_vertex"),
+            thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
+            layers: layers("layers", "opaque_vertex"),
+            layers_thin: layers("layers thin", "thin_vertex"),
+        }
+    }
+}
+
+/// How surfaces are sampled.
+fn surface_sampler(device: &wgpu::Device) -> wgpu::Sampler {
+    device.create_sampler(&wgpu::SamplerDescriptor {
+        label: Some("surface"),
+        address_mode_u: wgpu::AddressMode::Repeat,
+        address_mode_v: wgpu::AddressMode::Repeat,
+        mag_filter: wgpu::FilterMode::Linear,
+        min_filter: wgpu::FilterMode::Linear,
+        mipmap_filter: wgpu::MipmapFilterMode::Linear,
+        ..Default::default()
+    })
+}
+
 /// [`SeenVertex`] as a vertex buffer, `SeenInput` of WGSL.
 fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
     const ATTRIBUTES: [wgpu::VertexAttribute; 5] =
@@ -113,42 +151,14 @@ impl Geometry {
             worldlines,
         };
         let stages = Shelf::new(makings, (Method::default(), false));
-        let shader = module(device, "draw", Pass::Draw);
-        let draw_groups = [Some(frame_layout), None, Some(&draw_layout)];
-        let one = |operation| wgpu::BlendComponent { src_factor: wgpu::BlendFactor::One, dst_factor: wgpu::BlendFactor::One, operation };
-        let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
-        let draw_to = |label, vertex, fragment, targets: &[_], write| {
-            let stage = Raster { vertex, fragment, targets, depth: Some(write) };
-            let buffers: &[_] = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[] };
-            raster_of(device, label, &shader, stage, &draw_groups, buffers)
-        };
-        let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
-        let layers = |label, vertex| draw_to(label, vertex, "layers_fragment", &[(LAYERS_FORMAT, None); 2], true);
-        let thin = |vertex| draw_to(vertex, vertex, "thin_fragment", &[(HDR_FORMAT, Some(sum)), (SIGNED_FORMAT, Some(sum))], false);
-        let draws = Draws {
-            opaque: draw("opaque", "opaque_vertex", "opaque_fragment", HDR_FORMAT, None, true),
-            thin: thin("thin_vertex"),
-            thin_across: ["thin_vertex_0", "thin_vertex_1", "thin_vertex_2", "thin_vertex_3"].map(thin),
-            layers: layers("layers", "opaque_vertex"),
-            layers_thin: layers("layers thin", "thin_vertex"),
-        };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
         let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
-        let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            label: Some("surface"),
-            address_mode_u: wgpu::AddressMode::Repeat,
-            address_mode_v: wgpu::AddressMode::Repeat,
-            mag_filter: wgpu::FilterMode::Linear,
-            min_filter: wgpu::FilterMode::Linear,
-            mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            ..Default::default()
-        });
         Geometry {
             group_layout,
+            draws: Draws::new(device, frame_layout, &draw_layout),
             draw_layout,
             stages,
-            draws,
             instances: TableTexture::new(device, "instances", true),
             chunks: ["vertex chunks", "edge chunks", "triangle chunks"].map(|label| Growing::new(device, label, storage)),
             dispatch: [[0; 2]; 3],
@@ -162,7 +172,7 @@ impl Geometry {
             counters: buffer(device, "counters", size_of::<Counters>() as u64, storage),
             arguments,
             arguments_group,
-            sampler,
+            sampler: surface_sampler(device),
             ground: Ground::new(device),
             groups: None,
             thin_across: [false; 4],

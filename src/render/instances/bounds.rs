@@ -11,7 +11,7 @@ use glam::{DVec3, DVec4};
 
 use crate::spacetime::light::Order;
 
-use crate::render::instances::{Extent, MARGIN, View};
+use crate::render::instances::view::{Extent, MARGIN, View};
 use crate::render::method::Method;
 
 /// Three caps of directions in camera axes, as `Instance.bounds` of WGSL. xyz: the middle. w: the square of the chord from the middle to
@@ -62,16 +62,16 @@ impl View<'_> {
         let across = position - n * height;
         let distance = across.length();
         let turn = (0..PLACES).map(|k| 2.0 * PI * f64::from(k) / f64::from(PLACES)).map(f64::sin_cos);
-        let mut places: Vec<[f64; 2]> = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]).collect();
+        let mut points: Vec<[f64; 2]> = turn.map(|(sine, cosine)| [height + reach * cosine, (distance + reach * sine).abs()]).collect();
         let round = if reach < distance {
             (reach / distance).asin()
         } else {
             let half = (reach * reach - distance * distance).sqrt();
-            places.extend([[height - half, 0.0], [height + half, 0.0]]);
+            points.extend([[height - half, 0.0], [height + half, 0.0]]);
             PI
         };
         let (mut low, mut high) = (PI, 0.0f64);
-        for [height, across] in places {
+        for [height, across] in points {
             let nearer = (LEAST_RADIUS / height.hypot(across)).max(1.0);
             let [height, across] = [height * nearer, across * nearer];
             let (psi, _) = self.angle([height - camera.radius(), across, height], order, age)?;

@@ -1,30 +1,30 @@
 //! Instances: for each object and image order the emission time of its centre and its motion about it, in f64. The GPU starts from them.
 
 mod bounds;
+mod emission;
 pub mod swing;
+mod view;
 pub mod visibility;
 
-use crate::spacetime::Observer;
-use std::f64::consts::FRAC_PI_2;
+use glam::{DMat3, DQuat, DVec3};
 
-use glam::{DMat3, DQuat, DVec2, DVec3};
+pub use emission::{branch_of, departure, emission_time, light_path};
+pub use view::View;
 
-use crate::lensing::Slice;
-use crate::lensing::lookup::{OLD, lens_lookup_aged};
-pub use crate::scene::lighting::Surroundings;
-use crate::sim::History;
-use crate::spacetime::frames::relative_momentum;
-use crate::spacetime::light::{self, Branch, Order};
-use crate::spacetime::matter::gamma;
-use crate::spacetime::orbit::static_momentum;
-
+use crate::lensing::lookup::OLD;
 use crate::render::gpu::types::Instance;
 use crate::render::gpu::types::placed::{HELD, MINUS, NARROW, THIN, TWO_SIDED};
 use crate::render::instances::swing::Swing;
-use crate::render::instances::visibility::{may_be_seen, part_of_screen};
-use crate::render::method::Method;
+use crate::render::instances::view::MARGIN;
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
+pub use crate::scene::lighting::Surroundings;
+use crate::sim::History;
+use crate::spacetime::Observer;
+use crate::spacetime::frames::relative_momentum;
+use crate::spacetime::light::{Branch, Order};
+use crate::spacetime::matter::gamma;
+use crate::spacetime::orbit::static_momentum;
 
 /// How an object moves.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +60,14 @@ pub struct Object<'a> {
     pub id: u32,
     /// What shines on it.
     pub light: Surroundings,
+}
+
+impl Object<'_> {
+    /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
+    fn model_for(&self, width: f64, settings: &Settings) -> ModelRange {
+        let models = [(settings.coarse_below, self.coarse)].into_iter().chain(self.stand_ins.iter().copied());
+        models.into_iter().find(|(below, _)| width < *below).map_or(self.model, |(_, model)| model)
+    }
 }
 
 /// An object in one order, ready for the GPU.
@@ -109,20 +117,8 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
             return None;
         }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
-        let models = [(settings.coarse_below, object.coarse)].into_iter().chain(object.stand_ins.iter().copied());
-        let stands_in = models.into_iter().find(|(below, _)| width < *below && object.reach < 0.1 * position.length());
-        let model = stands_in.map_or(object.model, |(_, model)| model);
-        if width < settings.thin_below && settings.min_width > 0.0 {
-            instance.triangles[3] |= THIN;
-            instance.axis[3] = THIN_STRICTNESS;
-        } else {
-            instance.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-            let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
-            instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
-        }
-        if NEAR_PHOTON_SPHERE.contains(&camera.radius()) {
-            instance.axis[3] *= PHOTON_SPHERE_STRICTNESS;
-        }
+        let model = if object.reach < 0.1 * position.length() { object.model_for(width, settings) } else { object.model };
+        set_strictness(&mut instance, view, width, order, model);
         let longer = drawn_out(camera, &instance, position, order, age);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         Some(Placed { model, instance })
@@ -134,6 +130,21 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
     let second = folded.then(|| image(Order::ALL[0], Branch::Minus)).flatten();
     let orders = orders.min(settings.method.orders());
     Order::ALL.into_iter().take(orders as usize).filter_map(|order| image(order, Branch::Plus)).chain(second).collect()
+}
+
+/// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin or a narrow one.
+fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order, model: ModelRange) {
+    if width < view.settings.thin_below && view.settings.min_width > 0.0 {
+        instance.triangles[3] |= THIN;
+        instance.axis[3] = THIN_STRICTNESS;
+    } else {
+        instance.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
+        let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
+        instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
+    }
+    if NEAR_PHOTON_SPHERE.contains(&view.camera.radius()) {
+        instance.axis[3] *= PHOTON_SPHERE_STRICTNESS;
+    }
 }
 
 /// How often light of an image order crosses the plane z = 0 on its way from `height` (z of its source) to the camera at `camera_height`.
@@ -165,126 +176,6 @@ const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
 const FINE_MODEL: u32 = 2000;
 /// Largest strictness of slim images of such models.
 const MOST_SLIM_FINE: f64 = 2.0;
-
-/// A camera, and what is needed to tell how wide an image is.
-#[derive(Clone, Copy, Debug)]
-pub struct View<'a> {
-    /// The camera.
-    pub camera: &'a Observer,
-    /// The table at its radius.
-    pub slice: &'a Slice,
-    /// Angle of a pixel in radians.
-    pub pixel: f64,
-    /// Height over width of the screen: images off it are left out. None: no image is left out.
-    pub aspect: Option<f64>,
-    /// How the picture is made.
-    pub settings: &'a Settings,
-}
-
-/// Where the image of a ball is seen, in the rain frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Extent {
-    /// The direction of its centre, a unit vector in rain axes.
-    pub(super) look: DVec3,
-    /// Radius, in radians, of a cone about `look` that holds the image.
-    pub(super) radius: f64,
-    /// Largest width on the screen, in pixels: the extent in ψ, or the angular size if that is less.
-    pub(super) width: f64,
-}
-
-/// Factor by which an extent is enlarged. It is that of a ball at one time, from five of its points; the points between them and the motion
-/// need more.
-pub(super) const MARGIN: f64 = 3.0;
-
-impl Extent {
-    fn may_be_seen(&self, camera: &Observer, aspect: f64) -> bool {
-        may_be_seen(camera, self.look, MARGIN * self.radius, 0.01, aspect)
-    }
-
-    /// The part of the screen on which the image may be: left, upper, right and lower edge as shares of width and height.
-    pub(super) fn part_of_screen(&self, camera: &Observer, aspect: f64) -> [f64; 4] {
-        part_of_screen(camera, self.look, MARGIN * self.radius, aspect)
-    }
-}
-
-impl View<'_> {
-    /// The direction (a unit vector, rain axes) from which light of age `age` (r_s/c) comes from a position, and the length of its path.
-    /// Inside the horizon `age` decides which of two rays is meant.
-    pub(super) fn look(&self, position: DVec3, order: Order, age: f64) -> Option<(DVec3, f64)> {
-        let n = self.camera.position.normalize();
-        let height = position.dot(n);
-        let across = position - n * height;
-        let (psi, path) = self.angle([(position - self.camera.position).dot(n), across.length(), height], order, age)?;
-        let turn = if order.flips() { -1.0 } else { 1.0 };
-        Some((n * psi.cos() + across.normalize_or_zero() * (turn * psi.sin()), path))
-    }
-
-    /// The angle ψ from outwards at which a position is seen, and the length of the light's path. The position is given by its distance
-    /// outward of the camera, its distance from the axis, and its height along the axis from the hole.
-    pub(super) fn angle(&self, [along, across, height]: [f64; 3], order: Order, age: f64) -> Option<(f64, f64)> {
-        if !self.settings.method.bends() {
-            return Some((across.atan2(along), along.hypot(across)));
-        }
-        let [along, across, height] = [along, across, height].map(|x| x as f32);
-        let ray = lens_lookup_aged(self.slice, along, across, height, u32::from(order.number()), age as f32);
-        ray.valid.then(|| (f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)), f64::from(ray.delay)))
-    }
-
-    /// Where the image of a ball of radius `reach` at `position` is seen.
-    /// Estimated from the ball's nearest, farthest and outermost points in the plane of the axis.
-    /// `age` decides, inside the horizon, which light is meant.
-    pub(super) fn extent(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Extent {
-        let (l, r) = (self.camera.radius(), position.length());
-        let n = self.camera.position / l;
-        let phi = position.dot(n).clamp(-r, r) / r;
-        let phi = phi.acos();
-        let anywhere = Extent { look: n, radius: std::f64::consts::PI, width: std::f64::consts::PI / self.pixel };
-        let half = if reach < r { (reach / r).asin() } else { return anywhere };
-        let seen = |r: f64, phi: f64| {
-            let (sine, cosine) = phi.clamp(0.0, std::f64::consts::PI).sin_cos();
-            self.angle([r * cosine - l, r * sine, r * cosine], order, age)
-        };
-        let low_side = if l < 1.0 { (r - reach).max(l + 0.01 * (r - l)) } else { (r - reach).max(1.001) };
-        let places = [(r, phi), (r, phi - half), (r, phi + half), (low_side, phi), (r + reach, phi)];
-        // If a part of the object is not seen, its image may end anywhere.
-        let Some(around) = places.map(|(r, phi)| seen(r, phi)).into_iter().collect::<Option<Vec<_>>>() else {
-            return anywhere;
-        };
-        let (centre, path) = around[0];
-        let (low, high) = around.iter().fold((centre, centre), |(low, high), &(psi, _)| (low.min(psi), high.max(psi)));
-        let across = position - n * position.dot(n);
-        let distance = across.length();
-        // Half its extent in azimuth round the axis: a ball that meets the axis is seen all round.
-        let round = if reach < distance { (reach / distance).asin() } else { std::f64::consts::PI };
-        let turn = if order.flips() { -1.0 } else { 1.0 };
-        // On the axis any side will do: what is left of `across` there is rounding.
-        let side = if distance > 1e-9 * r { across * (turn / distance) } else { n.any_orthonormal_vector() };
-        let look = n * centre.cos() + side * centre.sin();
-        let width = (high - low).min(2.0 * reach / path.max(1e-9)) * self.enlargement(n, side, [low, high], round);
-        let steepest = low.sin().max(high.sin()).max(if low < FRAC_PI_2 && high > FRAC_PI_2 { 1.0 } else { 0.0 });
-        Extent { look, radius: (high - centre).max(centre - low) + round * steepest, width }
-    }
-
-    /// The largest number of pixels per radian of ψ on the screen, by aberration and by the projection onto the plane screen. For
-    /// directions between two angles from outwards `n`, up to `round` (radians of azimuth) on both sides of `side`.
-    fn enlargement(&self, n: DVec3, side: DVec3, [low, high]: [f64; 2], round: f64) -> f64 {
-        let (middle, half) = (0.5 * (low + high), (0.5 * (high - low)).max(1e-4));
-        let edge = 1.1 * (0.5 * self.camera.field_of_view).tan() * self.aspect.unwrap_or(1.0).max(1.0);
-        let enlarged = |k: i32| {
-            let (sine, cosine) = (0.25 * f64::from(k) * round).sin_cos();
-            let side = side * cosine + n.cross(side) * sine;
-            let [a, b] = [middle - half, middle + half].map(|psi| self.camera.seen_direction(n * psi.cos() + side * psi.sin()));
-            let [p, q] = [a, b].map(|seen| DVec2::new(seen.x, seen.y) / -seen.z);
-            let on_screen = |seen: DVec3, at: DVec2| seen.z < 0.0 && at.abs().max_element() < edge;
-            // Off the screen the projection does not count.
-            let length = if on_screen(a, p) || on_screen(b, q) { p.distance(q) } else { a.angle_between(b) };
-            length / (2.0 * half * self.pixel)
-        };
-        // A tenth of a radian is enlarged alike all along it.
-        let step = if round < 0.1 { 4 } else { 1 };
-        (-4..=4).step_by(step).map(enlarged).fold(0.0, f64::max)
-    }
-}
 
 fn row(v: DVec3, w: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, w as f32]
@@ -354,15 +245,6 @@ fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Ord
 /// Factor on that for acceleration while light crosses the object.
 const ACCELERATES: f64 = 1.5;
 
-/// The emission time of the centre of a flying body that is seen at `time`, as the settings ask for; None if it is not seen.
-pub fn departure(view: &View, time: f64, history: &History, order: Order) -> Option<f64> {
-    match view.settings {
-        Settings { light_delay: false, .. } => Some(time),
-        Settings { method: Method::Flat, .. } => flat_emission_time(view.camera, time, history),
-        _ => emission_time(view.camera, time, history, order),
-    }
-}
-
 /// The instance, the object's position at the emission time, and the age of its light.
 fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Instance, DVec3, f64)> {
     let camera = view.camera;
@@ -401,95 +283,4 @@ pub fn against_static(position: DVec3, momentum: DVec3) -> DVec3 {
 fn contraction(p: DVec3) -> DMat3 {
     let g = gamma(p);
     DMat3::IDENTITY - DMat3::from_cols(p * p.x, p * p.y, p * p.z) * (1.0 / (g * (1.0 + g)))
-}
-
-/// Travel time of light of this order from a position on the slice to the camera, in r_s/c, and its gradient over the position. None if
-/// there is no ray.
-pub fn light_path(camera: &Observer, position: DVec3, order: Order, branch: Branch) -> Option<(f64, DVec3)> {
-    let (l, r) = (camera.radius(), position.length());
-    let n = camera.position / l;
-    let across = position - n * position.dot(n);
-    let phi = across.length().atan2(position.dot(n)).max(1e-12);
-    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch)?;
-    // dΔ/dx = −k/E at the point, k the photon's spatial momentum there.
-    let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
-    let turn = if order.flips() { -1.0 } else { 1.0 };
-    let m = position / r;
-    let tangent = (side * (m.dot(n)) - n * m.dot(side)) * turn;
-    let (u, w, e) = (1.0 / r, ray.emission_slope, ray.energy);
-    let beta = u.sqrt();
-    let radial = if e > 0.0 && (w < 0.0 || u >= 1.0) { (u * u - e * e) / (beta * e - w) } else { (beta * e + w) / (1.0 - u) };
-    let momentum = (m * radial - tangent * u) / e;
-    ray.delay.is_finite().then_some((ray.delay, -momentum))
-}
-
-/// Which of the two rays from a position inside the horizon to a camera inside belongs to light of this age (r_s/c): E < 0 if it is older
-/// than light of zero energy.
-pub fn branch_of(camera: &Observer, position: DVec3, age: f64) -> Branch {
-    let (u, u_camera) = (1.0 / position.length(), 1.0 / camera.radius());
-    if u > 1.0 && u_camera > 1.0 && age > light::zero_energy_delay(u, u_camera) { Branch::Minus } else { Branch::Plus }
-}
-
-/// The emission time T_e of light that arrives at `time`: the root of T_e + Δ(x(T_e)) − T. It increases strictly with T_e for light of E >
-/// 0 and decreases for E < 0. A worldline leaves the camera's past only once, so both branches together have one root. None if the object
-/// is not seen.
-pub fn emission_time(camera: &Observer, time: f64, history: &History, order: Order) -> Option<f64> {
-    leaving(time, |t| {
-        let sample = history.at(t);
-        let branch = branch_of(camera, sample.position, time - t);
-        let (delay, gradient) = light_path(camera, sample.position, order, branch)?;
-        let sign = if branch == Branch::Minus { -1.0 } else { 1.0 };
-        Some((sign * (t + delay - time), sign * (1.0 + gradient.dot(sample.velocity))))
-    })
-}
-
-/// The same for straight light.
-fn flat_emission_time(camera: &Observer, time: f64, history: &History) -> Option<f64> {
-    leaving(time, |t| {
-        let sample = history.at(t);
-        let line = sample.position - camera.position;
-        // Seen across the hole a ship may fall faster than straight light.
-        Some((t + line.length() - time, (1.0 + line.normalize_or_zero().dot(sample.velocity)).max(0.05)))
-    })
-}
-
-/// The root of an increasing function of T_e, given with its slope. It is negative in the camera's past and has no value where no light
-/// leaves any more. Newton's method within a bracket, from `time` backwards.
-fn leaving(time: f64, late: impl Fn(f64) -> Option<(f64, f64)>) -> Option<f64> {
-    let (mut low, mut high) = (f64::NEG_INFINITY, time);
-    let mut t = time - late(time).map_or(1.0, |(missing, _)| missing.max(0.0));
-    for _ in 0..100 {
-        let next = match late(t) {
-            // For a camera outside, a body below the horizon has no ray: too late.
-            None => {
-                high = high.min(t);
-                if low.is_finite() { 0.5 * (low + high) } else { t - (time - t).max(1.0) }
-            }
-            Some((missing, slope)) => {
-                if missing > 0.0 {
-                    high = high.min(t)
-                } else {
-                    low = low.max(t)
-                }
-                // 1e-12 of the delay: f64 has no more.
-                if missing.abs() <= 1e-12 * (1.0 + (time - t).abs()) {
-                    return Some(t);
-                }
-                let newton = t - missing / slope.max(1e-3);
-                if newton > low && newton < high {
-                    newton
-                } else if low.is_finite() {
-                    0.5 * (low + high)
-                } else {
-                    t - 2.0 * (time - t).max(1.0)
-                }
-            }
-        };
-        if next == t || time - next > 1e7 {
-            break;
-        }
-        t = next;
-    }
-    // The bracket has closed on a place without a ray, or to rounding.
-    (low.is_finite() && high - low <= 1e-9 * (1.0 + (time - low).abs())).then_some(low)
 }

@@ -58,7 +58,8 @@ pub fn coarse(model: &Model) -> Option<Model> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Material, shapes};
+    use crate::scene::Material;
+    use crate::scene::model::shapes;
 
     #[test]
     fn a_coarse_sphere_is_small_sound_and_nearly_as_large() {

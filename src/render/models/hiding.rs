@@ -140,7 +140,8 @@ fn depth_map(triangles: &[[Vec3; 3]], place: &dyn Fn(Vec3) -> Vec2) -> Vec<f32> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{Material, shapes};
+    use crate::scene::Material;
+    use crate::scene::model::shapes;
 
     /// A ball, one inside it and one beside it, wound outward.
     fn balls() -> Model {

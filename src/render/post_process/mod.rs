@@ -8,8 +8,7 @@ use crate::render::Gpu;
 use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, target};
-use crate::render::gpu::timing::Timing;
-use crate::render::passes::colour;
+use crate::render::passes::{Recording, colour};
 
 /// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
 const TILE: u32 = 16;
@@ -130,79 +129,68 @@ impl PostProcess {
     }
 
     /// Lays the thin triangles over the picture.
-    pub fn compose(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup, targets: &Targets) {
+    pub fn compose(&self, recording: &mut Recording) {
         let Some(groups) = &self.groups else { return };
-        let over = [Some(colour(&targets.picture, false))];
-        begin(encoder, timing.render("compose"), "compose", &over, &self.compose, frame, &groups.thin).draw(0..3, 0..1);
+        let over = [Some(colour(&recording.targets.picture, false))];
+        begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin).draw(0..3, 0..1);
     }
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
     /// frame's exposure is kept in.
-    #[allow(clippy::too_many_arguments, reason = "one call says all of it")]
-    pub fn run(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        timing: &mut Timing,
-        frame: &wgpu::BindGroup,
-        targets: &Targets,
-        adaptation: &wgpu::Buffer,
-        smooth: bool,
-        output: &wgpu::TextureView,
-    ) {
+    pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, smooth: bool, output: &wgpu::TextureView) {
         let Some(groups) = &self.groups else { return };
-        for (level, view) in targets.bloom.iter().enumerate() {
-            let level = &groups.sampled[level];
-            begin(encoder, timing.render("bloom"), "bloom down", &[Some(colour(view, true))], &self.down, frame, level).draw(0..3, 0..1);
+        let targets = recording.targets;
+        for (view, level) in targets.bloom.iter().zip(&groups.sampled) {
+            begin(recording, ["bloom", "bloom down"], &[Some(colour(view, true))], &self.down, level).draw(0..3, 0..1);
         }
         {
-            let mut pass = encoder
-                .begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes: timing.compute("exposure") });
+            let timestamp_writes = recording.timing.compute("exposure");
+            let mut pass = recording.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes });
             pass.set_pipeline(&self.meter);
-            pass.set_bind_group(0, frame, &[]);
+            pass.set_bind_group(0, recording.frame, &[]);
             pass.set_bind_group(2, &groups.meter, &[]);
             pass.dispatch_workgroups(1, 1, 1);
         }
-        encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
+        recording.encoder.copy_buffer_to_buffer(adaptation, 0, &self.adapted, 0, 16);
         for level in (1..targets.bloom.len()).rev() {
             let (from, to) = (&groups.sampled[level + 1], &[Some(colour(&targets.bloom[level - 1], false))]);
-            begin(encoder, timing.render("bloom"), "bloom up", to, &self.up, frame, from).draw(0..3, 0..1);
+            begin(recording, ["bloom", "bloom up"], to, &self.up, from).draw(0..3, 0..1);
         }
         // Down the levels and up again.
         let last = targets.bloom.len() + 1;
         for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
             let (from, to) = (&groups.sampled[from], &[Some(colour(to, true))]);
-            begin(encoder, timing.render("bloom"), "bloom soften", to, &self.soften, frame, from).draw(0..3, 0..1);
+            begin(recording, ["bloom", "bloom soften"], to, &self.soften, from).draw(0..3, 0..1);
         }
         // The pass that smooths outlines reads the picture before that.
         let both = [output, &groups.display].map(|view| Some(colour(view, true)));
         let (to, tone_map) = if smooth { (&both[..], &self.tone_map_twice) } else { (&both[..1], &self.tone_map) };
-        begin(encoder, timing.render("tone map"), "tone map", to, tone_map, frame, &groups.tone_map).draw(0..3, 0..1);
+        begin(recording, ["tone map"; 2], to, tone_map, &groups.tone_map).draw(0..3, 0..1);
         if smooth {
             let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
             let onto = &[Some(colour(output, false))];
-            begin(encoder, timing.render("smooth"), "smooth", onto, &self.smooth, frame, &groups.smooth).draw(0..6, 0..tiles);
+            begin(recording, ["smooth"; 2], onto, &self.smooth, &groups.smooth).draw(0..6, 0..tiles);
         }
     }
 }
 
-/// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture.
-fn begin<'e>(
-    encoder: &'e mut wgpu::CommandEncoder,
-    timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
-    label: &str,
+/// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture. It is timed
+/// under the first name.
+fn begin<'r>(
+    recording: &'r mut Recording,
+    [timed, label]: [&'static str; 2],
     targets: &[Option<wgpu::RenderPassColorAttachment>],
     pipeline: &wgpu::RenderPipeline,
-    frame: &wgpu::BindGroup,
     group: &wgpu::BindGroup,
-) -> wgpu::RenderPass<'e> {
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+) -> wgpu::RenderPass<'r> {
+    let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
         color_attachments: targets,
-        timestamp_writes,
+        timestamp_writes: recording.timing.render(timed),
         ..Default::default()
     });
     pass.set_pipeline(pipeline);
-    pass.set_bind_group(0, frame, &[]);
+    pass.set_bind_group(0, recording.frame, &[]);
     pass.set_bind_group(2, group, &[]);
     pass
 }

@@ -60,19 +60,41 @@ const DIRECT_GREEN: f64 = 0.05;
 /// Visible photons of the first positive bands per ion pair of N₂ (crude: Vallance Jones 1974 gives 1PG in 600–700 nm of half of 557.7 nm).
 const CRIMSON_PER_PAIR: f64 = 0.045;
 
+/// Of O(¹S) by O, cm³ s⁻¹, and by O₂, cm³ s⁻¹ and K: k exp(T₀/T). As GLOW has them.
+const GREEN_BY_O: f64 = 2.0e-14;
+const GREEN_BY_O2: (f64, f64) = (4.0e-12, -865.0);
+/// Of O(¹D) by N₂, O₂ and O, likewise.
+const RED_BY_N2: (f64, f64) = (2.0e-11, 107.8);
+const RED_BY_O2: (f64, f64) = (2.9e-11, 67.5);
+const RED_BY_O: f64 = 3.0e-12;
+/// Of N₂(A): the rate at which it hands its energy to O, cm³ s⁻¹, and the part of that which makes O(¹S); its own radiation (Vegard and
+/// Kaplan's bands), s⁻¹; by O₂, cm³ s⁻¹. As GLOW has them.
+const TRIPLET_TO_O: f64 = 3.1e-11;
+const TRIPLET_YIELD: f64 = 0.19;
+const TRIPLET_RATE: f64 = 0.77;
+const TRIPLET_BY_O2: f64 = 4.1e-12;
+/// How often N₂ and O are ionised for one O₂, by number (Rees 1989, table 3.4).
+const IONISED_N2: f64 = 0.92;
+const IONISED_O: f64 = 0.56;
+
+/// A rate that goes with the temperature (K), cm³ s⁻¹.
+fn rate((k, kelvin): (f64, f64), temperature: f64) -> f64 {
+    k * (kelvin / temperature).exp()
+}
+
 /// Losses of O(¹S) by collisions at this air, s⁻¹.
 pub fn green_quenching(air: &Air) -> f64 {
-    2.0e-14 * air.o + 4.0e-12 * (-865.0 / air.temperature).exp() * air.o2
+    GREEN_BY_O * air.o + rate(GREEN_BY_O2, air.temperature) * air.o2
 }
 
 /// Losses of O(¹D) by collisions at this air, s⁻¹. Electrons, below a hundredth of it, are left out.
 pub fn red_quenching(air: &Air) -> f64 {
-    2.0e-11 * (107.8 / air.temperature).exp() * air.n2 + 2.9e-11 * (67.5 / air.temperature).exp() * air.o2 + 3.0e-12 * air.o
+    rate(RED_BY_N2, air.temperature) * air.n2 + rate(RED_BY_O2, air.temperature) * air.o2 + RED_BY_O * air.o
 }
 
-/// Shares of ion pairs that N₂, O₂ and O have: weights 0.92, 1 and 0.56 by number (Rees 1989, table 3.4).
+/// Shares of ion pairs that N₂, O₂ and O have.
 pub fn shares(air: &Air) -> [f64; 3] {
-    let weights = [0.92 * air.n2, air.o2, 0.56 * air.o];
+    let weights = [IONISED_N2 * air.n2, air.o2, IONISED_O * air.o];
     let total: f64 = weights.iter().sum();
     weights.map(|weight| weight / total)
 }
@@ -80,9 +102,8 @@ pub fn shares(air: &Air) -> [f64; 3] {
 /// Excited states (for the molecules: photons) made per ion pair, before quenching, by line.
 pub fn production(air: &Air) -> [f64; 4] {
     let [n2, o2, o] = shares(air);
-    // N₂(A) hands its energy to O with k = 3.1e-11 cm³ s⁻¹, a part 0.19 of it as O(¹S); it also radiates (0.77 s⁻¹) and meets O₂.
-    let transfer = 3.1e-11 * air.o;
-    let to_oxygen = 0.19 * transfer / (transfer + 0.77 + 4.1e-12 * air.o2);
+    let transfer = TRIPLET_TO_O * air.o;
+    let to_oxygen = TRIPLET_YIELD * transfer / (transfer + TRIPLET_RATE + TRIPLET_BY_O2 * air.o2);
     [
         TRIPLET_PER_PAIR * n2 * to_oxygen + RECOMBINATION * o2 + DIRECT_GREEN * o,
         ION_BRANCH * BLUE_BRANCH * n2,

@@ -21,7 +21,7 @@ pub struct Arcs {
     pub cuts: Vec<f64>,
 }
 
-/// How much widths and opening angles vary about their mean, either way.
+/// How much widths and opening angles vary about their mean, in all. By hand, so that no pattern of arcs is seen.
 const JITTER: f64 = 0.3;
 /// Fewest cuts, so that an arc is shorter than a quarter turn.
 const FEWEST_CUTS: usize = 6;

@@ -34,12 +34,12 @@ pub const PATTERN_HEIGHT: f64 = 2.772_588_722_239_781;
 /// Light of a black body at 5,772 K in the scene's unit of radiance (a white surface in full light). With it a disk of less than 3,000 K is
 /// a few times as bright as a lit ship, and stars are visible beside it.
 pub const DISK_UNIT: f64 = 24.0;
-/// Finest octaves, for near views: the pattern again, this many times finer, this strong.
+/// Finest octaves, for near views: the pattern again, this many times finer, this strong. By hand.
 pub const DETAIL: (f64, f64) = (8.0, 0.35);
 /// Step from one generation's position in the pattern to the next, in turns and heights: powers of the plastic number's inverse (Roberts
 /// 2018), of which no small multiple is close to a whole number in both.
 pub const OFFSET_STEP: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_3];
-/// Standard deviation of ln density at turbulence 1.
+/// Standard deviation of ln density at turbulence 1. By hand.
 const FULL_TURBULENCE: f64 = 0.95;
 
 /// Temperature and opacity of a point of the disk.

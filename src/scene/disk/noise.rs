@@ -10,9 +10,12 @@ pub const WIDTH: usize = 1024;
 pub const HEIGHT: usize = 512;
 
 /// Octaves: cells round the hole, cells over the height, amplitude. Cells are about ten times as long as wide; those of rings are longer
-/// still.
+/// still. Chosen by hand, for the look of streaks; only ratios of amplitudes count, as each row is scaled to deviation 1.
 const OCTAVES: [(usize, usize, f64); 8] =
     [(3, 16, 0.75), (4, 48, 0.70), (7, 28, 0.70), (14, 56, 0.55), (10, 128, 0.50), (28, 112, 0.40), (56, 224, 0.28), (112, 256, 0.16)];
+
+/// Values are cut off at so many deviations.
+const CUT: f64 = 3.0;
 
 /// The lattice, row by row; each row has mean 0 and deviation 1.
 pub static LATTICE: LazyLock<Vec<f32>> = LazyLock::new(lattice);
@@ -29,9 +32,9 @@ pub fn streaks(x: f64, y: f64) -> f64 {
 /// The lattice point before a coordinate in periods, and the smooth weight of the next.
 fn cell(x: f64, count: usize) -> (usize, f64) {
     // Texels lie at the middle of their cells.
-    let place = (x - x.floor()) * count as f64 - 0.5 + count as f64;
-    let whole = place.floor();
-    (whole as usize % count, smooth(place - whole))
+    let position = (x - x.floor()) * count as f64 - 0.5 + count as f64;
+    let whole = position.floor();
+    (whole as usize % count, smooth(position - whole))
 }
 
 fn smooth(t: f64) -> f64 {
@@ -55,17 +58,17 @@ fn lattice() -> Vec<f32> {
         // Every second row of cells is shifted, so that cells do not line up along radii.
         let shift = |j: usize| (hash(j as u64, 101 + number as u64) >> 40) as f64 / (1u64 << 24) as f64;
         let row_at = |x: f64, j: usize| {
-            let place = x * columns as f64 + shift(j) * columns as f64;
-            let whole = place.floor();
-            let t = smooth(place - whole);
+            let position = x * columns as f64 + shift(j) * columns as f64;
+            let whole = position.floor();
+            let t = smooth(position - whole);
             let i = whole as usize % columns;
             let (a, b) = (knots[j * columns + i], knots[j * columns + (i + 1) % columns]);
             a + t * (b - a)
         };
         for y in 0..HEIGHT {
-            let place = (y as f64 + 0.5) / HEIGHT as f64 * rows as f64;
-            let j = place as usize % rows;
-            let t = smooth(place.fract());
+            let position = (y as f64 + 0.5) / HEIGHT as f64 * rows as f64;
+            let j = position as usize % rows;
+            let t = smooth(position.fract());
             for x in 0..WIDTH {
                 let turn = (x as f64 + 0.5) / WIDTH as f64;
                 let (a, b) = (row_at(turn, j), row_at(turn, (j + 1) % rows));
@@ -80,5 +83,5 @@ fn lattice() -> Vec<f32> {
         let deviation = (row.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / WIDTH as f64).sqrt();
         row.iter_mut().for_each(|v| *v = (*v - mean) / deviation);
     }
-    sum.iter().map(|v| v.clamp(-3.0, 3.0) as f32).collect()
+    sum.iter().map(|v| v.clamp(-CUT, CUT) as f32).collect()
 }

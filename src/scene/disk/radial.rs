@@ -10,13 +10,23 @@ use glam::DVec3;
 pub const LAST_ORBIT: f64 = 3.0;
 /// Energy and angular momentum per mass of the last stable orbit: √(8/9) and √3 r_s.
 const PLUNGE: (f64, f64) = (0.942_809_041_582_063_4, 1.732_050_807_568_877_2);
+/// Width, in r_s, over which the carried heat fades outside that orbit (a Gaussian's scale), and the power by which the hotter of two
+/// temperatures wins without a kink. By hand: 0.25 r_s from the edge the value of Page & Thorne 1974 is right to a part in 10⁷.
+const CARRIED_WIDTH: f64 = 0.2;
+/// See [`CARRIED_WIDTH`].
+const WINS: i32 = 8;
+/// Width, in r_s, over which gas thins out at the inner edge: of a disk that ends outside the last stable orbit, and of one that falls in.
+/// By hand, so that the edge is no hard line.
+const INNER_FADE: [f64; 2] = [0.1, 0.4];
+/// Least part of light that comes through where the key `opacity` asks for none: e⁻⁷.
+const LEAST_THROUGH: f64 = 1e-3;
 /// Inner edge of the falling gas as drawn, in r_s: farther in it has less than a hundredth of the disk's density, and its light is
 /// redshifted away.
 const PLUNGE_END: f64 = 1.25;
-/// Speed, in c, at which friction lets gas drift in at the last stable orbit. Falling gas thins out as its speed grows beyond this, and
-/// what is behind becomes visible.
+/// Speed, in c, at which friction lets gas drift in at the last stable orbit; chosen by hand. Falling gas thins out as its speed grows
+/// beyond this, and what is behind becomes visible.
 const DRIFT: f64 = 0.002;
-/// Share of the outer part of the disk over which the gas thins out.
+/// Share of the disk's width, from its outer edge, over which the gas thins out. By hand.
 const OUTER_FADE: f64 = 0.35;
 /// Temperature of the gas at the last stable orbit over that of the hottest ring. By Page & Thorne 1974 no torque acts there and the
 /// surface is cold. Moving gas keeps heat; the falling part is visible by it.
@@ -68,8 +78,7 @@ impl Radial {
             inner: disk.inner,
             outer: disk.outer.max(disk.inner + 0.1),
             peak: (PEAK_FLUX * flow / (length * length) / STEFAN_BOLTZMANN).powf(0.25),
-            // At 1 nothing would pass; e⁻⁷ is left.
-            depth: -(1.0 - disk.opacity).max(1e-3).ln(),
+            depth: -(1.0 - disk.opacity).max(LEAST_THROUGH).ln(),
             lags: lags(),
         }
     }
@@ -88,10 +97,10 @@ impl Radial {
                 // Thinner gas radiates less: the temperature goes as the fourth root of the density, as everywhere.
                 thinning(r).powf(0.25)
             } else {
-                (-((r - LAST_ORBIT) / 0.2).powi(2)).exp()
+                (-((r - LAST_ORBIT) / CARRIED_WIDTH).powi(2)).exp()
             };
-        // The hotter of the two, without a kink: 0.25 r_s from the edge the value of Page & Thorne 1974 is right to a part in 10⁷.
-        self.peak * (disk.powi(8) + carried.powi(8)).powf(0.125)
+        // The hotter of the two.
+        self.peak * (disk.powi(WINS) + carried.powi(WINS)).powf(1.0 / f64::from(WINS))
     }
 
     /// Optical depth straight through gas of mean density at radius `r`.
@@ -102,9 +111,9 @@ impl Radial {
         }
         let fade = smoothstep(end, end - OUTER_FADE * (end - self.inner), r);
         if self.inner > LAST_ORBIT {
-            return self.depth * fade * smoothstep(start, start + 0.1, r);
+            return self.depth * fade * smoothstep(start, start + INNER_FADE[0], r);
         }
-        let falling = if r < LAST_ORBIT { thinning(r) * smoothstep(start, start + 0.4, r) } else { 1.0 };
+        let falling = if r < LAST_ORBIT { thinning(r) * smoothstep(start, start + INNER_FADE[1], r) } else { 1.0 };
         self.depth * fade * falling
     }
 
@@ -135,9 +144,9 @@ impl Radial {
         if r >= LAST_ORBIT {
             return 0.0;
         }
-        let place = (LAST_ORBIT - r).max(0.0).sqrt() / lag_step();
-        let k = (place as usize).min(LAG_STEPS - 1);
-        self.lags[k] + (place - k as f64) * (self.lags[k + 1] - self.lags[k])
+        let position = (LAST_ORBIT - r).max(0.0).sqrt() / lag_step();
+        let k = (position as usize).min(LAG_STEPS - 1);
+        self.lags[k] + (position - k as f64) * (self.lags[k + 1] - self.lags[k])
     }
 }
 

@@ -108,13 +108,18 @@ pub fn track(start: Point, burn: &Burn, span: Span) -> Vec<Point> {
     track
 }
 
+/// Nearer to the hole than this, in r_s, a step is flown in so many pieces: from there the rain falls to the end in 3.5 r_s/c.
+const NEAR_HOLE: f64 = 3.0;
+/// See [`NEAR_HOLE`].
+const PIECES: u32 = 4;
+
 /// One planning step; near the hole it is halved twice. Inside r = 1 the ship is lost to the plan and stays where it is.
 pub fn advance(now: &Point, h: f64, acceleration: impl Fn(&Point) -> DVec3) -> Point {
     let r_squared = now.x.length_squared();
     if r_squared < 1.0 {
         return *now;
     }
-    let pieces = if r_squared < 9.0 { 4 } else { 1 };
+    let pieces = if r_squared < NEAR_HOLE * NEAR_HOLE { PIECES } else { 1 };
     let mut point = *now;
     for _ in 0..pieces {
         point = point.step(h / f64::from(pieces), acceleration(&point));

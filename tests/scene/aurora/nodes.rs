@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 use lensrunner::scene::aurora::curtains::curtains;
 use lensrunner::scene::aurora::curve::between_nodes;
+use lensrunner::scene::aurora::motion::near::{Charge, Near};
 use lensrunner::scene::aurora::motion::{Motion, Plan};
-use lensrunner::scene::aurora::near::{Charge, Near};
 use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::planet::AuroraShape;
 

@@ -1,0 +1,149 @@
+//! How many streaks are drawn where: parts of the curtains, and how finely each streak is drawn.
+
+use super::planet_view::PlanetView;
+use crate::render::aurora::Segment;
+use crate::render::aurora::levels::PYRAMID;
+use crate::render::aurora::node_history::place as node_position;
+use crate::scene::aurora::curve::Curve;
+use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT, on_field_line};
+use crate::scene::aurora::motion::Motion;
+use crate::scene::aurora::quantiles::HEIGHTS;
+use crate::scene::config::AuroraConfig;
+
+/// Parts of curtains that are drawn at most, about. If there are more pairs of nodes, several make one part.
+const MOST_SEGMENTS: usize = 1024;
+/// Pairs of nodes that one part takes together at most.
+const MOST_PAIRS: usize = 64;
+/// The least distance of a curtain from the camera that counts, in km of the planet.
+const NEAREST: f64 = 100.0;
+/// Streaks per pixel of a curtain's length where the image of the planet is so many pixels wide; fewer where it is narrower, down to a
+/// quarter.
+const PER_PIXEL: f64 = 1.5;
+const FULL_PIXELS: f64 = 300.0;
+/// Distance between two streaks over their standard deviation along the curtain, at most; as in streaks.wgsl.
+const SMOOTH: f64 = 1.6;
+/// One streak in so many is red; the others have all other lines. As in streaks.wgsl.
+const TURN: u32 = 5;
+/// Streaks with a standard deviation above this, in pixels, overlap more and more. They become fewer as they become wider: always 1.8 per
+/// standard deviation of the curtain's length. So the number of pixels that are filled is bounded by the picture's size.
+const WIDE: f64 = 1.2;
+/// Parts of a streak per pixel of its length: the blur is at least half a pixel. Below it: the least number of parts.
+const PARTS_PER_PIXEL: f64 = 1.2;
+const LEAST_PARTS: u32 = 2;
+/// Heights that a streak goes through at most, km.
+const LONGEST: f64 = HEIGHTS[0] - HEIGHTS[1];
+/// If no point is wider than this (one standard deviation in pixels, as if space were flat), only the finest level of the pyramid is used.
+/// The walk uses coarser levels from 1.5 on.
+const NARROW: f64 = 1.0;
+
+/// The curtains of a planet as they are drawn now.
+pub struct Curtains<'a> {
+    /// What `game.toml` says of them.
+    pub config: &'a AuroraConfig,
+    /// At rest.
+    pub curves: &'a [Curve],
+    /// As they move.
+    pub motion: &'a Motion,
+    /// Their nodes, as the shaders have them.
+    pub row: &'a [[f32; 4]],
+    /// Whether they are at both poles.
+    pub both: bool,
+    /// The part of their streaks that they are drawn with.
+    pub ration: f64,
+    /// Collisions of 35 eV in a curtain, in kR for each km that it is wide.
+    pub collisions: f64,
+}
+
+impl Curtains<'_> {
+    /// Poles that have them.
+    fn poles(&self) -> u32 {
+        if self.both { 2 } else { 1 }
+    }
+
+    /// Of each curve its first and its last node: in a row each has one more node at either end.
+    fn spans(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let starts = self.motion.starts().windows(2).enumerate();
+        starts.map(|(curve, window)| [window[0], window[1] - 1].map(|node| node + 2 * curve + 1))
+    }
+
+    /// Length on the screen of each pair of nodes, in pixels, as if space were flat; less where strokes are wide. And all together, at all
+    /// poles. Distances below 100 km, the height of the aurora, count as 100 km.
+    fn weights(&self, globe: &PlanetView) -> (Vec<f64>, f64) {
+        let scale = globe.radius / PLANET_RADIUS;
+        let mut weights = vec![0.0; self.row.len()];
+        let mut total = 0.0;
+        for [first, last] in self.spans() {
+            for (k, weight) in weights.iter_mut().enumerate().take(last).skip(first) {
+                let here = globe.position + globe.attitude * (on_field_line(node_position(self.row, k), REFERENCE_HEIGHT) * scale);
+                let length = node_position(self.row, k).distance(node_position(self.row, k + 1)) * scale;
+                let per_pixel = (here - globe.view.camera.position).length().max(NEAREST * scale) * globe.view.pixel;
+                let sigma = self.config.radius * scale / per_pixel;
+                *weight = length / per_pixel * WIDE / sigma.max(WIDE);
+                total += f64::from(self.poles()) * *weight;
+            }
+        }
+        (weights, total)
+    }
+
+    /// Parts of the curtains, each with as many streaks as its length on the screen asks for.
+    pub fn segments(&self, globe: &PlanetView) -> Vec<Segment> {
+        let poles = f64::from(self.poles());
+        let (weights, total) = self.weights(globe);
+        let per_pixel = PER_PIXEL * (globe.pixels / FULL_PIXELS).clamp(0.25, 1.0);
+        let wanted = (per_pixel * total * globe.magnification()).min(f64::from(self.config.streaks)) * self.ration;
+        // Where few streaks are wanted, several pairs of nodes make one part.
+        let least = self.poles() * TURN;
+        let nodes = self.row.len();
+        let stride =
+            ((f64::from(least) * nodes as f64 / wanted.max(1.0)).ceil() as usize).max(nodes.div_ceil(MOST_SEGMENTS)).clamp(1, MOST_PAIRS);
+        let mut segments = Vec::new();
+        let mut first = 0;
+        for (([first_of_curve, last], curve), &length) in self.spans().zip(self.curves).zip(self.motion.lengths()) {
+            let pairs = last - first_of_curve;
+            let length = length / pairs as f64;
+            let mut k = 0;
+            while k < pairs {
+                let span = stride.min(pairs - k);
+                let first_node = first_of_curve + k;
+                let nodes = first_node..first_node + span;
+                let weight: f64 = weights[nodes.clone()].iter().sum();
+                let count = (poles * weight / total.max(1e-9) * wanted / f64::from(least)).round().max(1.0) as u32 * least;
+                let kilometres: f64 = nodes.map(|k| node_position(self.row, k).distance(node_position(self.row, k + 1))).sum();
+                // In kR km².
+                let energy = self.collisions * length * span as f64 * curve.width * poles;
+                segments.push(Segment {
+                    range: [first, first_node as u32, count, span as u32],
+                    light: [energy as f32, curve.width as f32, kilometres as f32, 0.0],
+                });
+                first += count;
+                k += span;
+            }
+        }
+        segments
+    }
+
+    /// Parts that each streak is drawn in.
+    pub fn parts(&self, globe: &PlanetView) -> u32 {
+        // As if seen from the side; on a far planet the whole streak is a pixel or two.
+        let length = 0.5 * globe.pixels * LONGEST / PLANET_RADIUS * globe.magnification();
+        self.config.parts.min(((PARTS_PER_PIXEL * length).ceil() as u32).max(LEAST_PARTS))
+    }
+
+    /// Levels of the pyramid that their light is added up in; `reach` is their greatest distance from the planet's centre, in r_s.
+    pub fn levels(&self, globe: &PlanetView, segments: &[Segment], reach: f64) -> u32 {
+        // The largest width at which a point may be seen, where the aurora is nearest.
+        let nearest = globe.distance - reach;
+        let spread = segments.iter().map(|segment| spread(segment, self.poles())).fold(0.0, f64::max);
+        let scale = globe.radius / PLANET_RADIUS;
+        let widest = self.config.radius.hypot(spread) * scale / (nearest * globe.view.pixel) * globe.magnification();
+        if nearest <= reach || widest > NARROW { PYRAMID } else { 1 }
+    }
+}
+
+/// Standard deviation, in km, of the light of a part's streaks across the curtain or, where streaks stand far apart, along it: the larger
+/// of the two, for the red streaks, which stand farthest apart. As in streaks.wgsl.
+fn spread(segment: &Segment, poles: u32) -> f64 {
+    let [_, width, length, _] = segment.light.map(f64::from);
+    let apart = length * f64::from(TURN * poles) / f64::from(segment.range[2].max(1));
+    (width / 12f64.sqrt()).max(apart / SMOOTH)
+}

@@ -1,0 +1,172 @@
+//! `game.toml`: every tunable value, with unit, default and allowed range, said once in `fields.rs`.
+
+mod fields;
+mod setting;
+
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
+
+use super::document::error::{Complaints, ConfigError};
+use super::document::fault::Fault;
+use super::document::{complain_all, one, syntax};
+pub use fields::{
+    Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, METHODS, Render, RulesConfig, ShipConfig, Sky, Video, settings,
+};
+pub(super) use setting::range_text;
+pub use setting::{Allowed, Setting, Value, is_key};
+
+/// The configuration's file where none is named.
+pub const FILE: &str = "game.toml";
+
+/// The file to read: the named one, else `game.toml` in the folder that the program is started in, else the one that the game comes with.
+pub fn file(named: Option<&Path>) -> Option<PathBuf> {
+    named.map(Path::to_path_buf).or_else(|| {
+        let beside_assets = super::assets_folder().join("..").join(FILE);
+        [PathBuf::from(FILE), beside_assets].into_iter().find(|file| file.is_file())
+    })
+}
+
+/// Reads the named file, or the one that [`file()`] finds; where there is none, every value is its default.
+pub fn find(named: Option<&Path>) -> Result<GameConfig, ConfigError> {
+    Ok(file(named).as_deref().map(load).transpose()?.unwrap_or_default())
+}
+
+/// Reads `path`. Keys that are left out keep their default; unknown keys, wrong types and values out of range are errors.
+pub fn load(path: &Path) -> Result<GameConfig, ConfigError> {
+    let text = std::fs::read_to_string(path).map_err(|source| ConfigError::Read { path: path.to_path_buf(), source })?;
+    parse(path, &text).map_err(ConfigError::Invalid)
+}
+
+/// Reads the text of a `game.toml`; `file` is only named in the complaints.
+pub fn parse(file: &Path, text: &str) -> Result<GameConfig, Complaints> {
+    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let mut config = GameConfig::default();
+    let known = section_names();
+    let mut faults = Vec::new();
+    for (section, table) in document.get_ref() {
+        let name = section.get_ref().as_ref();
+        let wrong = match table.get_ref() {
+            DeValue::Table(table) if known.contains(&name) => {
+                faults.extend(apply_table(&mut config, name, table));
+                continue;
+            }
+            _ if known.contains(&name) => format!("must be a section, written [{name}]"),
+            _ => format!("unknown section; known sections: {}", known.join(", ")),
+        };
+        faults.push(Fault { span: section.span(), message: wrong });
+    }
+    check_all(&config, faults, document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
+    Ok(config)
+}
+
+/// All that is wrong: the `faults` of single entries of `document`, or, where it has none, those of what [`apply_table`] made of them,
+/// `config`, as a whole.
+pub(super) fn check_all(config: &GameConfig, faults: Vec<Fault>, document: &DeTable<'_>) -> Result<(), Vec<Fault>> {
+    // What is left out because it is wrong clashes with nothing.
+    if faults.is_empty() { check_together(config, document).map_err(|fault| vec![fault]) } else { Err(faults) }
+}
+
+/// What [`together`] says, at the line in `document` of one of the keys that clash.
+fn check_together(config: &GameConfig, document: &DeTable<'_>) -> Result<(), Fault> {
+    together(config).map_err(|(keys, message)| {
+        // The other of the two may be a default, which has no line.
+        let span = keys.iter().find_map(|key| {
+            let (section, key) = key.split_once('.')?;
+            let DeValue::Table(table) = document.get(section)?.get_ref() else { return None };
+            table.get(key).map(|value| value.span())
+        });
+        Fault { span: span.unwrap_or(0..0), message }
+    })
+}
+
+/// What single ranges cannot say: a lower end above its upper one, a key for two things. The keys that clash, and what is wrong.
+fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
+    let below = |low: &str, a: f64, high: &str, b: f64| {
+        if a < b { Ok(()) } else { Err(([low.to_owned(), high.to_owned()], format!("{low} = {a} must be less than {high} = {b}"))) }
+    };
+    below("render.exposure_min", config.render.exposure_min, "render.exposure_max", config.render.exposure_max)?;
+    below("render.fill_least", config.render.fill_least, "render.fill_most", config.render.fill_most)?;
+    below("disk.inner", config.disk.inner, "disk.outer", config.disk.outer)?;
+    let mut bound: Vec<(String, String)> = Vec::new();
+    for setting in settings().iter().filter(|setting| setting.section == "controls") {
+        let Value::Word(name) = setting.get(config) else { continue };
+        if let Some((_, other)) = bound.iter().find(|(known, _)| *known == name && name != "None") {
+            let keys = [setting.key, other].map(|key| format!("controls.{key}"));
+            return Err((keys, format!("{name} is the key of both {other} and {}", setting.key)));
+        }
+        bound.push((name, setting.key.to_owned()));
+    }
+    Ok(())
+}
+
+/// Sets every entry of `table` in `config`, as keys of `section`. Returns what is wrong with those that are left out.
+pub(super) fn apply_table(config: &mut GameConfig, section: &str, table: &DeTable<'_>) -> Vec<Fault> {
+    let mut apply = |key: &Spanned<DeString<'_>>, value: &Spanned<DeValue<'_>>| {
+        let Some(setting) = setting(&format!("{section}.{}", key.get_ref())) else {
+            let known: Vec<&str> = settings().iter().filter(|setting| setting.section == section).map(|setting| setting.key).collect();
+            return Err(Fault { span: key.span(), message: format!("unknown key; known keys: {}", known.join(", ")) });
+        };
+        read(value.get_ref())
+            .ok_or_else(|| format!("{} has the wrong type, allowed {}", value.get_ref().type_str(), setting.allowed_text()))
+            .and_then(|value| setting.set(config, value))
+            .map_err(|message| Fault { span: value.span(), message })
+    };
+    table.iter().filter_map(|(key, value)| apply(key, value).err()).collect()
+}
+
+/// A scalar of the file; whole numbers too long for `u32` become real numbers, so that they fail by range.
+fn read(value: &DeValue<'_>) -> Option<Value> {
+    match value {
+        DeValue::Integer(number) => {
+            let digits = number.as_str().replace('_', "");
+            let whole = i64::from_str_radix(&digits, number.radix()).ok();
+            let small = whole.and_then(|whole| u32::try_from(whole).ok());
+            Some(small.map_or(Value::Number(whole.map_or(f64::INFINITY, |whole| whole as f64)), Value::Integer))
+        }
+        DeValue::Float(number) => number.as_str().replace('_', "").parse().ok().map(Value::Number),
+        DeValue::Boolean(on) => Some(Value::Switch(*on)),
+        DeValue::String(word) => Some(Value::Word(word.to_string())),
+        _ => None,
+    }
+}
+
+/// The setting with this dotted path, such as `render.orders`.
+pub fn setting(path: &str) -> Option<&'static Setting<GameConfig>> {
+    let (section, key) = path.split_once('.')?;
+    settings().iter().find(|setting| setting.section == section && setting.key == key)
+}
+
+/// The sections in the order of the file.
+pub fn section_names() -> Vec<&'static str> {
+    let mut names: Vec<&'static str> = settings().iter().map(|setting| setting.section).collect();
+    names.dedup();
+    names
+}
+
+/// The text of a `game.toml` that says every value of `config`, each line with what it does, its unit and what is allowed.
+pub fn template(config: &GameConfig) -> String {
+    let mut text = String::from(
+        "# Every tunable value of Lensrunner. A key that is left out keeps its default; a change is taken up while the game runs.\n",
+    );
+    let mut section = "";
+    for setting in settings() {
+        if setting.section != section {
+            section = setting.section;
+            text.push_str(&format!("\n[{section}]\n"));
+        }
+        let assignment = format!("{} = {}", setting.key, written(&setting.get(config)));
+        text.push_str(&format!("{assignment:<34}# {} ({})\n", setting.help, setting.allowed_text()));
+    }
+    text
+}
+
+/// A value as TOML; a real number always has a point or an exponent, so that it stays one.
+fn written(value: &Value) -> String {
+    match value {
+        Value::Number(number) if number.abs() >= 1e7 => format!("{number:e}"),
+        Value::Number(number) => format!("{number:?}"),
+        other => other.to_string(),
+    }
+}

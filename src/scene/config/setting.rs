@@ -1,0 +1,188 @@
+//! One tunable value of `game.toml`: its name, unit, allowed range, and how to read and set it in a configuration `C`.
+
+use std::fmt;
+
+/// A value of one setting.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// A real number.
+    Number(f64),
+    /// A whole number.
+    Integer(u32),
+    /// On or off.
+    Switch(bool),
+    /// A word from a list, or the name of a key.
+    Word(String),
+}
+
+/// What values a setting may take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Allowed {
+    /// Real numbers from `min` to `max`.
+    Number {
+        /// The smallest.
+        min: f64,
+        /// The largest.
+        max: f64,
+    },
+    /// Whole numbers from `min` to `max`.
+    Integer {
+        /// The smallest.
+        min: u32,
+        /// The largest.
+        max: u32,
+    },
+    /// true or false.
+    Switch,
+    /// One of these words.
+    Choice(&'static [&'static str]),
+    /// The name of a key or mouse button, see [`is_key`].
+    Key,
+}
+
+/// One line of `game.toml`.
+#[derive(Debug, Clone, Copy)]
+pub struct Setting<C: 'static> {
+    /// The section in square brackets.
+    pub section: &'static str,
+    /// The key in that section.
+    pub key: &'static str,
+    /// The unit; empty for a pure number, a switch or a word.
+    pub unit: &'static str,
+    /// What it does, in one line.
+    pub help: &'static str,
+    /// The values it may take.
+    pub allowed: Allowed,
+    pub(super) get: fn(&C) -> Value,
+    pub(super) set: fn(&mut C, Value),
+}
+
+impl<C> Setting<C> {
+    /// `section.key`.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.section, self.key)
+    }
+
+    /// The value in `config`.
+    pub fn get(&self, config: &C) -> Value {
+        (self.get)(config)
+    }
+
+    /// Sets the value in `config`, or says what is wrong with it and leaves `config` as it was.
+    pub fn set(&self, config: &mut C, value: Value) -> Result<(), String> {
+        let value = self.check(value)?;
+        (self.set)(config, value);
+        Ok(())
+    }
+
+    /// `value` in the setting's own type if it is allowed, or what is wrong.
+    pub fn check(&self, value: Value) -> Result<Value, String> {
+        let refuse = |shown: &dyn fmt::Display, why: &str| Err(format!("{shown} {why}, allowed {}", self.allowed_text()));
+        match (self.allowed, value) {
+            (Allowed::Number { min, max }, Value::Number(number)) if (min..=max).contains(&number) => Ok(Value::Number(number)),
+            (Allowed::Number { min, max }, Value::Integer(number)) if (min..=max).contains(&f64::from(number)) => {
+                Ok(Value::Number(f64::from(number)))
+            }
+            (Allowed::Integer { min, max }, Value::Integer(number)) if (min..=max).contains(&number) => Ok(Value::Integer(number)),
+            (Allowed::Switch, Value::Switch(on)) => Ok(Value::Switch(on)),
+            (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => Ok(Value::Word(word)),
+            (Allowed::Key, Value::Word(word)) if is_key(&word) => Ok(Value::Word(word)),
+            (Allowed::Number { .. }, Value::Number(number)) => refuse(&number, "is out of range"),
+            (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => refuse(&number, "is out of range"),
+            (Allowed::Integer { .. }, Value::Number(number)) => refuse(&number, "is no such whole number"),
+            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
+            (_, Value::Word(word)) => refuse(&format!("{word:?}"), "has the wrong type"),
+            (_, Value::Switch(on)) => refuse(&on, "has the wrong type"),
+            (_, Value::Number(number)) => refuse(&number, "has the wrong type"),
+            (_, Value::Integer(number)) => refuse(&number, "has the wrong type"),
+        }
+    }
+
+    /// What is allowed, for a person: `0.1 to 20 r_s/c per second`, `true or false`, `one of "table", "newton"`.
+    pub fn allowed_text(&self) -> String {
+        match self.allowed {
+            Allowed::Number { min, max } => range_text(min, max, self.unit),
+            Allowed::Integer { min, max } => format!("whole numbers {}", range_text(f64::from(min), f64::from(max), self.unit)),
+            Allowed::Switch => "true or false".into(),
+            Allowed::Choice(words) => format!("one of {}", words.iter().map(|word| format!("{word:?}")).collect::<Vec<_>>().join(", ")),
+            Allowed::Key => "a key: KeyA to KeyZ, Digit0 to Digit9, F1 to F12, Space, Escape, ArrowUp, MouseLeft, … or None".into(),
+        }
+    }
+}
+
+/// `0.1 to 20 r_s/c`.
+pub(in crate::scene) fn range_text(min: f64, max: f64, unit: &str) -> String {
+    let space = if unit.is_empty() { "" } else { " " };
+    if max >= f64::MAX {
+        return format!("{} or more{space}{unit}", plain(min));
+    }
+    format!("{} to {}{space}{unit}", plain(min), plain(max))
+}
+
+/// Long numbers with an exponent, others without.
+fn plain(number: f64) -> String {
+    if number != 0.0 && !(1e-4..1e10).contains(&number.abs()) { format!("{number:e}") } else { number.to_string() }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Value::Number(number) => f.write_str(&plain(*number)),
+            Value::Integer(number) => write!(f, "{number}"),
+            Value::Switch(on) => write!(f, "{on}"),
+            Value::Word(word) => write!(f, "{word:?}"),
+        }
+    }
+}
+
+/// Whether `name` is a key as the W3C UI Events `code` values (and Bevy's `KeyCode`) name them, `MouseLeft`, `MouseRight`,
+/// `MouseMiddle`, or `None` for an action without a key.
+pub fn is_key(name: &str) -> bool {
+    const NAMED: [&str; 38] = [
+        "None",
+        "Space",
+        "Enter",
+        "Escape",
+        "Tab",
+        "Backspace",
+        "Delete",
+        "Insert",
+        "Home",
+        "End",
+        "PageUp",
+        "PageDown",
+        "ArrowUp",
+        "ArrowDown",
+        "ArrowLeft",
+        "ArrowRight",
+        "ShiftLeft",
+        "ShiftRight",
+        "ControlLeft",
+        "ControlRight",
+        "AltLeft",
+        "AltRight",
+        "Minus",
+        "Equal",
+        "BracketLeft",
+        "BracketRight",
+        "Semicolon",
+        "Quote",
+        "Backquote",
+        "Backslash",
+        "Comma",
+        "Period",
+        "Slash",
+        "CapsLock",
+        "NumpadEnter",
+        "MouseLeft",
+        "MouseRight",
+        "MouseMiddle",
+    ];
+    let letter = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_uppercase();
+    let digit = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_digit();
+    NAMED.contains(&name)
+        || name.strip_prefix("Key").is_some_and(letter)
+        || name.strip_prefix("Digit").is_some_and(digit)
+        || name.strip_prefix("Numpad").is_some_and(digit)
+        || name.strip_prefix('F').is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
+}
