@@ -15,8 +15,9 @@ use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::scene::camera::viewpoint::CameraEnded;
 use crate::scene::disk::Gas;
+use crate::scene::lighting::Lights;
 use crate::scene::planet::{AuroraShape, Planet};
-use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError, lighting};
+use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError};
 use crate::sim::history::Bounds;
 use crate::sim::{History, Moment};
 use crate::spacetime::orbit::orbital_frequency;
@@ -223,7 +224,7 @@ impl Case {
 
     /// The world as the judge sees it, the ships on these worldlines, in scene order.
     pub fn world<'a>(&'a self, ships: &[&'a dyn Worldline]) -> World<'a> {
-        let has_ships = !self.scene.ships.is_empty();
+        let lights = Lights::of(&self.scene, &self.config);
         let things = self.assembly.objects.iter().enumerate().filter_map(|(number, object)| {
             let (motion, position) = match object.body {
                 Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
@@ -236,10 +237,7 @@ impl Case {
                     (Motion::Flying(planet), planet.at(self.time).position)
                 }
             };
-            let light = match object.body {
-                Body::Planet => lighting::on_planet(position, self.scene.disk(&self.config).is_some()),
-                _ => lighting::at(position, has_ships, self.config.render.ambient as f32),
-            };
+            let light = lights.on(&object.body, position);
             Some(Thing { model: object.model, scale: object.scale, motion, light, id: number as u32 + 1 })
         });
         World::new(&self.assembly.models, things.collect(), self.time, self.config.render.lensing)

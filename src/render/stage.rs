@@ -8,8 +8,9 @@ use glam::{DQuat, DVec3};
 use crate::lensing::{Slice, Table};
 use crate::scene::camera::viewpoint;
 use crate::scene::config::AuroraConfig;
+use crate::scene::lighting::Lights;
 use crate::scene::ship::Ai;
-use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene, lighting};
+use crate::scene::{self, Assembly, Body, GameConfig, Model, Planet, Scene};
 use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
@@ -36,9 +37,7 @@ pub struct Stage {
     table: Arc<Table>,
     camera: scene::SceneCamera,
     sky: (bool, bool, f32),
-    /// Light of the scene where nothing else shines: ships and props are lit by it.
-    ambient: f32,
-    has_ships: bool,
+    lights: Lights,
     /// For each ship of the scene: whether it flees, and its greatest thrust (c²/r_s) if the scene gives it.
     engines: Vec<(bool, Option<f64>)>,
     planet: Option<Planet>,
@@ -112,8 +111,7 @@ impl Stage {
             table: table.clone(),
             camera: scene.camera.clone(),
             sky: (scene.sky.stars, scene.sky.milky_way, scene.sky.brightness as f32),
-            ambient: config.render.ambient as f32,
-            has_ships: !scene.ships.is_empty(),
+            lights: Lights::of(scene, config),
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             disk,
@@ -195,10 +193,7 @@ impl Stage {
                 reach: self.reaches[number],
                 scale: object.scale,
                 id: number as u32 + 1,
-                light: match object.body {
-                    Body::Planet => lighting::on_planet(position, self.disk.is_some()),
-                    _ => lighting::at(position, self.has_ships, self.ambient),
-                },
+                light: self.lights.on(&object.body, position),
             };
             let mut images = instances_of(&view, time, &object, settings.orders);
             if let Some(ship) = ship {

@@ -4,6 +4,10 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
+use super::assembly::Body;
+use super::config::GameConfig;
+use super::load::Scene;
+
 /// Light that falls on an object from around it: ambient and first harmonic, per channel, in the scene's unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Surroundings {
@@ -13,10 +17,36 @@ pub struct Surroundings {
     pub directed: [[f32; 3]; 3],
 }
 
+/// What shines in a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Lights {
+    /// There are ships. Without any it is a picture of shapes, lit from everywhere.
+    has_ships: bool,
+    /// There is an accretion disk.
+    has_disk: bool,
+    /// The light of the scene where nothing else shines.
+    ambient: f32,
+}
+
+impl Lights {
+    /// The lights of a scene.
+    pub fn of(scene: &Scene, config: &GameConfig) -> Lights {
+        Lights { has_ships: !scene.ships.is_empty(), has_disk: scene.disk(config).is_some(), ambient: config.render.ambient as f32 }
+    }
+
+    /// What shines on a body whose centre is at `position` (r_s).
+    pub fn on(&self, body: &Body, position: DVec3) -> Surroundings {
+        match body {
+            Body::Planet => on_planet(position, self.has_disk),
+            _ => at(position, self.has_ships, self.ambient),
+        }
+    }
+}
+
 /// What shines on an object at `position` (r_s). Without ships it is a picture of shapes: light from everywhere, and a little from above,
 /// so that they look round. Flying ships are lit by the disk's inner ring (an annulus at r = 3 to 6 in the plane z = 0, light bent little
 /// at this distance) and by the stars, `ambient` being the light of the scene where nothing else shines.
-pub fn at(position: DVec3, has_ships: bool, ambient: f32) -> Surroundings {
+fn at(position: DVec3, has_ships: bool, ambient: f32) -> Surroundings {
     if !has_ships {
         return Surroundings { ambient: [0.75; 3], directed: [[0.0, 0.25, 0.0]; 3] };
     }
@@ -45,7 +75,7 @@ const DAY: f32 = 0.35;
 const STARLIGHT: f32 = 0.015;
 
 /// What shines on a planet at `position` (r_s): day on the side that faces the hole.
-pub fn on_planet(position: DVec3, has_disk: bool) -> Surroundings {
+fn on_planet(position: DVec3, has_disk: bool) -> Surroundings {
     let to_hole = -position.normalize_or_zero();
     let day = if has_disk { DAY } else { STARLIGHT };
     let directed = [1.0, 0.85, 0.68].map(|c: f32| (to_hole.as_vec3() * (0.5 * day * c)).to_array());
