@@ -22,7 +22,7 @@ pub enum Aim {
 
 // The cost of a plan is in r_s of distance to the other ship; every other thing has a weight that says how many r_s it is worth. All of
 // them were chosen by hand and kept for how chases go: over 12 seeds of `chase` nobody comes below 1.5 r_s and at least 9 of the quarries
-// are caught (tests/sim_chase.rs).
+// are caught (tests/sim/chase.rs).
 
 /// Of the hunter: r_s for each r_s/c that a meeting is later.
 const LATER: f64 = 0.03;
