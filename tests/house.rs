@@ -110,6 +110,8 @@ fn named(text: &str) -> Vec<Named> {
     for start in ["crate::", "super::", "self::"] {
         for (at, _) in other.match_indices(start) {
             let whole = other[..at].chars().next_back().is_none_or(|c| !(c.is_alphanumeric() || c == '_' || c == ':' || c == '$'));
+            // Who may see an item is no import.
+            let whole = whole && !other[..at].ends_with("pub(in ");
             let path: String = other[at..].chars().take_while(|c| c.is_alphanumeric() || *c == '_' || *c == ':').collect();
             if whole {
                 let path = path.split("::").filter(|word| !word.is_empty()).map(String::from).collect();
