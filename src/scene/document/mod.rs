@@ -61,7 +61,7 @@ fn complain(file: &Path, text: &str, fault: Fault) -> Complaint {
     }
 }
 
-/// As [`complain`], of every fault, in the order of their lines.
+/// As `complain`, of every fault, in the order of their lines.
 pub fn complain_all(file: &Path, text: &str, mut faults: Vec<Fault>) -> Complaints {
     faults.sort_by_key(|fault| fault.span.start);
     Complaints(faults.into_iter().map(|fault| complain(file, text, fault)).collect())
