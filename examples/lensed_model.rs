@@ -16,7 +16,7 @@ use lensrunner::scene::{self, GameConfig};
 fn main() -> AppExit {
     App::new()
         .add_plugins(DefaultPlugins)
-        .add_plugins(RelativisticRenderPlugin { surroundings: surroundings() })
+        .add_plugins(RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) })
         .add_systems(Startup, load)
         .add_systems(Update, draw)
         .run()

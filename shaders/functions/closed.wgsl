@@ -35,13 +35,13 @@ fn closed_ray(cam: LensCamera, at: SourcePoint, order: u32) -> LensRay {
     let camera_beyond = at.dr <= 0.0;
     let outer = select(c, cam.a, camera_beyond);
     let inner = select(cam.a, c, camera_beyond);
-    let outer_room = select(at.lapse2, cam.lapse2, camera_beyond);
-    let inner_room = select(cam.lapse2, at.lapse2, camera_beyond);
+    let outer_lapse2 = select(at.lapse2, cam.lapse2, camera_beyond);
+    let inner_lapse2 = select(cam.lapse2, at.lapse2, camera_beyond);
     // Illinois: b falls short at the outer end while χ is small, and overshoots where the ray goes on inward.
     var low = 1e-6;
     var high = HALF_TURN - 0.5 * at.phi;
-    var at_low = impact(outer, outer_room, low) - impact(inner, inner_room, low + at.phi);
-    var at_high = impact(outer, outer_room, high) - impact(inner, inner_room, high + at.phi);
+    var at_low = impact(outer, outer_lapse2, low) - impact(inner, inner_lapse2, low + at.phi);
+    var at_high = impact(outer, outer_lapse2, high) - impact(inner, inner_lapse2, high + at.phi);
     if !(at_low < 0.0 && at_high > 0.0) {
         return no_ray();
     }
@@ -50,7 +50,7 @@ fn closed_ray(cam: LensCamera, at: SourcePoint, order: u32) -> LensRay {
         let next = (low * at_high - high * at_low) / (at_high - at_low);
         let done = abs(next - chi) <= 3e-7 * next;
         chi = next;
-        let value = impact(outer, outer_room, chi) - impact(inner, inner_room, chi + at.phi);
+        let value = impact(outer, outer_lapse2, chi) - impact(inner, inner_lapse2, chi + at.phi);
         if done || value == 0.0 {
             break;
         }
@@ -65,7 +65,7 @@ fn closed_ray(cam: LensCamera, at: SourcePoint, order: u32) -> LensRay {
         }
     }
     let psi = select(local_angle(cam.a, chi + at.phi), HALF_TURN - local_angle(outer, chi), camera_beyond);
-    let radial = abs(at.dr) + log(inner * outer_room / (outer * inner_room));
+    let radial = abs(at.dr) + log(inner * outer_lapse2 / (outer * inner_lapse2));
     let time = radial + lag(inner, chi + at.phi) - lag(outer, chi);
     // From Schwarzschild's time to Painlevé and Gullstrand's.
     let l = sqrt(cam.l);

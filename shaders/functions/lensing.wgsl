@@ -141,8 +141,8 @@ fn near_axis(sweep: f32) -> f32 {
 }
 
 /// The table's first two coordinates, from the logarithms of c + `soft`, of `near_axis` and of h/2.
-fn axes(cam: LensCamera, root_room: f32, sweep: f32, logs: vec3<f32>) -> vec2<f32> {
-    return vec2<f32>((logs.x - 2.0 * root_room - cam.start) * cam.scale, (sweep + logs.y - 0.3 * logs.z) * (1.0 / SWEEP_LENGTH));
+fn axes(cam: LensCamera, lapse: f32, sweep: f32, logs: vec3<f32>) -> vec2<f32> {
+    return vec2<f32>((logs.x - 2.0 * lapse - cam.start) * cam.scale, (sweep + logs.y - 0.3 * logs.z) * (1.0 / SWEEP_LENGTH));
 }
 
 fn half_angle(cam: LensCamera, sweep: f32) -> f32 {

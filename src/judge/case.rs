@@ -72,7 +72,7 @@ pub enum TraceError {
     Input(String),
     /// The camera sees nothing then: exit code 2.
     #[error(transparent)]
-    PixelCamera(#[from] CameraEnded),
+    Camera(#[from] CameraEnded),
     /// The picture takes longer than it may: exit code 1.
     #[error(transparent)]
     OverTime(#[from] OverTime),
@@ -97,7 +97,7 @@ impl TraceError {
             TraceError::Scene(_)
                 | TraceError::Config(_)
                 | TraceError::Input(_)
-                | TraceError::PixelCamera(_)
+                | TraceError::Camera(_)
                 | TraceError::File(PictureFileError::Format(_))
         )
     }

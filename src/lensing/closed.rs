@@ -63,9 +63,9 @@ pub fn closed_ray(tilt: fn(f32, f32) -> f32, cam: &LensCamera, at: SourcePoint, 
     }
     let c = 1.0 / at.r;
     let camera_beyond = at.dr <= 0.0;
-    let (outer, inner, outer_room, inner_room) =
+    let (outer, inner, outer_lapse2, inner_lapse2) =
         if camera_beyond { (cam.a, c, cam.lapse2, at.lapse2) } else { (c, cam.a, at.lapse2, cam.lapse2) };
-    let excess = |chi: f32| impact(tilt, outer, outer_room, chi) - impact(tilt, inner, inner_room, chi + at.phi);
+    let excess = |chi: f32| impact(tilt, outer, outer_lapse2, chi) - impact(tilt, inner, inner_lapse2, chi + at.phi);
     // Illinois: b falls short at the outer end while χ is small, and overshoots where the ray goes on inward.
     let (mut low, mut high) = (1e-6, HALF_TURN - 0.5 * at.phi);
     let (mut at_low, mut at_high) = (excess(low), excess(high));
@@ -90,7 +90,7 @@ pub fn closed_ray(tilt: fn(f32, f32) -> f32, cam: &LensCamera, at: SourcePoint, 
         }
     }
     let psi = if camera_beyond { HALF_TURN - local_angle(tilt, outer, chi) } else { local_angle(tilt, cam.a, chi + at.phi) };
-    let radial = at.dr.abs() + (inner * outer_room / (outer * inner_room)).ln();
+    let radial = at.dr.abs() + (inner * outer_lapse2 / (outer * inner_lapse2)).ln();
     let time = radial + lag(inner, chi + at.phi) - lag(outer, chi);
     // From Schwarzschild's time to Painlevé and Gullstrand's.
     let (l, r) = (cam.l.sqrt(), at.r.sqrt());

@@ -23,7 +23,7 @@ pub struct Mesh {
 
 impl Mesh {
     /// The place at `z` in 0..=1.
-    pub fn source_point(self, z: f64) -> f64 {
+    pub fn value(self, z: f64) -> f64 {
         let share = if self.bias == 0.0 { z } else { (self.bias * z).exp_m1() / self.bias.exp_m1() };
         self.first + (self.last - self.first) * share
     }
@@ -90,10 +90,10 @@ pub fn bake(scheme: Scheme, nodes: usize, done: impl Fn(f64) + Sync) -> Table {
         .flat_map_iter(|iz| {
             let mut layer = vec![0.0f32; nodes * nodes * CHANNELS];
             for (half, inside) in [true, false].into_iter().enumerate() {
-                let l = camera_mesh(scheme, inside).source_point(at(iz));
+                let l = camera_mesh(scheme, inside).value(at(iz));
                 let [radial, angular] = slice_meshes(scheme, inside, l);
                 for i in 0..nodes * nodes {
-                    let (r, phi) = (radial.source_point(at(i % nodes)), angular.source_point(at(i / nodes)));
+                    let (r, phi) = (radial.value(at(i % nodes)), angular.value(at(i / nodes)));
                     for (k, order) in Order::ALL.into_iter().take(2).enumerate() {
                         let place = i * CHANNELS + half * 4 + k * 2;
                         layer[place..place + 2].copy_from_slice(&node(inside, order, r, phi, l));

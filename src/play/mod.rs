@@ -84,6 +84,7 @@ fn answers(display: &str) -> bool {
     let Some((host, rest)) = display.rsplit_once(':') else { return false };
     let Ok(number) = rest.split('.').next().unwrap_or_default().parse::<u16>() else { return false };
     if host.is_empty() || host == "unix" {
+        // Where every X server listens, by the X11 protocol's transport (xtrans).
         let path = format!("/tmp/.X11-unix/X{number}");
         #[cfg(target_os = "linux")]
         {

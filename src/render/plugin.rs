@@ -52,7 +52,7 @@ pub struct RenderStatistics {
 /// small, the app ends with an error.
 pub struct RelativisticRenderPlugin {
     /// Table, stars, Milky Way.
-    pub surroundings: Surroundings,
+    pub surroundings: Arc<Surroundings>,
 }
 
 impl Plugin for RelativisticRenderPlugin {
@@ -63,7 +63,7 @@ impl Plugin for RelativisticRenderPlugin {
             .insert_resource(LensingTable(self.surroundings.table.clone()));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
-            .insert_resource(Unused(Some(self.surroundings.clone())))
+            .insert_resource(Ingredients(self.surroundings.clone()))
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .add_systems(RenderStartup, make_renderer)
@@ -96,24 +96,23 @@ impl Plugin for RelativisticRenderPlugin {
 #[derive(Resource)]
 struct OwnedRenderer(SyncCell<Renderer>);
 
-/// Render world: what the renderer is made of, until it is.
+/// Render world: what the renderer is made of.
 #[derive(Resource, Debug)]
-struct Unused(Option<Surroundings>);
+struct Ingredients(Arc<Surroundings>);
 
 /// Compiles all passes. The size and the format are the window's from the first frame on.
 fn make_renderer(
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     info: Res<RenderAdapterInfo>,
-    mut unused: ResMut<Unused>,
+    ingredients: Res<Ingredients>,
     mut commands: Commands,
 ) {
     if missing_limits(&device.limits()).is_some() {
         return;
     }
-    let Some(surroundings) = unused.0.take() else { return };
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
-    let renderer = Renderer::new(&gpu, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
+    let renderer = Renderer::new(&gpu, &ingredients.0, wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
     commands.insert_resource(OwnedRenderer(SyncCell::new(renderer)));
 }
 

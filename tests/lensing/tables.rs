@@ -48,9 +48,9 @@ fn every_mapping_comes_back() {
             let camera = paper::camera_mesh(scheme, inside);
             for i in 0..=20 {
                 let z = i as f64 / 20.0;
-                assert!((camera.coordinate(camera.source_point(z)) - z).abs() < 1e-6);
+                assert!((camera.coordinate(camera.value(z)) - z).abs() < 1e-6);
                 for mesh in paper::slice_meshes(scheme, inside, 30.0) {
-                    assert!((mesh.coordinate(mesh.source_point(z)) - z).abs() < 1e-6);
+                    assert!((mesh.coordinate(mesh.value(z)) - z).abs() < 1e-6);
                 }
             }
         }

@@ -116,7 +116,7 @@ fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Qu
         let camera = match sampling {
             0 => uniform(cameras, z),
             1 => logarithmic(cameras, z),
-            _ => camera_mesh(scheme, inside).source_point(z),
+            _ => camera_mesh(scheme, inside).value(z),
         };
         let radii = if inside { [RANGES[2], camera] } else { [camera, RANGES[3]] };
         let (r, phi) = match sampling {
@@ -124,7 +124,7 @@ fn draw(rng: &mut SmallRng, scheme: Scheme, inside: bool, sampling: usize) -> Qu
             1 => (logarithmic(radii, x), PI * y),
             _ => {
                 let [radial, angular] = slice_meshes(scheme, inside, camera);
-                (radial.source_point(x), angular.source_point(y))
+                (radial.value(x), angular.value(y))
             }
         };
         let half = (0.5 * phi).sin();

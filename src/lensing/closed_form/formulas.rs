@@ -157,12 +157,12 @@ pub fn near_axis(sweep: Real) -> Real {
 
 /// The table's first two coordinates, each in 0..=1, from the logarithms of c + `soft`, of [`near_axis`] and of h/2.
 ///
-/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `root_room` = √(1 − 1/r). The
+/// The first runs over `POINT_RANGE`: c = 1/r, resolved around the camera and toward the horizon, where `lapse` = √(1 − 1/r). The
 /// second runs over Φ from 0 to 3π and somewhat beyond: Φ + arsinh(10 Φ) − 0.3 ln(h/2), stretched near 0 and around π by the width of the
 /// Einstein ring.
 #[inline]
-pub fn axes(cam: &LensCamera, root_room: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
-    ((point - HORIZON_STRETCH * root_room - cam.start) * cam.scale, (sweep + near - RING_STRETCH * lens) * (1.0 / SWEEP_LENGTH))
+pub fn axes(cam: &LensCamera, lapse: Real, sweep: Real, [point, near, lens]: [Real; 3]) -> (Real, Real) {
+    ((point - HORIZON_STRETCH * lapse - cam.start) * cam.scale, (sweep + near - RING_STRETCH * lens) * (1.0 / SWEEP_LENGTH))
 }
 
 /// (S, K) with K′ = S, S′ = 1 + nK: sine and 1 − cosine, or their hyperbolic kin, from [`half_angle`] and Stumpff's functions of it.

@@ -36,7 +36,7 @@ pub enum MenuAction {
     Quit,
 }
 
-/// Where a action leads, and whether the chase begins anew; None where it means nothing.
+/// Where an action leads, and whether the chase begins anew; None where it means nothing.
 pub fn answer(screen: Screen, action: MenuAction) -> Option<(Screen, bool)> {
     match (screen, action) {
         (_, MenuAction::Start) => Some((Screen::Playing, true)),

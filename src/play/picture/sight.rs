@@ -1,12 +1,13 @@
 //! What the screen shows, and the camera that shows it.
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 
 use crate::play::camera::director::{on_caught, wide};
 use crate::play::camera::{View, on_ship};
 use crate::play::menus::screens::Screen;
 use crate::sim::{History, Outcome};
 use crate::spacetime::Observer;
+use crate::spacetime::matter::ShipState;
 
 /// What the screen shows, whatever the player looked at before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,14 +50,7 @@ pub type Subject<'a> = (usize, &'a History, f64);
 
 impl Shot {
     /// From the player's own ship at `position`, `attitude` turned as the camera is.
-    pub fn own(
-        ship: usize,
-        state: &crate::spacetime::matter::ShipState,
-        view: View,
-        attitude: glam::DQuat,
-        length: f64,
-        field_of_view: f64,
-    ) -> Shot {
+    pub fn own(ship: usize, state: &ShipState, view: View, attitude: DQuat, length: f64, field_of_view: f64) -> Shot {
         Shot {
             camera: on_ship(state, view, attitude, length, field_of_view),
             hidden: (view == View::Cockpit).then_some(ship),

@@ -3,6 +3,8 @@
 pub mod interface;
 pub mod record;
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 use bevy::window::{MonitorSelection, PresentMode, WindowMode};
 use bevy_egui::EguiPlugin;
@@ -49,7 +51,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         level: bevy::log::Level::WARN,
         ..default()
     }))
-    .add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: surroundings() }))
+    .add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
     .add_plugins((SimulationPlugins, GamePlugin, PicturePlugin, HudPlugin, MenusPlugin, OverlayPlugin, InterfacePlugin))
     .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
     .insert_resource(PlayerState { always_autopilot: options.autopilot, ..default() })

@@ -16,7 +16,7 @@ use crate::render::gpu::types::placed::{HELD, TWO_SIDED};
 use crate::render::gpu::types::{ARGUMENTS_OPAQUE, Instance};
 use crate::render::instances::{Placed, by_axis};
 use crate::render::method::Method;
-use crate::render::models::{ModelRange, Models};
+use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::scene::disk::polygons::{Ring, model, rings};
 
 use crate::render::disk::Disk;
@@ -78,14 +78,16 @@ impl PolygonPass {
         let shader = module(device, "polygons", Pass::DiskPolygons);
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, None)], depth: Some(true) };
         let draw = raster(device, "polygons", &shader, stage, &[Some(frame_layout), Some(&seen_layout), Some(gas_layout)]);
-        let mut models = Models::new(device);
+        let mut set = ModelSet::default();
         let (parts, worldlines) = if turn {
-            let mut part = |ring: Ring| Part { range: models.add(gpu, &ring.model), rate: Some(ring.rate), rims: ring.rims };
+            let mut part = |ring: Ring| Part { range: set.add(&ring.model), rate: Some(ring.rate), rims: ring.rims };
             (rings(&disk.config, &disk.gas.radial).into_iter().map(&mut part).collect(), Worldlines::Rings)
         } else {
-            let range = models.add(gpu, &model(&disk.config, &disk.gas.radial));
+            let range = set.add(&model(&disk.config, &disk.gas.radial));
             (vec![Part { range, rate: None, rims: [None; 2] }], Worldlines::Bodies)
         };
+        let mut models = Models::new(device);
+        models.upload(gpu, set);
         PolygonPass {
             geometry: Geometry::new(device, frame_layout, worldlines),
             models,

@@ -248,25 +248,27 @@ impl Models {
 
     /// Uploads these models instead of all others. Buffers may be replaced: bind groups must be made after this.
     pub fn upload(&mut self, gpu: &Gpu, set: ModelSet) {
-        for (layer, image) in (0u32..).zip(&set.images) {
-            let uploaded = self.set.images.get(layer as usize).is_some_and(|other| Arc::ptr_eq(other, image));
-            if !uploaded {
-                self.write_image(gpu, image, layer);
-            }
-        }
-        self.vertex_buffer.write(gpu, &set.vertices);
-        self.edge_buffer.write(gpu, &set.edges);
-        self.triangle_buffer.write(gpu, &set.triangles);
-        self.material_buffer.write(gpu, &set.materials);
         self.set = set;
+        self.write(gpu, 0);
     }
 
     /// Adds a model and says where it lies; as [`upload`](Models::upload).
     pub fn add(&mut self, gpu: &Gpu, model: &Model) -> ModelRange {
-        let mut set = self.set.clone();
-        let range = set.add(model);
-        self.upload(gpu, set);
+        let images = self.set.images.len();
+        let range = self.set.add(model);
+        self.write(gpu, images);
         range
+    }
+
+    /// Writes all of the set but the first `written` images, which are there.
+    fn write(&mut self, gpu: &Gpu, written: usize) {
+        for (layer, image) in (0u32..).zip(&self.set.images).skip(written) {
+            self.write_image(gpu, image, layer);
+        }
+        self.vertex_buffer.write(gpu, &self.set.vertices);
+        self.edge_buffer.write(gpu, &self.set.edges);
+        self.triangle_buffer.write(gpu, &self.set.triangles);
+        self.material_buffer.write(gpu, &self.set.materials);
     }
 
     /// Writes an image with its mip chain into a layer of the texture array.
