@@ -3,6 +3,7 @@
 //! `cargo run --release --example orbit` prints T, r and azimuth; r_s = c = 1.
 
 use std::error::Error;
+use std::io::Write;
 
 use glam::DVec3;
 use lensrunner::spacetime::matter::{energy, step};
@@ -13,13 +14,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut ship = circular_orbit(8.0, 0.0)?;
     ship.momentum *= 0.95;
     let start = energy(&ship);
-    println!("T,r,azimuth");
+    // A reader that closes the pipe ends the program with an error, not with a panic.
+    let mut out = std::io::stdout();
+    writeln!(out, "T,r,azimuth")?;
     let every = 10.0;
     for k in 0..=60 {
-        println!("{},{:.6},{:.6}", f64::from(k) * every, ship.position.length(), ship.position.y.atan2(ship.position.x));
+        writeln!(out, "{},{:.6},{:.6}", f64::from(k) * every, ship.position.length(), ship.position.y.atan2(ship.position.x))?;
         // No thrust, no turning.
         ship = step(&ship, every, DVec3::ZERO, DVec3::ZERO);
     }
-    println!("# energy at infinity: {start:.12} at the start, {:.12} at the end", energy(&ship));
+    writeln!(out, "# energy at infinity: {start:.12} at the start, {:.12} at the end", energy(&ship))?;
     Ok(())
 }
