@@ -1,6 +1,6 @@
 //! Where the judge is asked for a surface point.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use lensrunner::judge::picture::{Layer, Picture};
 use lensrunner_lab::compare::displacement::{Effort, Measured, Point, Probe, displacements};
 use lensrunner_lab::compare::{Frame, Shown};
@@ -18,6 +18,10 @@ impl Probe for Rod {
         let place = DVec3::new(x, y, 0.0);
         let body = if (ROD[0]..ROD[1]).contains(&x) { place + FAR } else { place };
         Some(Point { object: 1, order: 1, body })
+    }
+
+    fn place(&self, point: &Point) -> Option<DVec2> {
+        (point.body.x < FAR.x / 2.0).then(|| point.body.truncate())
     }
 
     fn body(&self, layer: &Layer) -> DVec3 {

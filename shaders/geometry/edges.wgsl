@@ -82,7 +82,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     }
     var level = level_for(error * strictness(instance) * closer, 1.0);
     level = min(level, most_segments(instance, a.xyz, b.xyz, pixel * length(from_apparent)));
-    if plain && turn_about_axis(a.xyz, b.xyz, order) > most_turn(instance) {
+    let turn = turn_about_axis(a.xyz, b.xyz, order);
+    let sag = uneven_sag(a.xyz, b.xyz, level, turn, seen_under);
+    if plain && (turn > most_turn(instance) || level_for(sag * fineness * strictness(instance), 1.0) > 1u) {
         error = MUST_SPLIT;
         level = max(level, BLOCK + 1u);
     }

@@ -78,13 +78,34 @@ fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool
     return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
 }
 
+/// An edge turns unevenly about the axis if one of its segments turns this many times as much as their mean. The quarters at which its error
+/// is measured then miss the part that bends most.
+const UNEVEN: f32 = 2.0;
+
+/// The sag of that segment of an edge which turns most about the axis, in radians; 0 if all turn about equally. The edge has `level` equal
+/// segments and turns by `turn` in all; its ends are positions by the axis. Its image runs along the ring first and outwards later, so at
+/// most all of its length `seen_under` (radians) belongs to the turn: the ring's radius is at most `seen_under` / `turn`, and an arc of
+/// radius R and angle δ sags by R δ²/8.
+fn uneven_sag(a: vec3<f32>, b: vec3<f32>, level: u32, turn: f32, seen_under: f32) -> f32 {
+    let a_is_near = dot(a.xy, a.xy) < dot(b.xy, b.xy);
+    let near = select(b.xy, a.xy, a_is_near);
+    let far = select(a.xy, b.xy, a_is_near);
+    let next = mix(near, far, vec2<f32>(1.0 / f32(level)));
+    let first = abs(atan2(area_with_axis(near, next), dot(near, next)));
+    return select(0.0, 0.125 * seen_under * first * first / turn, turn > LEAST_TURN && first * f32(level) > UNEVEN * turn);
+}
+
+/// Roundings from the axis within which a vertex or an edge counts as on it. Objects are drawn `BESIDE` = 4 roundings beside their true
+/// position (src/render/instances/mod.rs). So what was put on the axis is counted on it: at four roundings azimuths have one digit.
+const CORE_ROUNDINGS: f32 = 8.0;
+
 /// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it: as far as rounding may have moved it, and
 /// so far that nobody sees the difference. It is the same for all triangles of the vertex or the edge, so the surface stays closed. A point
 /// moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as wide
 /// as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
 fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
     let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
-    return max(instance.axis.z, select(0.1 * pixel / frame.size.x, 0.0, is_thin(instance)));
+    return select(max(CORE_ROUNDINGS * instance.axis.z, 0.1 * pixel / frame.size.x), instance.axis.z, is_thin(instance));
 }
 
 /// The most segments that an edge needs between two positions by the axis, where a pixel spans `pixel`, in r_s. Within a fiftieth of a

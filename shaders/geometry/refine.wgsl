@@ -79,7 +79,8 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
     result.level = min(result.level, most_segments(instance, by_axis[i], by_axis[j], pixel));
     result.turn = turn_about_axis(by_axis[i], by_axis[j], instance.ids.x);
-    if result.turn > most_turn(instance) {
+    let sag = uneven_sag(by_axis[i], by_axis[j], result.level, result.turn, angle_between(points[i], points[j]));
+    if result.turn > most_turn(instance) || level_for(sag * fineness * strict * closer, 1.0) > 1u {
         result.error = MUST_SPLIT;
         result.level = max(result.level, BLOCK + 1u);
     }

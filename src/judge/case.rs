@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec2, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::probe::{Point, Probe};
@@ -11,6 +11,7 @@ use crate::judge::picture::post_process::{PostProcess, post_process};
 use crate::judge::picture::shade::Shift;
 use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Sway, Thing, World, Worldline, picture};
+use crate::judge::sight::seen_at;
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::scene::camera::viewpoint::CameraEnded;
@@ -370,6 +371,11 @@ impl Probe for Asked<'_> {
             }
             _ => None,
         }
+    }
+
+    fn place(&self, point: &Point) -> Option<DVec2> {
+        let thing = self.world.things.iter().find(|thing| thing.id == point.object)?;
+        seen_at(&self.world, &self.case.camera, thing, point.order, point.body)
     }
 
     fn body(&self, layer: &Layer) -> DVec3 {

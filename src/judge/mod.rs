@@ -8,6 +8,7 @@
 //! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
 //! - [`picture`]: whole pictures of a scene, with a tree.
 //! - [`probe`]: what is seen between the pixels.
+//! - [`sight`]: where a point of a body is seen, hidden or not.
 //! - [`case`]: the world that the judge sees of a simulated scene, and `lensrunner trace`. The one file here that knows `sim`.
 //! - [`bvh`]: trees of boxes over what a scene holds.
 //!
@@ -21,6 +22,7 @@ pub mod probe;
 pub mod ray;
 mod segments;
 pub mod shoot;
+pub mod sight;
 mod taylor;
 pub mod trace;
 

@@ -1,6 +1,6 @@
 //! The judge, asked between the pixels of its picture.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::picture::Layer;
 
@@ -19,6 +19,8 @@ pub struct Point {
 pub trait Probe: Sync {
     /// What is seen at (x, y), in pixels from the upper left corner.
     fn at(&self, x: f64, y: f64) -> Option<Point>;
+    /// Where the point is seen, in pixels, hidden or not; None where it is not, or where the judge cannot tell.
+    fn place(&self, point: &Point) -> Option<DVec2>;
     /// The point of the body that a pixel of the judge's picture shows.
     fn body(&self, layer: &Layer) -> DVec3;
     /// The greatest distance of a point of the body from its centre, in the model's unit.

@@ -3,5 +3,6 @@
 mod oracles;
 mod outwards;
 mod picture;
+mod sight;
 mod trace;
 mod world;

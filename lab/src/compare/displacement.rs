@@ -101,7 +101,9 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: 
                 }
             });
             let Some(Measured::Pixels(d)) = there else { return there };
-            Some(Measured::Pixels(found.fold(d, f64::min)))
+            let nearest = found.fold(d, f64::min);
+            let hidden = (nearest > DOUBTFUL).then(|| hidden(probe, here, centre, wanted)).flatten();
+            Some(Measured::Pixels(hidden.map_or(nearest, |d| d.min(nearest))))
         })
         .collect();
     let mut all = vec![None; judge.layers.len()];
@@ -109,6 +111,19 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: 
     all
 }
 
+/// How far from `centre`, in pixels, the judge would see the point `wanted` if nothing hid it. Only where it sees a part of the body beside
+/// it there: what is hidden by a part far from it should not be shown at all.
+fn hidden(probe: &dyn Probe, here: Point, centre: DVec2, wanted: DVec3) -> Option<f64> {
+    let place = probe.place(&Point { body: wanted, ..here })?;
+    let near = HIDDEN_BESIDE * probe.radius(here.object);
+    let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y].map(|v| place + v);
+    let seen = corners.into_iter().filter_map(|p| probe.at(p.x, p.y)).filter(|p| (p.object, p.order) == (here.object, here.order));
+    seen.map(|p| p.body).chain([here.body]).any(|body| body.distance(wanted) < near).then(|| place.distance(centre))
+}
+
+/// A point just behind an outline may be shown in the place of the outline, which is off by less than a pixel. Seen under a tangent, a
+/// sphere of 100 pixels hides a tenth of its radius behind its last pixel.
+const HIDDEN_BESIDE: f64 = 0.1;
 /// From this many pixels on a displacement is measured from several starts.
 const DOUBTFUL: f64 = 0.5;
 /// How far from the pixel's centre those are, in pixels. Parts of a body may be narrower than a pixel.

@@ -26,7 +26,7 @@ const LARGER: f64 = 1.1;
 /// enough.
 const FAR: f64 = 0.3;
 /// Number of points that are evaluated on the ball's circle in the plane of the axis.
-const PLACES: u32 = 8;
+const PLACES: u32 = 32;
 /// Least radius, in r_s, of points that send light to a camera outside.
 const LEAST_RADIUS: f64 = 1.0001;
 
