@@ -22,6 +22,7 @@ mod horizon;
 mod methods;
 mod narrow;
 mod projection;
+mod projection_methods;
 mod published;
 mod random;
 mod random_pictures;
@@ -30,6 +31,8 @@ mod verdicts;
 
 #[path = "../../tests/gpu.rs"]
 mod gpu;
+#[path = "../../tests/projector.rs"]
+mod projector;
 #[allow(dead_code, reason = "the tests of the game use the rest")]
 #[path = "../../tests/render/support.rs"]
 mod render_support;

@@ -8,18 +8,14 @@
 //! asks one, `adversarial` the points where they break.
 
 pub mod adversarial;
-pub mod batch;
-pub mod closed;
 pub mod closed_form;
 pub mod command;
 pub mod lookup;
 pub mod methods;
-pub mod orbit;
 pub mod paper;
 pub mod paper_format;
 pub mod project;
 pub mod score;
-pub mod shooting;
 pub mod table;
 
 pub use closed_form::{double, single};
