@@ -1,5 +1,6 @@
 //! Tests of `src/judge/`.
 
+pub mod brute;
 mod oracles;
 mod outwards;
 mod picture;

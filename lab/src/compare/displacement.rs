@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use super::Frame;
 use super::deadline::Deadline;
+pub use super::probe::{Point, Probe};
 use lensrunner::judge::picture::Picture;
-pub use lensrunner::judge::probe::{Point, Probe};
 
 /// What came of measuring at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,6 +26,7 @@ mod grid;
 pub mod judged;
 pub mod metrics;
 pub mod narrow;
+pub mod probe;
 pub mod random;
 pub mod report;
 
