@@ -25,7 +25,6 @@ const NAMES: [(Method, &str); 4] =
 const HELD: &str = include_str!("../../../shaders/methods/held.wgsl");
 const RESIDUALS: &str = include_str!("../../../shaders/functions/residuals.wgsl");
 const ORBIT: &str = include_str!("../../../shaders/functions/orbit.wgsl");
-const SHOOTING: &str = include_str!("../../../shaders/functions/shooting.wgsl");
 const EXACT: &str = include_str!("../../../shaders/functions/exact.wgsl");
 const STATIC_RAY: &str = include_str!("../../../shaders/functions/static_ray.wgsl");
 
@@ -63,7 +62,7 @@ impl Method {
     pub fn source(self) -> String {
         let parts: &[&str] = match self {
             Method::Table => &[HELD, include_str!("../../../shaders/methods/table.wgsl")],
-            Method::Exact => &[ORBIT, SHOOTING, EXACT, HELD, include_str!("../../../shaders/methods/exact.wgsl")],
+            Method::Exact => &[ORBIT, EXACT, HELD, include_str!("../../../shaders/methods/exact.wgsl")],
             Method::Paper1 => &[STATIC_RAY, HELD, include_str!("../../../shaders/methods/paper1.wgsl")],
             Method::Flat => &[include_str!("../../../shaders/methods/flat.wgsl")],
         };
