@@ -74,7 +74,7 @@ fn the_table_is_the_same_in_both_languages() {
 }
 
 /// The closed form in single precision against that in double precision, where both ends are not inside (there the shader's answer is the
-/// table's). Rays that wind around the photon sphere lose their digits in single precision.
+/// table's). Rays that wind around the photon sphere lose their digits in single precision: at most 5 of 1,500.
 #[test]
 fn the_exact_method_is_exact() {
     let mut race = Race::new(&GPU, TABLE.clone());
@@ -98,7 +98,7 @@ fn the_exact_method_is_exact() {
             off += usize::from(!(direction <= 1.0 && delay <= 1.0));
         }
         println!("L = {l}: {seen} seen, {off} off");
-        assert!(seen > 900 && off <= rows.len() / 50, "L = {l}: {off} of {seen} are off");
+        assert!(seen > 900 && off <= rows.len() / 150, "L = {l}: {off} of {seen} are off");
     }
 }
 
