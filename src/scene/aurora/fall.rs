@@ -6,8 +6,8 @@
 //! follows from the mass N(z) of air overhead alone: E(z) = E₀ (1 − N(z)/(µ R(E₀)))^{1/1.75}. So a step may be of any length, and a
 //! particle can neither pass the ground nor spend more energy than it has.
 
-use super::deposition::PAIR_ENERGY;
-
+/// Energy spent per ion pair, in keV: the 35 eV of Fang et al. 2010, after Rees 1989.
+pub const PAIR_ENERGY: f64 = 0.035;
 /// R(E) = RANGE · E^RANGE_POWER in g cm⁻², E in keV.
 pub const RANGE: f64 = 4.57e-6;
 /// See [`RANGE`].
