@@ -5,6 +5,7 @@ mod gpu;
 mod house;
 mod judge;
 mod lensing;
+mod projector;
 #[cfg(feature = "game")]
 mod render;
 mod scene;

@@ -1,4 +1,4 @@
-//! The walks of the aurora's experiment on the GPU, handed to the chart `aurora`: the floor of measurements knows no renderer.
+//! The walks of the aurora's experiment on the GPU as runners of the chart `aurora`.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -8,11 +8,11 @@ use glam::{Mat3, Vec3};
 
 use crate::aurora::experiment::{Job, Runner, TOLERANCE, Timed};
 use crate::aurora::lattice::Lattice;
+use crate::aurora::race::{Electron, Experiment, Race, Scene, Walk};
 use crate::aurora::sheet::{FALLS, Falls, LEVELS, TOP, row_reach};
 use crate::aurora::splat::Picture;
 use crate::aurora::walk::across;
 use lensrunner::render::Gpu;
-use lensrunner::render::aurora::race::{Electron, Experiment, Race, Scene, Walk};
 
 /// One walk on the best adapter there is.
 struct Contestant {
@@ -47,7 +47,7 @@ fn columns(m: Mat3) -> [[f32; 4]; 3] {
     [m.x_axis, m.y_axis, m.z_axis].map(row)
 }
 
-/// Of each level what shaders/aurora/experiment_walks.wgsl asks for; there are `chords` chords from the top down to `foot`.
+/// Of each level what lab/shaders/aurora/experiment_walks.wgsl asks for; there are `chords` chords from the top down to `foot`.
 fn air(falls: &Falls, chords: usize, foot: f32) -> Vec<[f32; 4]> {
     let length = (TOP as f32 - foot) / chords as f32;
     let chord = |height: f32| (((TOP as f32 - height) / length) as usize).min(chords - 1) as f32;

@@ -7,7 +7,8 @@ use std::process::ExitCode;
 use clap::{Args, Subcommand};
 use lensrunner::scene;
 use lensrunner_lab::projection::ChartError;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, projection, race, thin_disk};
+use lensrunner_lab::projection::race::Race;
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, frame_times, projection, thin_disk};
 
 use crate::fail;
 
@@ -171,12 +172,8 @@ pub fn run(chart: ChartCommand) -> ExitCode {
 }
 
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
-    use lensrunner::render::disk::bench::Bench;
-    use lensrunner::render::{Gpu, shot};
-    use lensrunner_lab::disk::{
-        chart::run,
-        request::{DiskRequest, Shown, contestants},
-    };
+    use lensrunner::render::Gpu;
+    use lensrunner_lab::disk::{chart::run, request::DiskRequest};
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
@@ -189,37 +186,20 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         steps: usize::from(args.steps),
         flight: args.flight as usize,
     };
-    let gpu = match Gpu::headless() {
-        Ok(gpu) => gpu,
-        Err(error) => return fail(&error, 1),
-    };
-    let adapter = gpu.adapter.name.clone();
-    let mut bench = None;
-    finish_chart(run(&request, &config, &adapter, &mut |number, view, picture| {
-        let configs = || contestants(&config).into_iter().map(|contestant| contestant.config).collect();
-        let bench = bench.get_or_insert_with(|| Bench::new(gpu.clone(), &shot::surroundings(), configs(), request.size));
-        bench.set_counting(view.counted);
-        let frame = bench.frame(number, view.eye, view.time, view.sky, picture).map_err(|error| error.to_string())?;
-        Ok(Shown {
-            whole: frame.whole,
-            processor: frame.processor,
-            before: frame.before,
-            passes: frame.passes,
-            fragments: frame.fragments,
-            picture: frame.picture,
-        })
-    }))
+    match Gpu::headless() {
+        Ok(gpu) => finish_chart(run(&request, &config, gpu)),
+        Err(error) => fail(&error, 1),
+    }
 }
 
 fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
-    use lensrunner::render::bench;
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
     let request =
-        bench::FrameTimesRequest { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
-    match bench::run(&request, &config, &mut io::stdout().lock()) {
+        frame_times::FrameTimesRequest { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
+    match frame_times::run(&request, &config, &mut io::stdout().lock()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
     }
@@ -227,9 +207,8 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
 
 fn run_chart_projection(args: ChartProjectionArgs) -> ExitCode {
     let request = projection::ProjectionRequest { output: args.chart.into(), points: args.points, seed: args.seed, methods: args.methods };
-    let mut race = if request.output.redraw { None } else { race::race() };
-    let adapter = race.as_mut().map(|race| race as &mut dyn projection::Adapter);
-    match projection::run(&request, adapter) {
+    let mut race = if request.output.redraw { None } else { Race::on_best_adapter() };
+    match projection::run(&request, race.as_mut()) {
         Err(error @ ChartError::Method { .. }) => fail(&error, 2),
         result => finish_chart(result),
     }

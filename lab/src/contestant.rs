@@ -5,19 +5,26 @@ use std::sync::{Mutex, PoisonError};
 use crate::compare::command::MARKS;
 use crate::compare::{Frame, Shown};
 use lensrunner::judge::case::Case;
-use lensrunner::render::Renderer;
-use lensrunner::render::gpu::readback::Picture;
-use lensrunner::render::shot::{Compared, ShotError, for_comparison, marked, renderer};
+use lensrunner::render::gpu::readback::{Picture, PictureError};
+use lensrunner::render::settings::Settings;
+use lensrunner::render::shot::surroundings;
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::{DeviceError, Gpu, Renderer};
+use lensrunner::scene::Model;
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
 pub struct Contestant(Mutex<Option<Renderer>>);
 
 impl Contestant {
-    /// Draws the case as the game does; the points of surfaces come from the same frame with marked models.
+    /// Draws the case as the game does: with its sky, without, and twice with layers, of models marked finely and coarsely. Auroras have a
+    /// judge of their own and are left out.
     pub fn draw(&self, case: &Case) -> Result<Frame, String> {
         self.with_renderer(case, |renderer| {
-            let [sky, bare, first, second] = for_comparison(renderer, &compared_case(case), MARKS)?;
+            let stage = staged(renderer, case, None);
+            let [sky, bare] = [drawn(renderer, case, &stage, false, true)?, drawn(renderer, case, &stage, false, false)?];
+            let [first, second] = MARKS.map(|mark| marked(renderer, case, mark));
+            let (first, second) = (first?, second?);
             let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
             let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
             Ok(Frame { size: sky.size, light: rgb(&sky.linear), bare: rgb(&bare.linear), shown: shown.collect() })
@@ -27,32 +34,59 @@ impl Contestant {
     /// What its pixels show, and nothing of its light: a quarter of the work.
     pub fn show(&self, case: &Case) -> Result<Vec<Shown>, String> {
         self.with_renderer(case, |renderer| {
-            let layers = marked(renderer, &compared_case(case), MARKS[0])?;
+            let layers = marked(renderer, case, MARKS[0])?;
             Ok((0..layers.layers.len()).map(|i| shown(&layers, &layers, i)).collect())
         })
     }
 
-    fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, ShotError>) -> Result<T, String> {
+    fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, DrawError>) -> Result<T, String> {
         // After a panic, or an error of the device, the next case gets a renderer of its own.
         let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
         let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(|error| error.to_string())?;
         let drawn = draw(&mut renderer);
-        if matches!(drawn, Ok(_) | Err(ShotError::Outside(_))) {
+        if matches!(drawn, Ok(_) | Err(DrawError::Outside(_))) {
             *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
         }
         drawn.map_err(|error| error.to_string())
     }
 }
 
-fn compared_case(case: &Case) -> Compared<'_> {
-    Compared {
-        scene: &case.scene,
-        assembly: &case.assembly,
-        config: &case.config,
-        time: case.time,
-        histories: case.histories.iter().collect(),
-        camera: case.camera.observer,
-        size: case.camera.size,
+/// Why a case is not drawn.
+#[derive(Debug, thiserror::Error)]
+enum DrawError {
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    #[error("{0} triangles lay outside of where their object's image can be")]
+    Outside(u32),
+}
+
+/// A renderer without a window, for pictures of this size at first.
+fn renderer(size: [u32; 2]) -> Result<Renderer, DeviceError> {
+    Ok(Renderer::new(&Gpu::headless()?, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size))
+}
+
+/// The picture with layers, without the sky, of models marked so.
+fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model) -> Result<Picture, DrawError> {
+    let stage = staged(renderer, case, Some(mark));
+    drawn(renderer, case, &stage, true, false)
+}
+
+fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
+    renderer.resize(case.camera.size);
+    let mut config = case.config.clone();
+    config.aurora.enabled = false;
+    Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
+}
+
+fn drawn(renderer: &mut Renderer, case: &Case, stage: &Stage, layers: bool, sky: bool) -> Result<Picture, DrawError> {
+    let with = settings(&case.config);
+    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
+    let histories: Vec<_> = case.histories.iter().collect();
+    let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, None, &settings);
+    let picture = renderer.picture(&frame, layers)?;
+    match renderer.counters()?.outside {
+        0 => Ok(picture),
+        count => Err(DrawError::Outside(count)),
     }
 }
 

@@ -1,8 +1,8 @@
 //! The laboratory: it stands above the game and may see all of it; nothing in the game knows the laboratory.
 //!
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
-//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`race`] and [`aurora_race`] run the
-//!   shaders' part of two of them.
+//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
+//!   of one of them; [`frame_times`] times whole frames.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
@@ -15,9 +15,10 @@ pub mod compare;
 pub mod contestant;
 pub mod disk;
 pub mod flip;
+pub mod frame_times;
 pub mod plot;
 pub mod projection;
-pub mod race;
 mod say;
+mod stopwatch;
 pub mod straight;
 pub mod thin_disk;

@@ -74,20 +74,6 @@ fn improper_boxes_are_left_out_and_poison_nobody() {
     assert_eq!(built(&[Bounds { min: [f32::NAN; 3], max: [f32::NAN; 3] }; 5], 4).nodes.len(), 0);
 }
 
-#[test]
-fn refitted_to_what_moved() {
-    let mut boxes = row(200);
-    let mut tree = built(&boxes, 4);
-    for (i, b) in boxes.iter_mut().enumerate() {
-        let shift = (i as f64).sin();
-        b.min[2] += shift;
-        b.max[2] += shift;
-    }
-    assert!(validate(&tree, &boxes).is_err());
-    tree.refit(|i| boxes[i as usize]);
-    validate(&tree, &boxes).unwrap();
-}
-
 /// Every kind of damage is named.
 #[test]
 fn the_validator_finds_each_fault() {

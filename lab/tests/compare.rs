@@ -9,6 +9,7 @@ use lensrunner::scene::{GameConfig, Scene};
 use lensrunner_lab::compare::Frame;
 use lensrunner_lab::compare::command::difference;
 use lensrunner_lab::compare::metrics::{Limits, Verdict, compare};
+use lensrunner_lab::compare::probe::probe;
 
 const SIZE: [u32; 2] = [160, 90];
 
@@ -36,7 +37,7 @@ fn trace(case: &Case) -> Picture {
 
 fn verdict(case: &Case, judge: &Picture, frame: &Frame) -> Verdict {
     let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
-    compare(judge, frame, &case.probe(1e-10), &names, &difference(judge, frame))
+    compare(judge, frame, &probe(case, 1e-10), &names, &difference(judge, frame))
 }
 
 fn faults(case: &Case, judge: &Picture, frame: &Frame) -> Vec<String> {

@@ -29,13 +29,14 @@ fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
 #[test]
 fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
     use lensrunner_lab::compare::narrow;
+    use lensrunner_lab::compare::probe::probe;
     // The ship ahead of the camera is drawn out to a ring of the second order, a hundredth of a pixel wide.
     let mut config = GameConfig::default();
     config.render.least_width = 0.001;
     let case = Case::new(scene::load("plunge").unwrap(), config, 0.0, [320, 180]);
     let frame = contestant::draw(&case).unwrap();
     let mut judge = case.trace(&Quality { samples: 1, tolerance: 1e-8, packet: 8 }, false, &|_| ());
-    narrow::see_again(&mut judge, &frame, &case.probe(1e-8));
+    narrow::see_again(&mut judge, &frame, &probe(&case, 1e-8));
     let seen: f32 = judge.shares.iter().flatten().filter(|share| share.1 == 2).map(|share| share.2).sum();
     let drawn: Vec<f32> = frame.shown.iter().filter(|shown| shown.order == 2).map(|shown| shown.coverage).collect();
     let sum: f32 = drawn.iter().sum();

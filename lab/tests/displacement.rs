@@ -28,6 +28,10 @@ impl Probe for Rod {
         DVec3::new(f64::from(layer.uv[0]), f64::from(layer.uv[1]), 0.0)
     }
 
+    fn off_body(&self, _: u32, body: DVec3) -> f64 {
+        body.z.abs()
+    }
+
     fn radius(&self, _: u32) -> f64 {
         1.0
     }
@@ -56,9 +60,12 @@ fn a_part_narrower_than_a_pixel_is_found_beside_the_centre() {
     let mut shown: Vec<Shown> =
         (0..25).map(|i| Shown { object: 1, order: 1, body: [centre(i)[0], centre(i)[1], 0.0], coverage: 1.0 }).collect();
     shown[12].body = [502.8, 2.5, 0.0];
+    // A point of nothing.
+    shown[24].body = [4.5, 6.5, 1.0];
     let frame = Frame { size, light: vec![[0.0; 3]; 25], bare: vec![[0.0; 3]; 25], shown };
     let found = displacements(&judge, &frame, &Rod, &Effort::default());
     let Some(Measured::Pixels(rod)) = found[12] else { panic!("{:?}", found[12]) };
     assert!((rod - 0.3).abs() < 1e-3, "{rod}");
     assert!(matches!(found[6], Some(Measured::Pixels(wall)) if wall < 1e-3), "{:?}", found[6]);
+    assert_eq!(found[24], Some(Measured::Nowhere));
 }

@@ -22,14 +22,18 @@ mod horizon;
 mod methods;
 mod narrow;
 mod projection;
+mod projection_methods;
 mod published;
 mod random;
 mod random_pictures;
+mod sight;
 mod thin_disk;
 mod verdicts;
 
 #[path = "../../tests/gpu.rs"]
 mod gpu;
+#[path = "../../tests/projector.rs"]
+mod projector;
 #[allow(dead_code, reason = "the tests of the game use the rest")]
 #[path = "../../tests/render/support.rs"]
 mod render_support;

@@ -57,7 +57,7 @@ fn a_ray_a_pixel_is_enough_but_where_images_are_narrow() {
     let faults = |again: bool, factor: f32| {
         let mut judge = trace(&case, 1);
         let frame = drawn(&case, &exact, factor);
-        let probe = case.probe(1e-9);
+        let probe = lensrunner_lab::compare::probe::probe(&case, 1e-9);
         if again {
             narrow::see_again(&mut judge, &frame, &probe);
         }

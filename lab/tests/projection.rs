@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-use lensrunner::lensing::methods::{Exact, Frame, Projector, Query, Sight, Vertex};
+use lensrunner::lensing::methods::{Exact, Projector, Query, Sight};
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::chart::{Output, Sheet};
 use lensrunner_lab::projection::{self, ChartError, ProjectionRequest, rows, score, truth};
@@ -41,14 +41,6 @@ impl Projector for Spoiled {
             Some(sight) => Some(Sight { psi_rain: sight.psi_rain + 0.01, delay: sight.delay + 3.0, ..sight }),
             None => Some(Sight { psi_rain: 1.0, psi_static: None, delay: 1.0 }),
         }
-    }
-
-    fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
-        struct Nothing;
-        impl Frame for Nothing {
-            fn look_up(&self, _points: &[Vertex], _order: Order) {}
-        }
-        Box::new(Nothing)
     }
 }
 

@@ -8,7 +8,7 @@
 //   T                      Painlevé–Gullstrand time
 //   beta                   √a, the river's speed                     bent     Φ as the closed forms see it
 //
-// The twin of src/lensing/formulas.rs, inside.rs and lookup.rs, function for function. No bindings here: the shader that includes
+// The twin of src/lensing/closed_form/formulas.rs, inside.rs and lookup.rs, function for function. No bindings here: the shader that includes
 // this file supplies
 //   const SEES_INSIDE: bool, false in passes that never look from inside the horizon at what is inside: they compile in half the time
 //   fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32>, of residuals.wgsl or a method's own

@@ -1,4 +1,6 @@
-// u(Φ) in closed form: the twin of src/lensing/orbit.rs, function for function.
+// u(Φ) in closed form in single precision: the addition theorem of src/spacetime/light/orbit.rs. The pole orbit of the curve p′² = p²(4p + 1) + d
+// at Φ, by its Laurent series at Φ/2ⁿ and n duplications, then carried to the camera's ray (Whittaker & Watson 20.2 to 20.6). u = 1/r,
+// w = du/dΦ, d = (e² − 4/27)/16. Lengths in r_s, angles in radians.
 
 /// e² of the ray that winds around the photon sphere, 1/r_s².
 const CRITICAL_SQUARE: f32 = 4.0 / 27.0;

@@ -1,4 +1,4 @@
-// From what a static camera sees to the ray, for methods that only tell that: the twin of src/lensing/closed.rs.
+// From what a static camera sees to the ray, for methods that only tell that.
 
 fn static_ray(cam: LensCamera, at: SourcePoint, order: u32, psi: f32, delay: f32) -> LensRay {
     // From the static angle the rest follows; on which side of a turning point the light left, as straight light would.

@@ -1,4 +1,4 @@
-// Methods "paper1-…": the tables of Yamashita 2012 as its author used them. ψ in the static frame, linear between nodes on the meshes of
+// Method "paper1-128": the tables of Yamashita 2012 as its author used them. ψ in the static frame, linear between nodes on the meshes of
 // its equations 3 to 7, one table for points nearer than the camera and one for those beyond; triangles are drawn as they are, and dropped
 // where the hole makes them more than nine times as large (its section 4.3). Outside the horizon and for two orders only.
 

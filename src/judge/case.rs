@@ -3,15 +3,13 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::{DQuat, DVec3};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::probe::{Point, Probe};
 use crate::judge::picture::post_process::{PostProcess, post_process};
 use crate::judge::picture::shade::Shift;
 use crate::judge::picture::sky::{Background, stars};
-use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Seen, Setting, Sway, Thing, World, Worldline, picture};
-use crate::judge::sight::seen_at;
+use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Setting, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::scene::camera::viewpoint::CameraEnded;
@@ -327,17 +325,11 @@ impl Case {
         self.on_model(object.model, layer.triangle as usize, layer.barycentrics.map(f64::from))
     }
 
-    fn on_model(&self, model: usize, triangle: usize, weights: [f64; 3]) -> DVec3 {
+    /// The point of a triangle of a model with these barycentric weights, in the model's axes and unit.
+    pub fn on_model(&self, model: usize, triangle: usize, weights: [f64; 3]) -> DVec3 {
         let model = &self.assembly.models[model];
         let corners = model.triangles[triangle].map(|index| DVec3::from(model.vertices[index as usize].position.map(f64::from)));
         (0..3).map(|k| corners[k] * weights[k]).sum()
-    }
-
-    /// The judge, to be asked anywhere on the screen.
-    pub fn probe(&self, tolerance: f64) -> impl Probe + '_ {
-        let ships: Vec<&dyn Worldline> = self.histories.iter().map(|history| history as &dyn Worldline).collect();
-        let gas = self.scene.disk(&self.config).map(|disk| Gas::new(&disk, self.config.hole.mass_solar).extent());
-        Asked { case: self, world: self.world(&ships), gas, tolerance }
     }
 
     /// How the game makes a picture of light.
@@ -348,53 +340,6 @@ impl Case {
             key: self.scene.disk(&self.config).map_or(render.exposure_key, |disk| disk.exposure_key) as f32,
             exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
         }
-    }
-}
-
-/// A case's judge between the pixels.
-struct Asked<'a> {
-    case: &'a Case,
-    world: World<'a>,
-    /// From where to where the disk has gas, in r_s.
-    gas: Option<[f64; 2]>,
-    tolerance: f64,
-}
-
-impl Probe for Asked<'_> {
-    fn at(&self, x: f64, y: f64) -> Option<Point> {
-        let camera = &self.case.camera;
-        match self.world.look(camera.observer.position, camera.look(x, y).0, self.tolerance) {
-            Seen::Hit(hit) => {
-                let thing = &self.world.things[hit.object];
-                let body = self.case.on_model(thing.model, hit.triangle, hit.barycentrics);
-                Some(Point { object: thing.id, order: hit.order, body })
-            }
-            _ => None,
-        }
-    }
-
-    fn place(&self, point: &Point) -> Option<DVec2> {
-        let thing = self.world.things.iter().find(|thing| thing.id == point.object)?;
-        seen_at(&self.world, &self.case.camera, thing, point.order, point.body)
-    }
-
-    fn body(&self, layer: &Layer) -> DVec3 {
-        self.case.body(layer)
-    }
-
-    fn radius(&self, object: u32) -> f64 {
-        let thing = self.world.things.iter().find(|thing| thing.id == object);
-        thing.map_or(1.0, |thing| f64::from(self.case.assembly.models[thing.model].radius()))
-    }
-
-    fn is_dark(&self, x: f64, y: f64) -> bool {
-        let camera = &self.case.camera;
-        let mut clear = true;
-        let seen = self.world.look_through(camera.observer.position, camera.look(x, y).0, self.tolerance, &mut |crossing| {
-            let r = crossing.position.length();
-            clear &= self.gas.is_none_or(|[start, end]| r < start || r > end);
-        });
-        clear && !matches!(seen, Seen::Hit(_))
     }
 }
 

@@ -5,10 +5,8 @@
 //! - `taylor`, `segments`: its coefficients, and steps of several rays side by side.
 //! - [`ray`]: the light that reaches a camera from one look direction, followed back until it escapes or is captured.
 //! - [`mod@shoot`]: the look direction at which a given point is seen (boundary value).
-//! - [`trace`]: a camera, and what a pixel shows of triangles at rest, by trying all of them.
+//! - [`trace`]: a camera, and where a ray meets what it shows.
 //! - [`picture`]: whole pictures of a scene, with a tree.
-//! - [`probe`]: what is seen between the pixels.
-//! - [`sight`]: where a point of a body is seen, hidden or not.
 //! - [`case`]: the world that the judge sees of a simulated scene, and `lensrunner trace`. The one file here that knows `sim`.
 //! - [`bvh`]: trees of boxes over what a scene holds.
 //!
@@ -18,11 +16,9 @@ pub mod bvh;
 pub mod case;
 pub mod geodesic;
 pub mod picture;
-pub mod probe;
 pub mod ray;
 mod segments;
 pub mod shoot;
-pub mod sight;
 mod taylor;
 pub mod trace;
 

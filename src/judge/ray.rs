@@ -264,9 +264,9 @@ pub fn fate(position: DVec3, look: DVec3, tolerance: f64) -> Fate {
     }
 }
 
-/// From this radius on the rest of the way is [`swept_beyond`]: at least four times any impact parameter seen by a camera
+/// From this radius on the rest of the way is known without steps: at least four times any impact parameter seen by a camera
 /// at `camera` (b ≤ r_p/√(1 − 1/r_p) for a closest approach r_p ≤ r).
-pub(super) fn sky_radius(camera: f64) -> f64 {
+pub fn sky_radius(camera: f64) -> f64 {
     5.0 * camera.max(5.0)
 }
 

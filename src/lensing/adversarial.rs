@@ -81,7 +81,7 @@ fn row_of(rng: &mut SmallRng, camera: f64) -> Row {
     }
 }
 
-/// Log-uniform.
-fn between(rng: &mut SmallRng, [low, high]: [f64; 2]) -> f64 {
+/// A number between two, evenly spread by its logarithm.
+pub fn between(rng: &mut SmallRng, [low, high]: [f64; 2]) -> f64 {
     (low.ln() + rng.random::<f64>() * (high / low).ln()).exp()
 }

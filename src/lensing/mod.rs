@@ -2,24 +2,19 @@
 //!
 //! `closed_form` is right near the camera and where the field is weak; `table` holds what is left, over coordinates that open up the
 //! Einstein ring, the horizon and the surroundings of the camera (`table::grid`): how it is baked, filed and cut at one camera radius for a
-//! frame. `lookup` evaluates it in f32 as the GPU does, with `lookup::inside` for camera and point both inside the horizon; `batch` does
-//! eight points at once on the processor. `paper` is the method of Yamashita 2012, for comparison, and `score` measures the error of
-//! either. `orbit`, `shooting` and `closed` are f32 methods without a table. `methods` is all of them by name, `project` the command that
-//! asks one, `adversarial` the points where they break.
+//! frame. `lookup` evaluates it in f32 as the GPU does, with `lookup::inside` for camera and point both inside the horizon. `paper` is the
+//! method of Yamashita 2012, for comparison, and `score` measures the error of either. `methods` is the methods of projection by name,
+//! `project` the command that asks one, `adversarial` the points where they break.
 
 pub mod adversarial;
-pub mod batch;
-pub mod closed;
 pub mod closed_form;
 pub mod command;
 pub mod lookup;
 pub mod methods;
-pub mod orbit;
 pub mod paper;
 pub mod paper_format;
 pub mod project;
 pub mod score;
-pub mod shooting;
 pub mod table;
 
 pub use closed_form::{double, single};

@@ -1,20 +1,22 @@
 //! The error of a table on fresh random points, against the exact ray.
 
+use std::f64::consts::PI;
+
 use rand::rngs::SmallRng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 use super::lookup::{LensRay, OLD, YOUNG, lens_lookup_aged};
-use super::paper;
+use super::methods::Query;
 use super::table::slice::Slice;
 use super::table::{Scheme, Table};
+use super::{adversarial, paper};
 use crate::spacetime::light::{Branch, Order, connect, rain_angle, static_angle};
 
 /// How points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Points {
-    /// L log-uniform over 0.05 … 5000, a third of it in 0.95 … 1.6; r half log-uniform, half clustered at L down to 1e-4; φ half
-    /// uniform, half clustered at 0 and π down to 1e-5; nothing nearer to the camera than 1e-4 L.
+    /// Those of [`adversarial`] outside of the horizon.
     Adversarial,
     /// L log-uniform over 1.01 … 5000, half the points clustered at the camera, nothing nearer than 0.01 √L.
     Friendly,
@@ -22,34 +24,30 @@ pub enum Points {
 
 /// A point and a camera: r, φ, L.
 pub fn draw(points: Points, rng: &mut SmallRng) -> [f64; 3] {
-    let between = |rng: &mut SmallRng, lo: f64, hi: f64| (lo.ln() + rng.random::<f64>() * (hi / lo).ln()).exp();
-    let adversarial = points == Points::Adversarial;
-    let least_r = if adversarial { 1.0005 } else { 1.005 };
     loop {
-        let l = match points {
-            Points::Adversarial if rng.random_bool(1.0 / 3.0) => between(rng, 0.95, 1.6),
-            Points::Adversarial => between(rng, 0.05, 5000.0),
-            Points::Friendly => between(rng, 1.01, 5000.0),
+        let ([r, phi, l], fits) = match points {
+            Points::Adversarial => {
+                let Query { r, phi, camera } = adversarial::row(rng).query;
+                ([r, phi, camera], r >= adversarial::POINTS[0])
+            }
+            Points::Friendly => friendly(rng),
         };
-        let mut sign = || if rng.random_bool(0.5) { 1.0 } else { -1.0 };
-        let (up, side) = (sign(), sign());
-        let clustered = rng.random_bool(0.5);
-        let mut r = if clustered { l * (1.0 + up * between(rng, 1e-4, 1.0)) } else { between(rng, least_r, 1e4) };
-        let near = if adversarial { rng.random_bool(0.5) } else { clustered };
-        let mut phi = if near { std::f64::consts::PI * between(rng, 1e-5, 1.0) } else { std::f64::consts::PI * rng.random::<f64>() };
-        if near && adversarial && side > 0.0 {
-            phi = std::f64::consts::PI - phi;
-        }
-        if l < least_r && r < least_r {
-            r = between(rng, least_r, 1e4);
-        }
-        let half = (0.5 * phi).sin();
-        let distance = ((r - l).powi(2) + 4.0 * r * l * half * half).sqrt();
-        let least = if adversarial { 1e-4 * l } else { 0.01 * l.sqrt() };
-        if (least_r..=1e4).contains(&r) && distance >= least {
+        if fits {
             return [r, phi, l];
         }
     }
+}
+
+/// A friendly point, and whether it lies where friendly points do.
+fn friendly(rng: &mut SmallRng) -> ([f64; 3], bool) {
+    let l = adversarial::between(rng, [1.01, 5000.0]);
+    let clustered = rng.random_bool(0.5);
+    let side = if rng.random_bool(0.5) { 1.0 } else { -1.0 };
+    let r = if clustered { l * (1.0 + side * adversarial::between(rng, [1e-4, 1.0])) } else { adversarial::between(rng, [1.005, 1e4]) };
+    let phi = PI * if clustered { adversarial::between(rng, [1e-5, 1.0]) } else { rng.random::<f64>() };
+    let half = (0.5 * phi).sin();
+    let distance = ((r - l).powi(2) + 4.0 * r * l * half * half).sqrt();
+    ([r, phi, l], (1.005..=1e4).contains(&r) && distance >= 0.01 * l.sqrt())
 }
 
 /// Maximum, 99.9th percentile and root mean square of some errors.

@@ -5,7 +5,6 @@
 //! (Milky Way, stars) → [`aurora`] → [`post_process`] (bloom, exposure, tone curve).
 
 pub mod aurora;
-pub mod bench;
 pub mod disk;
 pub mod frame;
 pub mod geometry;

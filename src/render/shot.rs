@@ -1,6 +1,5 @@
 //! One picture of a scene at a time T, without a window.
 
-use crate::spacetime::Observer;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,8 +9,7 @@ use thiserror::Error;
 use crate::lensing;
 use crate::scene::camera::viewpoint::CameraEnded;
 pub use crate::scene::picture_size as size;
-use crate::scene::{self, Assembly, ConfigError, GameConfig, Model, Scene, SceneError};
-use crate::sim::History;
+use crate::scene::{self, ConfigError, GameConfig, SceneError};
 pub use crate::sim::Moment;
 
 use crate::render::gpu::readback::{Picture, PictureError};
@@ -42,9 +40,6 @@ pub enum ShotError {
     /// The camera sees nothing then.
     #[error(transparent)]
     Observer(#[from] CameraEnded),
-    /// The guard left out so many triangles.
-    #[error("{0} triangles lay outside of where their object's image can be")]
-    Outside(u32),
 }
 
 impl ShotError {
@@ -110,63 +105,6 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
     let settings = Settings { own_ship, ..settings(config) };
     let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
     Ok(renderer.picture(&frame, request.layers)?)
-}
-
-/// A renderer without a window, for pictures of this size at first.
-pub fn renderer(size: [u32; 2]) -> Result<Renderer, ShotError> {
-    Ok(Renderer::new(&Gpu::headless()?, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size))
-}
-
-/// A scene at one moment, as it is compared with the judge's picture.
-pub struct Compared<'a> {
-    /// The scene.
-    pub scene: &'a Scene,
-    /// Its models and objects.
-    pub assembly: &'a Assembly,
-    /// Its configuration.
-    pub config: &'a GameConfig,
-    /// T in r_s/c.
-    pub time: f64,
-    /// Worldlines of the ships, in scene order.
-    pub histories: Vec<&'a History>,
-    /// From where it is seen.
-    pub camera: Observer,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-}
-
-/// Draws a scene four times, for comparing with the judge's picture: with its sky, without, and without and with layers for each way to
-/// mark the models, finer and coarser ones. Auroras have a judge of their own and are left out. An error if the guard had to leave a
-/// triangle out.
-pub fn for_comparison(renderer: &mut Renderer, what: &Compared, marks: [fn(&Model) -> Model; 2]) -> Result<[Picture; 4], ShotError> {
-    let stage = staged(renderer, what, None);
-    let [sky, bare] = [drawn(renderer, what, &stage, false, true)?, drawn(renderer, what, &stage, false, false)?];
-    let [first, second] = marks.map(|mark| marked(renderer, what, mark));
-    Ok([sky, bare, first?, second?])
-}
-
-/// The picture with layers, without the sky, of models marked so.
-pub fn marked(renderer: &mut Renderer, what: &Compared, mark: fn(&Model) -> Model) -> Result<Picture, ShotError> {
-    let stage = staged(renderer, what, Some(mark));
-    drawn(renderer, what, &stage, true, false)
-}
-
-fn staged(renderer: &mut Renderer, what: &Compared, mark: Option<fn(&Model) -> Model>) -> Stage {
-    renderer.resize(what.size);
-    let mut config = what.config.clone();
-    config.aurora.enabled = false;
-    Stage::of(renderer, what.scene, what.assembly.clone(), &config, mark)
-}
-
-fn drawn(renderer: &mut Renderer, what: &Compared, stage: &Stage, layers: bool, sky: bool) -> Result<Picture, ShotError> {
-    let with = settings(what.config);
-    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
-    let frame = stage.frame(what.camera, what.size, what.time, &what.histories, None, &settings);
-    let picture = renderer.picture(&frame, layers)?;
-    match renderer.counters()?.outside {
-        0 => Ok(picture),
-        count => Err(ShotError::Outside(count)),
-    }
 }
 
 /// Draws the picture into a file, with the configuration of `config`.

@@ -1,8 +1,8 @@
 //! Tests of `src/judge/`.
 
+pub mod brute;
 mod oracles;
 mod outwards;
 mod picture;
-mod sight;
 mod trace;
 mod world;

@@ -4,12 +4,13 @@ use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
-use lensrunner::judge::trace;
-use lensrunner::judge::trace::{Mesh, PixelCamera};
+use lensrunner::judge::trace::PixelCamera;
 use lensrunner::scene::lighting::Surroundings;
 use lensrunner::scene::{Material, Model, Vertex};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
+
+use crate::judge::brute::{self, Mesh};
 
 const TOLERANCE: f64 = 1e-13;
 
@@ -68,14 +69,14 @@ fn the_tree_finds_what_trying_all_triangles_finds() {
         let position = any_direction(&mut rng) * [30.0, 7.0, 1.2, 0.6][i % 4];
         let look = any_direction(&mut rng);
         let got = world.look(position, look, TOLERANCE);
-        match (trace::trace(&meshes, position, look, TOLERANCE), got) {
-            (trace::Seen::Hit(want), Seen::Hit(got)) => {
+        match (brute::trace(&meshes, position, look, TOLERANCE), got) {
+            (brute::Seen::Hit(want), Seen::Hit(got)) => {
                 hits += 1;
                 assert_eq!((want.triangle, want.order), (got.triangle, got.order), "{position} {look}");
                 assert!((want.delay - got.delay).abs() < 1e-11 * (1.0 + want.delay), "{position} {look}: {} {}", want.delay, got.delay);
             }
-            (trace::Seen::Sky(want), Seen::Sky { direction, .. }) => assert!(want.distance(direction) < 1e-12),
-            (trace::Seen::Captured, Seen::Captured) => {}
+            (brute::Seen::Sky(want), Seen::Sky { direction, .. }) => assert!(want.distance(direction) < 1e-12),
+            (brute::Seen::Captured, Seen::Captured) => {}
             other => panic!("{position} {look}: {other:?}"),
         }
     }

@@ -3,10 +3,12 @@
 use std::f64::consts::PI;
 
 use glam::{DQuat, DVec3};
-use lensrunner::judge::trace::{Mesh, PixelCamera, Seen, trace};
+use lensrunner::judge::trace::PixelCamera;
 use lensrunner::judge::{Branch, shoot};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
+
+use crate::judge::brute::{Mesh, Seen, trace};
 
 const TOLERANCE: f64 = 1e-15;
 

@@ -140,7 +140,7 @@ fn what_was_foreseen_is_seen_inside() {
     let mut bench = bench();
     let outside = falling(DVec3::new(0.0, 0.05, 1.6), DVec3::ZERO);
     // Another method before the first crossing: what was foreseen for the one before is kept, and this one is foreseen as well.
-    for method in [Method::TableLinear, Method::Table] {
+    for method in [Method::Flat, Method::Table] {
         let settings = Settings { method, ..Settings::default() };
         let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), aurora: None, settings };
         foreseeing.renderer.picture(&frame, false).unwrap();
@@ -347,8 +347,8 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     use lensrunner::lensing::paper;
     let mut bench = bench();
     let table = Arc::new(bake(Scheme::Paper, 24, |_| ()));
-    bench.renderer.tables().set_paper(64, false, table.clone());
-    let paper1 = Method::Paper1 { nodes: 64, uniform: false };
+    bench.renderer.tables().set_paper(table.clone());
+    let paper1 = Method::Paper1;
     let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::default() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {

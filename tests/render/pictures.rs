@@ -161,7 +161,8 @@ fn a_galaxy_on_the_axis_is_a_closed_annulus_and_the_shadow_is_dark() {
 /// The sphere exactly behind the hole: every pixel away from an edge shows the sphere or not as the judge says, who integrates each ray.
 #[test]
 fn the_ring_is_where_the_judge_sees_it() {
-    use lensrunner::judge::trace::{Mesh, PixelCamera, Seen, trace};
+    use crate::judge::brute::{Mesh, Seen, trace};
+    use lensrunner::judge::trace::PixelCamera;
     let size = [320, 180];
     let (picture, camera) = picture("ring", size);
     let scene = scene::load("ring").unwrap();

@@ -3,7 +3,6 @@
 use std::mem::{offset_of, size_of};
 
 use lensrunner::render::aurora::ground::GroundLight;
-use lensrunner::render::aurora::race::{Electron, Experiment};
 use lensrunner::render::aurora::rooms::CORNERS;
 use lensrunner::render::aurora::{AuroraSettings, BOTH_POLES, Colours, LINEAR, PYRAMID, SHIFTS, Segment};
 use lensrunner::render::disk::circles::AZIMUTHS;
@@ -11,7 +10,7 @@ use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFr
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
-use lensrunner::render::gpu::shaders::{self, Pass};
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::types::{
     self, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
@@ -111,7 +110,6 @@ fn structs_have_one_layout_in_both_languages() {
         Pass::Triangles,
     ]
     .map(module);
-    let experiment = parsed(&shaders::aurora_experiment(true));
     let cases = [
         (
             &mesh,
@@ -150,8 +148,6 @@ fn structs_have_one_layout_in_both_languages() {
         (&streaks, "AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
         (&streaks, "Segment", fields!(Segment: range, light)),
         (&resolve, "Lines", fields!(Colours: lines ["colours"], steps, tile)),
-        (&experiment, "Electron", fields!(Electron: top, end, numbers)),
-        (&experiment, "Experiment", fields!(Experiment: origin, place, axes, across, across_seen, screen, various, lattice, cells)),
     ];
     for (module, name, rust) in cases {
         assert_eq!(fields_of(module, name), rust, "{name}");

@@ -5,7 +5,8 @@
 //! where electrons come down, [`eye`] how a point is projected (flat space, or bent by the lensing table), [`lattice`] how a few
 //! projections serve all electrons, [`collisions`] at which levels they shine, [`walk`] how luminous [`points`] come about, [`splat`] how
 //! they become a picture, [`pyramid`] the same for less (with the [`shares`] of each pixel), [`truth`] what it should have been, [`tasks`]
-//! how threads share it, [`experiment`] what all that took, [`chart`] the picture of it.
+//! how threads share it, [`experiment`] what all that took, [`race`] the same on a graphics adapter, [`chart`]
+//! the picture of it.
 
 pub mod chart;
 pub mod collisions;
@@ -15,6 +16,7 @@ pub mod lattice;
 mod layers;
 pub mod points;
 pub mod pyramid;
+pub mod race;
 pub mod shares;
 pub mod sheet;
 pub mod splat;

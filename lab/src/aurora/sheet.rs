@@ -174,7 +174,7 @@ impl Sheet {
                     top: at(TOP),
                     end: at(end_height),
                     end_height: end_height as f32,
-                    collisions: (energy / lensrunner::scene::aurora::deposition::PAIR_ENERGY) as f32,
+                    collisions: (energy / lensrunner::scene::aurora::fall::PAIR_ENERGY) as f32,
                     row: row as u32,
                     id,
                 }

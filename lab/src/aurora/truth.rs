@@ -126,7 +126,7 @@ fn profile(sheet: &Sheet, falls: &Falls, radius: f64, bottom: f64) -> Vec<[f64; 
         let energy = sheet.spectrum.energy(1.0 - u, 1.0 - v, w);
         let reach = fall::slope(mu) * fall::range(energy);
         let row = reach_row(reach);
-        weights[row] += energy / lensrunner::scene::aurora::deposition::PAIR_ENERGY / f64::from(draws);
+        weights[row] += energy / lensrunner::scene::aurora::fall::PAIR_ENERGY / f64::from(draws);
     }
     let count = ((TOP + 10.0 - bottom) / LAYER) as usize;
     let mut result = vec![[0.0; 4]; count];

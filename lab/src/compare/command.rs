@@ -9,6 +9,7 @@ use super::Frame;
 use super::collect::{add, moments, open};
 use super::metrics::{Limits, compare};
 use super::narrow;
+use super::probe::probe;
 use super::report::{side_by_side, table};
 use crate::chart::SheetError;
 use crate::flip::flip;
@@ -118,7 +119,7 @@ pub fn run(
     if let Some(what) = judge.given_up_in_words() {
         eprintln!("note: {what}");
     }
-    let probe = case.probe(request.tolerance);
+    let probe = probe(&case, request.tolerance);
     if side < narrow::SIDE {
         narrow::see_again(&mut judge, &frame, &probe);
     }

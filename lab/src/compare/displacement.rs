@@ -11,8 +11,8 @@ use rayon::prelude::*;
 
 use super::Frame;
 use super::deadline::Deadline;
+pub use super::probe::{Point, Probe};
 use lensrunner::judge::picture::Picture;
-pub use lensrunner::judge::probe::{Point, Probe};
 
 /// What came of measuring at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +21,9 @@ pub enum Measured {
     Pixels(f64),
     /// A pixel's footprint on the surface is below the resolution of f32.
     Apart,
+    /// The pixel shows no point of the body. A triangle narrower than the rasteriser's grid (1/256 px) may cover a pixel's centre although
+    /// its own edges miss it; what is interpolated there lies outside of the triangle.
+    Nowhere,
 }
 
 /// A footprint narrower than this part of the body's radius cannot be measured: the coordinates of a surface point, each a rounded sum of
@@ -97,11 +100,14 @@ pub fn displacements(judge: &Picture, frame: &Frame, probe: &dyn Probe, effort: 
                 let point = probe.at(start.x, start.y).filter(|p| (p.object, p.order) == (here.object, here.order))?;
                 match measure(probe, point, start, centre, wanted)? {
                     Measured::Pixels(d) => Some(d),
-                    Measured::Apart => None,
+                    Measured::Apart | Measured::Nowhere => None,
                 }
             });
             let Some(Measured::Pixels(d)) = there else { return there };
             let nearest = found.fold(d, f64::min);
+            if nearest > DOUBTFUL && probe.off_body(here.object, wanted) > OFF_BODY * probe.radius(here.object) {
+                return Some(Measured::Nowhere);
+            }
             let hidden = (nearest > DOUBTFUL).then(|| hidden(probe, here, centre, wanted)).flatten();
             Some(Measured::Pixels(hidden.map_or(nearest, |d| d.min(nearest))))
         })
@@ -121,6 +127,8 @@ fn hidden(probe: &dyn Probe, here: Point, centre: DVec2, wanted: DVec3) -> Optio
     seen.map(|p| p.body).chain([here.body]).any(|body| body.distance(wanted) < near).then(|| place.distance(centre))
 }
 
+/// What is farther from a body's surface, as a share of its radius, is no point of it: f32 rounds to 4e-7 of it.
+const OFF_BODY: f64 = 1e-4;
 /// A point just behind an outline may be shown in the place of the outline, which is off by less than a pixel. Seen under a tangent, a
 /// sphere of 100 pixels hides a tenth of its radius behind its last pixel.
 const HIDDEN_BESIDE: f64 = 0.1;

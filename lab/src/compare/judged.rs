@@ -11,6 +11,7 @@ use super::displacement::Effort;
 use super::fault::{Fault, Kind, Limits};
 use super::metrics::{Verdict, compare_with};
 use super::narrow::{grossly_wrong, see_again_but};
+use super::probe::probe;
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
 
@@ -95,7 +96,7 @@ const MEASURING: f64 = 0.25;
 
 /// Sets the picture beside the judge's, which is looked at again where images are narrow.
 fn measure(case: &Case, frame: &Frame, judge: &mut Picture, terms: &Terms, deadline: &Deadline) -> Result<Verdict, GaveUp> {
-    let probe = case.probe(terms.tolerance);
+    let probe = probe(case, terms.tolerance);
     let gross: BTreeSet<_> = grossly_wrong(judge, frame);
     see_again_but(judge, frame, &probe, &gross, deadline);
     // What is as wrong as that has its verdict, whatever else there was no time for.

@@ -157,6 +157,7 @@ pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[
                         displaced[i] = d as f32;
                     }
                     Some(Measured::Apart) => tally.apart += 1,
+                    Some(Measured::Nowhere) => tally.mismatched += 1,
                     None => {}
                 }
             }

@@ -2,6 +2,7 @@
 //!
 //! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
 //! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
+//! - [`probe`]: what the judge sees between the pixels; [`sight`]: where it sees a point, hidden or not.
 //! - [`narrow`]: images narrower than a pixel, seen with more rays.
 //! - [`report`]: the numbers as text, the pictures side by side.
 //! - [`area`]: how large each image is.
@@ -26,8 +27,10 @@ mod grid;
 pub mod judged;
 pub mod metrics;
 pub mod narrow;
+pub mod probe;
 pub mod random;
 pub mod report;
+pub mod sight;
 
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::Picture;

@@ -1,10 +1,10 @@
 //! The chart `disk`: the two tables of Yamashita 2025 with the error of the picture beside each time, and speed against error.
 //!
 //! Table 1: each representation alone, seen from 80°, and its error from other places. Table 2: one scripted chase through all situations,
-//! the same for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`). Who draws is handed in from above: the
-//! instruments know no renderer.
+//! the same for every row (`chase.rs`); and the same, asked for, frame by frame (`flight.rs`).
 
-use super::request::{ChartError, Contestant, DiskRequest, Draw, REFERENCE, TIME, View, contestants, eye, median, own, passes, timed};
+use super::bench::Bench;
+use super::request::{ChartError, Contestant, DiskRequest, REFERENCE, TIME, View, contestants, eye, median, own, passes};
 use lensrunner::spacetime::Observer;
 use std::path::PathBuf;
 
@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use crate::chart::{Provenance, Sheet};
 use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, Point, Scatter, Series};
+use lensrunner::render::Gpu;
 use lensrunner::scene::GameConfig;
 use lensrunner::scene::disk::Gas;
 
@@ -22,18 +23,19 @@ use super::flight::{self, flight};
 use super::places::errors_by_place;
 
 /// Measures (or reads) and draws; returns the files written.
-pub fn run(request: &DiskRequest, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Vec<PathBuf>, ChartError> {
+pub fn run(request: &DiskRequest, config: &GameConfig, gpu: Gpu) -> Result<Vec<PathBuf>, ChartError> {
     let contestants = contestants(config);
-    let alone = request.output.sheet("disk-alone", || alone(request, &contestants, adapter, draw))?;
-    let chase = request.output.sheet("disk-chase", || chase(request, &contestants, adapter, draw))?;
-    request.output.sheet("disk-places", || errors_by_place(request, &contestants, adapter, draw))?;
+    let bench = &mut Bench::new(gpu, &contestants, request.size);
+    let alone = request.output.sheet("disk-alone", || alone(request, &contestants, bench))?;
+    let chase = request.output.sheet("disk-chase", || chase(request, &contestants, bench))?;
+    request.output.sheet("disk-places", || errors_by_place(request, &contestants, bench))?;
     let summary = summary(&chase);
     summary.save(&request.output.csv("disk-summary"))?;
     let figure = figure(&alone, &chase, &summary);
     let mut files = figure.save(&request.output.folder, "disk")?.to_vec();
     files.extend(["disk-alone", "disk-chase", "disk-summary", "disk-places"].map(|name| request.output.csv(name)));
     if request.flight > 0 {
-        let flown = request.output.sheet("disk-flight", || flight(request, config, adapter, draw))?;
+        let flown = request.output.sheet("disk-flight", || flight(request, config, bench))?;
         flight::summary(&flown).save(&request.output.csv("disk-flight-summary"))?;
         files.extend(["disk-flight", "disk-flight-summary"].map(|name| request.output.csv(name)));
     }
@@ -46,23 +48,23 @@ fn portrait() -> Observer {
     eye(position, -position)
 }
 
-fn alone(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet =
         Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
-    sheet.notes = Provenance::now(adapter).notes();
+    sheet.notes = Provenance::now(bench.adapter()).notes();
     let view = View { eye: portrait(), time: TIME, sky: false, counted: false };
     let base = &contestants[0].config;
     let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
     for number in 0..contestants.len() {
-        let shown = draw(Some(number), &view, Some(request.error_size)).map_err(ChartError::Draw)?;
+        let shown = bench.frame(Some(number), &view, Some(request.error_size))?;
         errors.push(compare(&shown.picture, &truth, request.error_size, peak(&truth)));
     }
     let mut times = vec![[const { Vec::new() }; 3]; contestants.len()];
     for _ in 0..request.rounds {
-        let without = timed(None, &view, draw)?;
+        let without = bench.timed(None, &view)?;
         for (number, [own_times, pass_times, whole]) in times.iter_mut().enumerate() {
-            let shown = timed(Some(number), &view, draw)?;
+            let shown = bench.timed(Some(number), &view)?;
             own_times.push(own(&shown, &without));
             pass_times.push(passes(&shown));
             whole.push(shown.whole);

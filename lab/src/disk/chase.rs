@@ -3,9 +3,10 @@
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::disk::Gas;
 
+use super::bench::Bench;
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, DISK_PASSES, DiskRequest, Draw, View, median, own, timed};
+use super::request::{ChartError, Contestant, DISK_PASSES, DiskRequest, View, median, own};
 use super::script::script;
 
 /// The exact picture has this many samples squared in a pixel.
@@ -17,7 +18,7 @@ const LEAST_PEAK: f32 = 0.01;
 
 /// A row for each place and contestant. The frames that are timed have stars and the Milky Way behind the disk, as in the game; the
 /// pictures that are compared show the disk alone. Times are medians of the rounds, in which all take turns.
-pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&[
         "contestant",
         "family",
@@ -32,7 +33,7 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: 
         "psnr_db",
         "flip",
     ]);
-    sheet.notes = Provenance::now(adapter).notes();
+    sheet.notes = Provenance::now(bench.adapter()).notes();
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     let steps = request.steps.max(2);
@@ -45,16 +46,16 @@ pub(super) fn chase(request: &DiskRequest, contestants: &[Contestant], adapter: 
         let [alone, in_game] = [false, true].map(|sky| View { eye, time, sky, counted: false });
         let mut times = vec![[const { Vec::new() }; 6]; runners.len()];
         for _ in 0..request.rounds {
-            let without = timed(None, &in_game, draw)?;
+            let without = bench.timed(None, &in_game)?;
             for (&(number, _), times) in runners.iter().zip(&mut times) {
-                let shown = timed(Some(number), &in_game, draw)?;
+                let shown = bench.timed(Some(number), &in_game)?;
                 let [arcs, mesh, drawn] = DISK_PASSES.map(|label| shown.pass(label));
                 let all = [shown.processor.unwrap_or(shown.whole), shown.whole, own(&shown, &without), arcs, mesh, drawn];
                 times.iter_mut().zip(all).for_each(|(times, time)| times.push(time));
             }
         }
         for (&(number, contestant), times) in runners.iter().zip(&mut times) {
-            let shown = draw(Some(number), &alone, Some(request.error_size)).map_err(ChartError::Draw)?;
+            let shown = bench.frame(Some(number), &alone, Some(request.error_size))?;
             let error = compare(&shown.picture, truth, request.error_size, exposed);
             let mut cells = vec![contestant.name.clone(), contestant.family.to_string(), step.to_string(), situation.to_owned()];
             cells.extend(times.iter_mut().map(|times| format!("{:.3}", median(times))));

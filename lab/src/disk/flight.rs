@@ -3,7 +3,8 @@
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::GameConfig;
 
-use super::request::{ChartError, DISK_PASSES, DiskRequest, Draw, REFERENCE, View, contestants};
+use super::bench::Bench;
+use super::request::{ChartError, DISK_PASSES, DiskRequest, REFERENCE, View, contestants};
 use super::script::script;
 
 /// Times each place is drawn: timestamps are read one frame later, and of two frames in a row only those of one.
@@ -12,9 +13,9 @@ const DRAWN: usize = 3;
 /// A row for each of `request.flight` frames, drawn from the default arcs before stars and the Milky Way: the time of all passes by the
 /// adapter's timestamps, of them the disk's own, and the processor's until the frame was submitted, all in ms; and the fragments that the
 /// disk's draw shaded.
-pub(super) fn flight(request: &DiskRequest, config: &GameConfig, adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub(super) fn flight(request: &DiskRequest, config: &GameConfig, bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["frame", "situation", "passes_ms", "disk_ms", "before_submission_ms", "disk_fragments"]);
-    sheet.notes = Provenance::now(adapter).notes();
+    sheet.notes = Provenance::now(bench.adapter()).notes();
     let number = contestants(config).iter().position(|contestant| contestant.name == REFERENCE);
     for frame in 0..request.flight {
         let share = frame as f64 / request.flight.saturating_sub(1).max(1) as f64;
@@ -22,9 +23,9 @@ pub(super) fn flight(request: &DiskRequest, config: &GameConfig, adapter: &str, 
         let mut drawn = |counted| {
             let view = View { eye, time, sky: true, counted };
             for _ in 1..DRAWN {
-                draw(number, &view, None).map_err(ChartError::Draw)?;
+                bench.frame(number, &view, None)?;
             }
-            draw(number, &view, None).map_err(ChartError::Draw)
+            bench.frame(number, &view, None)
         };
         let fragments = drawn(true)?.fragments;
         let shown = drawn(false)?;

@@ -1,5 +1,6 @@
 //! The disk measured: an exact picture of the gas, and how far a drawn one is from it.
 
+pub mod bench;
 pub mod chart;
 mod chase;
 pub mod error;

@@ -8,9 +8,10 @@ use glam::DVec3;
 use crate::chart::{Provenance, Sheet};
 use lensrunner::scene::disk::Gas;
 
+use super::bench::Bench;
 use super::error::{compare, peak};
 use super::exact::picture;
-use super::request::{ChartError, Contestant, DiskRequest, Draw, TIME, View, eye};
+use super::request::{ChartError, Contestant, DiskRequest, TIME, View, eye};
 
 /// Degrees from the axis that the disk is seen at: from above to nearly edge on.
 const INCLINATIONS: [f64; 8] = [0.0, 30.0, 60.0, 80.0, 85.0, 87.0, 88.0, 89.0];
@@ -37,16 +38,15 @@ fn seats() -> Vec<(String, Observer)> {
 }
 
 /// PSNR and ꟻLIP of polygons and arcs from each of these places.
-pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], adapter: &str, draw: &mut Draw) -> Result<Sheet, ChartError> {
+pub fn errors_by_place(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(&["contestant", "family", "place", "psnr_db", "flip", "mean_difference"]);
-    sheet.notes = Provenance::now(adapter).notes();
+    sheet.notes = Provenance::now(bench.adapter()).notes();
     let base = &contestants[0].config;
     let gas = Gas::new(&base.disk, base.hole.mass_solar);
     for (place, eye) in seats() {
         let truth = picture(&gas, &eye, request.error_size, TIME, 3, SAMPLES);
         for (number, contestant) in contestants.iter().enumerate().filter(|(_, contestant)| contestant.family < 2) {
-            let shown = draw(Some(number), &View { eye, time: TIME, sky: false, counted: false }, Some(request.error_size))
-                .map_err(ChartError::Draw)?;
+            let shown = bench.frame(Some(number), &View { eye, time: TIME, sky: false, counted: false }, Some(request.error_size))?;
             let error = compare(&shown.picture, &truth, request.error_size, peak(&truth));
             sheet.push([
                 contestant.name.clone(),

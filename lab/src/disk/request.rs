@@ -73,10 +73,6 @@ pub struct View {
     pub counted: bool,
 }
 
-/// Draws a frame of a contestant (by its number; None: without a disk) for a view; with a size it brings the picture back, drawn at that
-/// size.
-pub type Draw<'a> = dyn FnMut(Option<usize>, &View, Option<[u32; 2]>) -> Result<Shown, String> + 'a;
-
 /// Why there is no chart.
 #[derive(Debug, thiserror::Error)]
 pub enum ChartError {
@@ -151,17 +147,4 @@ pub(super) fn passes(shown: &Shown) -> f64 {
 pub(super) fn median(values: &mut [f64]) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
-}
-
-/// A frame: the mean of two, after two that make targets and whose timestamps are another's.
-pub(super) fn timed(number: Option<usize>, view: &View, draw: &mut Draw) -> Result<Shown, ChartError> {
-    let mut frame = || draw(number, view, None).map_err(ChartError::Draw);
-    frame()?;
-    frame()?;
-    let (first, second) = (frame()?, frame()?);
-    Ok(Shown {
-        whole: 0.5 * (first.whole + second.whole),
-        processor: first.processor.zip(second.processor).map(|(a, b)| 0.5 * (a + b)),
-        ..second
-    })
 }

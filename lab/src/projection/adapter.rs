@@ -1,27 +1,15 @@
-//! The methods on a graphics adapter: handed in from above, for this floor knows no renderer.
+//! The game's methods on a graphics adapter.
 
+use super::methods::FAMILIES;
+use super::race::Race;
 use super::score::{Truth, tally};
 use super::time::TimedFrame;
 use super::{ChartError, ProjectionRequest};
 use crate::chart::{Provenance, Sheet};
 use lensrunner::lensing::adversarial::{Row, by_camera};
-use lensrunner::lensing::methods::{FAMILIES, Vertex};
+use lensrunner::lensing::methods::Vertex;
+use lensrunner::render::method::Method;
 use lensrunner::spacetime::light::{Branch, Order};
-
-/// The methods of projection on a graphics adapter, by their names in `game.toml`.
-pub trait Adapter {
-    /// The adapter's name.
-    fn name(&self) -> String;
-    /// Each method with its family, an index into [`FAMILIES`].
-    fn methods(&self) -> Vec<(&'static str, usize)>;
-    /// ψ in the rain frame and the delay for each row (along, across, height; the order, 4 more for light of any age) seen from the radius
-    /// `camera`. None where the adapter failed.
-    fn look_up(&mut self, method: &str, camera: f64, rows: &[[f32; 4]]) -> Option<Vec<Option<[f64; 2]>>>;
-    /// Nanoseconds for each of many such look-ups at once. None where the adapter failed.
-    fn time(&mut self, method: &str, camera: f64, rows: &[[f32; 4]]) -> Option<f64>;
-    /// Bytes that a frame hands to the adapter for the method.
-    fn bytes(&mut self, method: &str) -> usize;
-}
 
 /// Of the cameras that are timed on the processor every so manyth is timed here: an adapter does many points of each at once.
 const TIMED: usize = 2;
@@ -34,14 +22,32 @@ fn packed(vertex: Vertex, order: Order, branch: Branch) -> [f32; 4] {
     [along, across, height, f32::from(order.number()) + age]
 }
 
-/// What the method answers to `rows` in each order.
-fn answers(adapter: &mut dyn Adapter, method: &str, rows: &[Row]) -> [Vec<Option<[f64; 2]>>; 3] {
+/// The index of the method's family in [`FAMILIES`].
+fn family(method: Method) -> usize {
+    match method {
+        Method::Table => 0,
+        Method::Paper1 => 1,
+        Method::Flat => 2,
+        Method::Exact => 4,
+    }
+}
+
+/// The result, or None and a word on stderr.
+fn told<T>(result: Result<T, impl std::fmt::Display>) -> Option<T> {
+    result.inspect_err(|error| eprintln!("lensrunner: {error}")).ok()
+}
+
+/// What the method answers to `rows` in each order: ψ in the rain frame and the delay.
+fn answers(race: &mut Race, method: Method, rows: &[Row]) -> [Vec<Option<[f64; 2]>>; 3] {
     let mut all = [Vec::new(), Vec::new(), Vec::new()];
     for rows in by_camera(rows) {
         // One dispatch a camera: its slice is the same for all orders.
         let asked: Vec<_> =
             Order::ALL.into_iter().flat_map(|order| rows.iter().map(move |row| packed(row.query.into(), order, row.branch))).collect();
-        let found = adapter.look_up(method, rows[0].query.camera, &asked).unwrap_or_else(|| vec![None; asked.len()]);
+        let seen =
+            |[[cos, sin, delay, there], _]: [[f32; 4]; 2]| (there == 1.0).then(|| [f64::from(sin).atan2(f64::from(cos)), f64::from(delay)]);
+        let found = told(race.look_up(method, rows[0].query.camera, &asked))
+            .map_or_else(|| vec![None; asked.len()], |rays| rays.into_iter().map(seen).collect());
         for (all, found) in all.iter_mut().zip(found.chunks(rows.len())) {
             all.extend_from_slice(found);
         }
@@ -75,19 +81,16 @@ const COLUMNS: &[&str] = &[
 /// processor's `frames`.
 pub fn measure(
     request: &ProjectionRequest,
-    adapter: &mut dyn Adapter,
+    race: &mut Race,
     rows: &[Row],
     truths: &[Vec<Truth>],
     frames: &[TimedFrame],
 ) -> Result<Sheet, ChartError> {
     let mut sheet = Sheet::new(COLUMNS);
-    sheet.notes = Provenance::now(&adapter.name()).notes();
+    sheet.notes = Provenance::now(&race.adapter()).notes();
     sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
-    let methods: Vec<_> = adapter
-        .methods()
-        .into_iter()
-        .filter(|(name, _)| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == name))
-        .collect();
+    let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name());
+    let methods: Vec<_> = Method::all().filter(wanted).collect();
     // Times side by side: orders 1 and 2, as on the processor.
     let timed: Vec<(f64, Vec<[f32; 4]>)> = frames
         .iter()
@@ -97,28 +100,30 @@ pub fn measure(
             (frame.camera, frame.points.iter().flat_map(asked).collect())
         })
         .collect();
-    eprintln!("timing {} methods on {}", methods.len(), adapter.name());
+    eprintln!("timing {} methods on {}", methods.len(), race.adapter());
     let mut times = vec![Vec::new(); methods.len()];
     for round in 0..=ROUNDS {
-        for ((name, _), times) in methods.iter().zip(&mut times) {
-            let each: Option<Vec<f64>> = timed.iter().map(|(camera, rows)| adapter.time(name, *camera, rows)).collect();
-            let mean = each.map_or(f64::NAN, |each| each.iter().sum::<f64>() / each.len() as f64);
+        for (method, times) in methods.iter().zip(&mut times) {
+            let each: Option<Vec<f64>> = timed.iter().map(|(camera, rows)| told(race.time(*method, *camera, rows))).collect();
+            let mean = each.map_or(f64::NAN, |each| each.iter().sum::<f64>() * 1e9 / each.len() as f64);
             // The first round compiles.
             if round > 0 {
                 times.push(mean);
             }
         }
     }
-    for ((name, family), mut times) in methods.into_iter().zip(times) {
+    for (method, mut times) in methods.into_iter().zip(times) {
+        let name = method.name();
         eprintln!("scoring {name} on the adapter");
         times.sort_by(f64::total_cmp);
-        let bytes = adapter.bytes(name);
-        let answers = answers(adapter, name, rows);
+        // What a frame hands to the adapter, where it is more than the constants of the camera.
+        let bytes = if matches!(method, Method::Table | Method::Paper1) { 16 * race.texels(method, 10.0).len() } else { 0 };
+        let answers = answers(race, method, rows);
         for ((order, truth), answers) in Order::ALL.into_iter().zip(truths).zip(&answers) {
             let s = tally(rows, answers, truth);
             let mut cells = vec![
                 name.to_owned(),
-                FAMILIES[family].to_owned(),
+                FAMILIES[family(method)].to_owned(),
                 order.number().to_string(),
                 rows.len().to_string(),
                 s.answered.to_string(),

@@ -1,8 +1,8 @@
 //! The pictures of the race, from its sheet alone.
 
+use super::methods::FAMILIES;
 use crate::chart::{Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Panel, Point, Scatter, tick_text};
-use lensrunner::lensing::methods::FAMILIES;
 
 /// What the sheet of a graphics adapter says of its points if they are those of the processor.
 pub const SAME: &str = "the same as in projection.csv";

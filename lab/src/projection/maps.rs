@@ -15,7 +15,7 @@ use lensrunner::spacetime::light::{Branch, Order};
 /// Camera radii with points outside the horizon; the first of them also with points inside.
 const CAMERAS: [f64; 6] = [0.5, 1.02, 1.5, 3.0, 10.0, 1000.0];
 /// The methods whose maps are drawn, where they take part.
-const METHODS: [&str; 7] = ["table", "newton", "table-linear", "paper1-128", "rk4-64", "poutanen", "flat"];
+const METHODS: [&str; 5] = ["table", "paper1-128", "rk4-64", "poutanen", "flat"];
 /// Columns (r) and rows (φ).
 const SIZE: [usize; 2] = [56, 36];
 /// Colour scale, degrees.

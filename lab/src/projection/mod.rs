@@ -4,21 +4,21 @@
 mod adapter;
 mod draw;
 mod maps;
+pub mod methods;
 mod paper;
-
+pub mod race;
 mod score;
 mod time;
 
 use std::path::PathBuf;
 
-pub use adapter::Adapter;
 pub use lensrunner::lensing::adversarial::{Row, rows};
 pub use score::{Score, Truth, score, truth};
 
 use super::chart::{Output, Provenance, Sheet, SheetError};
 use super::plot::PlotError;
-use lensrunner::lensing::methods::{self, CATALOGUE, Entry, FAMILIES, Projector};
 use lensrunner::spacetime::light::Order;
+use methods::{CATALOGUE, Entry, FAMILIES, Method};
 
 /// What the chart is asked for.
 #[derive(Clone, Debug)]
@@ -50,15 +50,15 @@ pub enum ChartError {
     },
 }
 
-/// Measures (or reads) and draws; returns the files written. `adapter` adds a sheet and a panel of its own.
-pub fn run(request: &ProjectionRequest, adapter: Option<&mut dyn Adapter>) -> Result<Vec<PathBuf>, ChartError> {
+/// Measures (or reads) and draws; returns the files written. The race on an adapter adds a sheet and a panel of its own.
+pub fn run(request: &ProjectionRequest, race: Option<&mut race::Race>) -> Result<Vec<PathBuf>, ChartError> {
     let output = &request.output;
     let sheet = output.sheet("projection", || measure(request))?;
     let mut paths = vec![output.csv("projection")];
-    let graphics = match adapter {
-        Some(adapter) => Some(output.sheet("projection-gpu", || {
+    let graphics = match race {
+        Some(race) => Some(output.sheet("projection-gpu", || {
             let rows = rows(request.points, request.seed);
-            adapter::measure(request, adapter, &rows, &truths(&rows), &time::frames(request.seed))
+            adapter::measure(request, race, &rows, &truths(&rows), &time::frames(request.seed))
         })?),
         None if output.redraw && output.csv("projection-gpu").is_file() => Some(Sheet::load(&output.csv("projection-gpu"))?),
         None => None,
@@ -80,7 +80,7 @@ pub fn run(request: &ProjectionRequest, adapter: Option<&mut dyn Adapter>) -> Re
 }
 
 /// Methods with what the catalogue says of them.
-type Methods = Vec<(Entry, Box<dyn Projector>)>;
+type Methods = Vec<(Entry, Box<dyn Method>)>;
 
 /// The methods asked for.
 fn chosen(request: &ProjectionRequest) -> Result<Methods, ChartError> {

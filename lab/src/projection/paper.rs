@@ -10,9 +10,10 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 
 use super::ProjectionRequest;
+use super::methods;
 use crate::chart::{Provenance, Sheet};
 use lensrunner::lensing::Scheme;
-use lensrunner::lensing::methods::{self, Exact, Projector, Query};
+use lensrunner::lensing::methods::{Exact, Projector, Query};
 use lensrunner::lensing::paper::{camera_mesh, slice_meshes};
 use lensrunner::lensing::paper_format::RANGES;
 use lensrunner::spacetime::light::{Branch, Order};

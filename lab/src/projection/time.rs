@@ -5,9 +5,10 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::rngs::SmallRng;
 
+use super::methods::{Entry, Frame, Method};
 use crate::chart::interleaved;
 use lensrunner::lensing::adversarial::row;
-use lensrunner::lensing::methods::{Entry, Frame, Projector, Vertex};
+use lensrunner::lensing::methods::{Query, Vertex};
 use lensrunner::spacetime::light::Order;
 
 /// Camera radii that points are timed from.
@@ -47,14 +48,14 @@ pub fn frames(seed: u64) -> Vec<TimedFrame> {
     let frame = |camera: f64| {
         let within = |r: &f64| (1.006..9900.0).contains(r);
         let points = rest.by_ref().map(|(ratio, phi)| (ratio * camera, phi)).filter(|(r, _)| within(r)).take(POINTS);
-        let points = points.map(|(r, phi)| lensrunner::lensing::methods::Query { r, phi, camera }.into()).collect();
+        let points = points.map(|(r, phi)| Query { r, phi, camera }.into()).collect();
         TimedFrame { camera, points }
     };
     cameras.into_iter().map(frame).collect()
 }
 
 /// Times every method.
-pub fn measure(methods: &[(Entry, Box<dyn Projector>)], frames: &[TimedFrame]) -> Vec<Timed> {
+pub fn measure(methods: &[(Entry, Box<dyn Method>)], frames: &[TimedFrame]) -> Vec<Timed> {
     let orders = [Order::ALL[0], Order::ALL[1]];
     let ready: Vec<Vec<Box<dyn Frame + '_>>> =
         methods.iter().map(|(_, method)| frames.iter().map(|frame| method.frame(frame.camera)).collect()).collect();
@@ -88,7 +89,7 @@ pub fn measure(methods: &[(Entry, Box<dyn Projector>)], frames: &[TimedFrame]) -
     let lookups = |count: usize, repeat: usize| {
         (repeat * orders.len()) as f64 * frames.iter().map(|frame| frame.points.len().min(count)).sum::<usize>() as f64
     };
-    let set_up = |method: &dyn Projector| {
+    let set_up = |method: &dyn Method| {
         let start = Instant::now();
         frames.iter().for_each(|frame| drop(std::hint::black_box(method.frame(frame.camera))));
         start.elapsed().as_secs_f64() / frames.len() as f64 * 1e6

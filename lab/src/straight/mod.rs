@@ -5,6 +5,7 @@
 //! - [`packet`]: packets from one eye through it: those of Wald et al. 2007, and those of Sei 2008 that split.
 //! - [`wide`]: the tree of eight, ray by ray, and in packets of any size that split as they descend (`sweep` takes a first look at a
 //!   packet, `wide_packet` splits it, `wide_eye` and `wide_group` end with what is left: 64 rays from one eye, sixteen of any kind).
+//! - [`validate`](mod@validate): says what is wrong with a tree.
 //! - [`scenes`]: what they are measured on.
 
 // An axis indexes several arrays at once.
@@ -23,6 +24,7 @@ pub mod single;
 mod split;
 mod sweep;
 pub mod triangle;
+pub mod validate;
 pub mod wide;
 mod wide_best;
 mod wide_eye;
@@ -31,11 +33,10 @@ mod wide_packet;
 mod wide_ray;
 
 pub use bundle::EyePacket;
-pub use lensrunner::judge::bvh::{
-    Bounds, Census, Costs, Fault, MAX_DEPTH, Node, Scalar, Settings, Tree, bounds, build, order, tree, validate,
-};
+pub use lensrunner::judge::bvh::{Bounds, Costs, MAX_DEPTH, Node, Scalar, Settings, Tree, bounds, build, order, tree};
 pub use packet::EyePackets;
 pub use ray::{Hit, Ray};
 pub use single::Mesh;
+pub use validate::{Census, Fault, validate};
 pub use wide::{Instructions, Wide};
 pub use wide_packet::Packets;

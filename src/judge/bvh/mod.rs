@@ -1,7 +1,7 @@
-//! Bounding volume hierarchies over any axis-aligned boxes (Sei 2008): how they are built and checked. Straight rays through them are in
-//! the laboratory.
+//! Bounding volume hierarchies over any axis-aligned boxes (Sei 2008). Their inspector, and straight rays through them, are in the
+//! laboratory.
 //!
-//! - [`bounds`], [`build`](mod@build), [`tree`], [`validate`](mod@validate): a tree, and its inspector.
+//! - [`bounds`], [`build`](mod@build), [`tree`]: a tree.
 //! - [`order`]: which pixels make good packets.
 
 // An axis indexes several arrays at once.
@@ -11,9 +11,7 @@ pub mod bounds;
 pub mod build;
 pub mod order;
 pub mod tree;
-pub mod validate;
 
 pub use bounds::{Bounds, Scalar};
 pub use build::{Settings, build};
 pub use tree::{Costs, MAX_DEPTH, Node, Tree};
-pub use validate::{Census, Fault, validate};

@@ -49,19 +49,6 @@ pub struct Tree<T> {
 }
 
 impl<T: Scalar> Tree<T> {
-    /// Fits the boxes to primitives that moved, the topology kept. `bounds(i)` is the new box of primitive `i`.
-    pub fn refit(&mut self, mut bounds: impl FnMut(u32) -> Bounds<T>) {
-        for at in (0..self.nodes.len()).rev() {
-            let node = self.nodes[at];
-            self.nodes[at].bounds = if node.is_leaf() {
-                self.order[node.run()].iter().fold(Bounds::EMPTY, |all, &i| all.union(&bounds(i)))
-            } else {
-                let [left, right] = node.children();
-                self.nodes[left].bounds.union(&self.nodes[right].bounds)
-            };
-        }
-    }
-
     /// The expected cost of a random ray that meets the root, by the surface area heuristic (Sei 2008, equation 3.1 over the whole tree).
     pub fn cost(&self, costs: Costs) -> f64 {
         let Some(root) = self.nodes.first() else { return 0.0 };

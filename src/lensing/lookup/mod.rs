@@ -59,14 +59,6 @@ pub const LEAST_LAPSE2: f32 = 1e-7;
 /// The outermost weight at a node.
 pub const SIXTH: f32 = 1.0 / 6.0;
 
-/// The weights of the four B-spline coefficients around the position `t` in 0..=1 between two nodes.
-#[inline]
-pub fn spline_weights(t: f32) -> [f32; 4] {
-    let s = 1.0 - t;
-    let (t2, s2) = (t * t, s * s);
-    [SIXTH * s2 * s, 4.0 * SIXTH + t2 * (0.5 * t - 1.0), 4.0 * SIXTH + s2 * (0.5 * s - 1.0), SIXTH * t2 * t]
-}
-
 /// The residuals of `slice` at its coordinates `x` and `y` in 0..=1, clamped.
 #[inline]
 pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
@@ -93,44 +85,6 @@ pub fn residuals(slice: &Slice, x: f32, y: f32) -> [f32; 3] {
     let sum = row(0) + row(1) + (row(2) + row(3));
     let [turn, delay, emission_turn, _] = sum.to_array();
     [turn, delay, emission_turn]
-}
-
-/// The cell of a coordinate in 0..=1 among `n` nodes, and the position in it.
-fn cell(x: f32, n: u32) -> (u32, f32) {
-    let p = x.clamp(0.0, 1.0) * (n - 1) as f32;
-    let i = (p as u32).min(n - 2);
-    (i, p - i as f32)
-}
-
-/// The residuals of the method "table-linear", from a texel of [`Slice::nodes`] by its index: the twin of `residuals` in its shader.
-pub fn residuals_linear(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
-    let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
-    let at = HEADER + (j * nx + i) as usize;
-    let mix = |a: f32, b: f32, t: f32| a * (1.0 - t) + b * t;
-    let row = |at: usize| {
-        let (a, b) = (texel(at), texel(at + 1));
-        [0, 1, 2].map(|h| mix(a[h], b[h], tx))
-    };
-    let (low, high) = (row(at), row(at + nx as usize));
-    [0, 1, 2].map(|h| mix(low[h], high[h], ty))
-}
-
-/// The residuals of the method "table-half", from a texel of [`Slice::halves`] by its index: the twin of `residuals` in its shader.
-pub fn residuals_half(texel: impl Fn(usize) -> [f32; 4], [nx, ny]: [u32; 2], x: f32, y: f32) -> [f32; 3] {
-    let half = |index: usize| {
-        let texel = texel(HEADER + index / 2).map(f32::to_bits);
-        let pair = if index % 2 == 1 { [texel[2], texel[3]] } else { [texel[0], texel[1]] };
-        [pair[0] & 0xffff, pair[0] >> 16, pair[1] & 0xffff].map(|bits| half::f16::from_bits(bits as u16).to_f32())
-    };
-    let ((i, tx), (j, ty)) = (cell(x, nx), cell(y, ny));
-    let (wx, wy) = (spline_weights(tx), spline_weights(ty));
-    let mut sum = [0.0; 3];
-    for (b, weight) in wy.into_iter().enumerate() {
-        let at = ((j + b as u32) * (nx + 2) + i) as usize;
-        let row = [half(at), half(at + 1), half(at + 2), half(at + 3)];
-        (0..3).for_each(|h| sum[h] += weight * (wx[0] * row[0][h] + wx[1] * row[1][h] + wx[2] * row[2][h] + wx[3] * row[3][h]));
-    }
-    sum
 }
 
 /// Whether a number is neither NaN nor infinite.
@@ -167,12 +121,7 @@ pub const OLD: f32 = 3e38;
 /// inside the horizon there are two: `elapsed` (r_s/c), the time since the light left as far as it is known, decides ([`YOUNG`], [`OLD`]).
 #[inline]
 pub fn lookup(slice: &Slice, at: SourcePoint, sweep: f32, elapsed: f32) -> LensRay {
-    lookup_with(&slice.camera, at, sweep, elapsed, |x, y| residuals(slice, x, y))
-}
-
-/// [`lookup`] with the residuals from wherever they are kept, asked for at the coordinates of r and Φ in 0..=1.
-#[inline]
-pub fn lookup_with(cam: &LensCamera, at: SourcePoint, sweep: f32, elapsed: f32, residuals: impl Fn(f32, f32) -> [f32; 3]) -> LensRay {
+    let cam = &slice.camera;
     if !(finite(at.r) && finite(at.dr) && finite(sweep) && at.r > 1e-3 && sweep >= 0.0) {
         return NOTHING;
     }
@@ -189,7 +138,7 @@ pub fn lookup_with(cam: &LensCamera, at: SourcePoint, sweep: f32, elapsed: f32, 
         let logs = ln4([c + cam.soft, near_axis(swept), 0.5 * lens[1]], at.dr * cam.a);
         let (x, y) = axes(cam, lapse2.sqrt(), swept, [logs[0], logs[1], logs[2]]);
         let across = delay_across(cam, at.r, c, lapse2, at.dr, lens, (logs[3], logs[2]));
-        let table = residuals(x, y);
+        let table = residuals(slice, x, y);
         let (w, w_e) = turned_slopes(guesses, (cam.a, emission_scale(cam, c)), (table[0], table[2]));
         let [w, e, w_e] = joined(w, w_e, cam, c, lapse2);
         let cones = light_cones((w, w_e), e, (cam.a, c), (cam.beta, c.sqrt()), (cam.lapse2, lapse2));

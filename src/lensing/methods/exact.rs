@@ -1,6 +1,6 @@
 //! The closed form of `spacetime::light`.
 
-use super::{Frame, Projector, Query, Sight, each, sight};
+use super::{Projector, Query, Sight, sight};
 use crate::spacetime::light::{self, Branch, Order};
 
 /// The ray through elliptic functions in f64, solved for each point to the last digits.
@@ -12,9 +12,5 @@ impl Projector for Exact {
         let branch = if u_point > 1.0 && u_camera > 1.0 { branch } else { Branch::Plus };
         let ray = light::connect(u_point, order.swept(query.phi), u_camera, branch)?;
         Some(sight(ray.slope, ray.energy, ray.delay, u_camera))
-    }
-
-    fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
-        each(|point, order| self.project(point.query, order, Branch::Plus))
     }
 }

@@ -166,11 +166,6 @@ impl Table {
         Ok(Table { scheme: wanted, size, values })
     }
 
-    /// The same with its values rounded to half precision.
-    pub fn rounded(&self) -> Table {
-        Table { values: self.values.iter().map(|v| half::f16::from_f32(*v).to_f32()).collect(), ..*self }
-    }
-
     /// Writes the file `path`.
     pub fn save(&self, path: &Path) -> Result<(), TableError> {
         if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {

@@ -2,7 +2,6 @@
 //! al.). Strokes are added up per spectral line, and the lines become a colour at the end.
 //!
 //! [`AuroraAnimation`] simulates the curtains and says for each frame what is to be drawn ([`AuroraFrame`]); [`Aurora`] holds the passes.
-//! [`race`] draws the experiment of Sekiguchi et al. for the chart.
 
 mod animation;
 mod colours;
@@ -11,7 +10,6 @@ mod levels;
 pub mod node_history;
 mod pass;
 mod pipelines;
-pub mod race;
 pub mod ration;
 pub mod rooms;
 pub mod shift;

@@ -5,7 +5,6 @@
 //! of the gas.
 
 pub mod arcs;
-pub mod bench;
 pub mod circles;
 mod drawn;
 pub mod polygons;

@@ -5,7 +5,6 @@ pub mod device;
 pub mod layout;
 pub mod readback;
 pub mod shaders;
-pub(crate) mod stopwatch;
 pub mod targets;
 pub mod timing;
 pub mod types;

@@ -11,7 +11,6 @@ const SEES_INSIDE: &str = include_str!("../../../shaders/functions/sees_inside.w
 const SEES_OUTSIDE: &str = include_str!("../../../shaders/functions/sees_outside.wgsl");
 const LENSING: &str = include_str!("../../../shaders/functions/lensing.wgsl");
 const RESIDUALS: &str = include_str!("../../../shaders/functions/residuals.wgsl");
-const RACE: &str = include_str!("../../../shaders/methods/race.wgsl");
 const LENSING_CAMERA: &str = include_str!("../../../shaders/functions/lensing_camera.wgsl");
 const SKY: &str = include_str!("../../../shaders/functions/sky.wgsl");
 const SKY_DIRECTION: &str = include_str!("../../../shaders/sky/direction.wgsl");
@@ -28,7 +27,6 @@ const BOUNDS: &str = include_str!("../../../shaders/geometry/bounds.wgsl");
 const EMIT: &str = include_str!("../../../shaders/geometry/emit.wgsl");
 const CLIP: &str = include_str!("../../../shaders/geometry/clip.wgsl");
 const RANDOM: &str = include_str!("../../../shaders/functions/random.wgsl");
-const EXPERIMENT: &str = include_str!("../../../shaders/aurora/experiment.wgsl");
 const ENLARGE: &str = include_str!("../../../shaders/aurora/enlarge.wgsl");
 const STROKE: &str = include_str!("../../../shaders/aurora/stroke.wgsl");
 const LIT_TILES: &str = include_str!("../../../shaders/aurora/lit_tiles.wgsl");
@@ -249,23 +247,7 @@ impl Pass {
     }
 }
 
-/// The shader that only looks rays up by `method`, with bindings of its own: for the race of methods and for the tests of twins.
-pub fn race(method: Method) -> String {
-    [RACE, SEES_INSIDE, LENSING, LENSING_CAMERA, &method.source()].join("\n")
-}
-
-/// The walks of the aurora's experiment: in flat space, or through the lensing table.
-pub fn aurora_experiment(bent: bool) -> String {
-    let projection = if bent {
-        let lookup = [SEES_OUTSIDE, LENSING, LENSING_CAMERA, &Method::Table.source()].join("\n");
-        [&lookup, include_str!("../../../shaders/aurora/experiment_bent.wgsl")].join("\n")
-    } else {
-        include_str!("../../../shaders/aurora/experiment_flat.wgsl").to_owned()
-    };
-    [EXPERIMENT, RANDOM, &projection, include_str!("../../../shaders/aurora/experiment_walks.wgsl")].join("\n")
-}
-
-/// The splats of the aurora's experiment.
-pub fn aurora_experiment_splats() -> String {
-    [EXPERIMENT, include_str!("../../../shaders/aurora/experiment_splat.wgsl")].join("\n")
+/// The lookup of rays by `method` alone, to go behind a declaration of `frame` and `lens_slice`: for shaders outside of the game.
+pub fn lookup(method: Method, inside: bool) -> String {
+    [if inside { SEES_INSIDE } else { SEES_OUTSIDE }, LENSING, LENSING_CAMERA, &method.source()].join("\n")
 }

@@ -38,7 +38,7 @@ impl View<'_> {
         let camera = self.camera;
         let radius = LARGER * longer * reach;
         // Approximate methods draw images outside of their exact bounds.
-        let exact = matches!(self.settings.method, Method::Table | Method::TableFull | Method::Newton | Method::Exact);
+        let exact = matches!(self.settings.method, Method::Table | Method::Exact);
         if !exact
             || !radius.is_finite()
             || camera.radius() < 1.0

@@ -6,9 +6,8 @@
 //! follows from the mass N(z) of air overhead alone: E(z) = E₀ (1 − N(z)/(µ R(E₀)))^{1/1.75}. So a step may be of any length, and a
 //! particle can neither pass the ground nor spend more energy than it has.
 
-use super::air::overhead;
-use super::deposition::PAIR_ENERGY;
-
+/// Energy spent per ion pair, in keV: the 35 eV of Fang et al. 2010, after Rees 1989.
+pub const PAIR_ENERGY: f64 = 0.035;
 /// R(E) = RANGE · E^RANGE_POWER in g cm⁻², E in keV.
 pub const RANGE: f64 = 4.57e-6;
 /// See [`RANGE`].
@@ -37,18 +36,6 @@ pub fn slope(uniform: f64) -> f64 {
 /// `reach` is µ R(E₀), the overhead at which it stops.
 pub fn share_left(overhead: f64, reach: f64) -> f64 {
     (1.0 - overhead / reach).max(0.0).powf(1.0 / RANGE_POWER)
-}
-
-/// The height (km) where an electron of `energy` (keV) and slope `mu` stops, found by bisection in the air's mass.
-pub fn stopping_height(energy: f64, mu: f64) -> f64 {
-    let reach = mu * range(sane_energy(energy));
-    let (mut low, mut high) = (super::air::FLOOR, super::air::CEILING);
-    // 40 halvings of 960 km: below a micrometre.
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if overhead(middle) > reach { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 /// Collisions of 35 eV in a step in which the electron goes from `before` to `after` keV: a whole number whose mean over the uniform

@@ -4,15 +4,13 @@
 //! [`curve`] (seeds along a Bézier curve with a sine, in the plane across the field; a [`motion::chain`] is several of them) → [`motion`]
 //! (charge → [`motion::poisson`], and [`motion::near`] for what is finer → electric field → drift in that plane) → [`dipole`] (down the
 //! field line) → [`fall`] (collisions by the density of the [`air`]) → [`lines`] (photons by line, height and delay; their colours).
-//! [`deposition`] is the reference for the fall, after Fang et al. 2010. [`curtains`] are the auroras of a planet, and [`quantiles`] the
-//! fall and its light as tables for the GPU.
+//! [`curtains`] are the auroras of a planet, and [`quantiles`] the fall and its light as tables for the GPU.
 //!
 //! Units here are those of the field's tables: heights in km, energies in keV, densities in cm⁻³ and g cm⁻³, times in s.
 
 pub mod air;
 pub mod curtains;
 pub mod curve;
-pub mod deposition;
 pub mod dipole;
 pub mod fall;
 pub mod ground;

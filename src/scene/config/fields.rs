@@ -101,32 +101,7 @@ macro_rules! config {
 use Allowed::{Choice, Key, Switch};
 
 /// The methods of projection that the renderer has.
-pub const METHODS: &[&str] = &[
-    "table",
-    "table-full",
-    "table-linear",
-    "table-half",
-    "newton",
-    "residual-cubic-f32",
-    "residual-cubic-f16",
-    "residual-linear-f32",
-    "residual-linear-f16",
-    "exact",
-    "rk4-16",
-    "rk4-64",
-    "rk4-256",
-    "paper1-16",
-    "paper1-32",
-    "paper1-64",
-    "paper1-128",
-    "paper1-uniform-16",
-    "paper1-uniform-32",
-    "paper1-uniform-64",
-    "paper1-uniform-128",
-    "beloborodov",
-    "poutanen",
-    "flat",
-];
+pub const METHODS: &[&str] = &["table", "exact", "paper1-128", "flat"];
 
 config! {
     /// The hole.

@@ -21,7 +21,7 @@ pub use angles::{Launch, launch, rain_angle, rain_momentum, shadow_angle, static
 pub use delay::{delay, zero_energy_delay};
 pub use orbit::{Fate, follow};
 pub use sky::{sky_angle, sky_slope, swept_to_sky};
-pub use solve::{join, join_near, newton_step};
+pub use solve::{join, join_near};
 
 /// The sign of the photon's energy at infinity E. `Minus` exists only where both ends of the ray are inside the horizon; the same
 /// path through space then belongs to two photons, emitted at two times and seen in two directions.

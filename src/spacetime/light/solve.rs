@@ -88,35 +88,6 @@ pub fn join_near(u_point: f64, swept: f64, u_camera: f64, branch: Branch, guess:
     Some(Ray { slope: fan.start(x).slope, emission_slope, energy: if branch == Branch::Minus { -energy } else { energy } })
 }
 
-/// One step of Newton's method from a guess of slope w and energy e at the camera (1/r_s), without a bracket: a good guess's error is
-/// squared. Outside the slope counts, inside the energy, from which w follows without cancellation. None where there is no such ray, or the
-/// guess ends in the hole or in the sky before it has swept the angle.
-pub fn newton_step(u_point: f64, swept: f64, u_camera: f64, branch: Branch, [w, e]: [f64; 2]) -> Option<Ray> {
-    if !exists(u_point, swept, u_camera, branch) {
-        return None;
-    }
-    let fan = Fan::new(u_camera);
-    let x = match fan {
-        Fan::Outside { .. } => w,
-        Fan::Inside { s, .. } => -e * e / (s + s.hypot(e)),
-    };
-    if x.is_nan() || x >= fan.top() {
-        return None;
-    }
-    let start = fan.start(x);
-    let Shot::At(carried) = shoot(u_camera, start.slope, start.d, swept) else {
-        return None;
-    };
-    let rise_wanted = u_point - u_camera;
-    let moved = x + newton(u_camera, u_point, rise_wanted - carried.rise, &carried, &start);
-    if moved.is_nan() || moved >= fan.top() {
-        return None;
-    }
-    let slope = fan.start(moved).slope;
-    let energy = fan.energy(moved);
-    Some(Ray { slope, emission_slope: carried.chord * rise_wanted - slope, energy: if branch == Branch::Minus { -energy } else { energy } })
-}
-
 /// The step in x that should undo `miss` in u at the point, by Newton's method on (u + c)^{-1/2}: u has a double pole where the ray falls
 /// in, and is straight in x far out.
 fn newton(u: f64, u_point: f64, miss: f64, carried: &Carried, start: &Start) -> f64 {

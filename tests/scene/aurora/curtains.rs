@@ -4,7 +4,6 @@ use glam::DVec2;
 use lensrunner::scene::aurora::air::{air, overhead};
 use lensrunner::scene::aurora::curtains::curtains;
 use lensrunner::scene::aurora::curve::Curve;
-use lensrunner::scene::aurora::deposition::ionisation;
 use lensrunner::scene::aurora::dipole::{PLANET_RADIUS, inclination, on_field_line, upwards};
 use lensrunner::scene::aurora::fall::{self, Spectrum};
 use lensrunner::scene::aurora::lines::{self, Line};
@@ -15,6 +14,8 @@ use lensrunner::scene::blackbody::xyz_to_rgb;
 use lensrunner::scene::config::AuroraConfig;
 use lensrunner::scene::planet::AuroraShape;
 use std::f64::consts::PI;
+
+use crate::scene::aurora::fang::ionisation;
 
 /// Heights of the test's profiles, km.
 fn heights() -> impl DoubleEndedIterator<Item = f64> {

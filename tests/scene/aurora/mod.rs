@@ -1,6 +1,7 @@
 //! Tests of `src/scene/aurora/`.
 
 mod curtains;
+mod fang;
 mod ground;
 mod heights;
 mod lines;

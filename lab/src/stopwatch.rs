@@ -1,10 +1,10 @@
-//! How long one pass took on the GPU, for contests: waited for, unlike the times of a frame ([`crate::render::gpu::timing`]).
+//! How long one pass took on the GPU, for contests: waited for, unlike the times of a frame ([`lensrunner::render::gpu::timing`]).
 
 use wgpu::BufferUsages;
 
-use crate::render::Gpu;
-use crate::render::gpu::layout::buffer;
-use crate::render::gpu::readback::{self, PictureError};
+use lensrunner::render::Gpu;
+use lensrunner::render::gpu::layout::buffer;
+use lensrunner::render::gpu::readback::{self, PictureError};
 
 /// Two timestamps.
 #[derive(Debug)]

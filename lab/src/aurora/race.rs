@@ -6,17 +6,26 @@ use std::time::Instant;
 use bytemuck::{Pod, Zeroable};
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::render::Gpu;
-use crate::render::gpu::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
-use crate::render::gpu::readback::{self, PictureError};
-use crate::render::gpu::shaders;
-use crate::render::gpu::stopwatch::Stopwatch;
-use crate::render::gpu::targets::target;
+use lensrunner::render::Gpu;
+use lensrunner::render::gpu::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
+use lensrunner::render::gpu::readback::{self, PictureError};
+use lensrunner::render::gpu::shaders::lookup;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::method::Method;
+
+use crate::stopwatch::Stopwatch;
+
+const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
+const FLAT: &str = include_str!("../../shaders/aurora/experiment_flat.wgsl");
+const BENT: &str = include_str!("../../shaders/aurora/experiment_bent.wgsl");
+const WALKS: &str = include_str!("../../shaders/aurora/experiment_walks.wgsl");
+const SPLAT: &str = include_str!("../../shaders/aurora/experiment_splat.wgsl");
+const RANDOM: &str = include_str!("../../../shaders/functions/random.wgsl");
 
 /// `Experiment` in WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/aurora/experiment.wgsl")]
+#[allow(missing_docs, reason = "documented once, in lab/shaders/aurora/experiment.wgsl")]
 pub struct Experiment {
     pub origin: [f32; 4],
     pub place: [[f32; 4]; 3],
@@ -32,7 +41,7 @@ pub struct Experiment {
 /// `Electron` in WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/aurora/experiment.wgsl")]
+#[allow(missing_docs, reason = "documented once, in lab/shaders/aurora/experiment.wgsl")]
 pub struct Electron {
     pub top: [f32; 4],
     pub end: [f32; 4],
@@ -52,7 +61,7 @@ pub struct Scene<'a> {
     pub electrons: &'a [Electron],
     /// Apparent places on the lattice.
     pub nodes: &'a [[f32; 4]],
-    /// Of each level, as shaders/aurora/experiment_walks.wgsl reads them.
+    /// Of each level, as lab/shaders/aurora/experiment_walks.wgsl reads them.
     pub air: &'a [[f32; 4]],
     /// The table of falls, as it reads it.
     pub falls: &'a [[f32; 4]],
@@ -114,10 +123,11 @@ impl Race {
         let slots = [Slot::Uniform, Slot::Read, Slot::Uniform];
         let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
         let walks = [false, true].map(|bent| {
-            let source = shaders::aurora_experiment(bent);
+            let lookup = if bent { lookup(Method::Table, false) } else { String::new() };
+            let source = [EXPERIMENT, RANDOM, &lookup, if bent { BENT } else { FLAT }, WALKS].join("\n");
             ["particles", "exact"].map(|entry| compute_of(device, entry, &source, entry, &[Some(&walk_layout)]))
         });
-        let source = shaders::aurora_experiment_splats();
+        let source = [EXPERIMENT, SPLAT].join("\n");
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: Some("aurora race splat"),
             source: wgpu::ShaderSource::Wgsl(source.into()),

@@ -1,4 +1,4 @@
-//! Closed approximations: straight lines, Beloborodov's and Poutanen's relations between the angle at a point of a ray and the angle left
+//! Closed approximations: Beloborodov's and Poutanen's relations between the angle at a point of a ray and the angle left
 //! to infinity.
 //!
 //! Both relations read 1 − cos α = X(u, y), y = 1 − cos χ: α is the angle of the ray from the outward radial direction in the static frame
@@ -10,33 +10,10 @@
 
 use std::f64::consts::{E, PI};
 
-use super::{Frame, Projector, Query, Sight, each};
-use crate::spacetime::light::{Branch, Order};
+use lensrunner::lensing::methods::{Projector, Query, Sight};
+use lensrunner::spacetime::light::{Branch, Order};
 
-/// Light goes straight: the angle of flat space for a static camera, in the rain frame where nothing is static.
-pub struct Flat;
-
-fn straight(query: Query) -> Sight {
-    let Query { r, phi, camera: l } = query;
-    let half = (0.5 * phi).sin();
-    let along = (r - l) - 2.0 * r * half * half;
-    let across = r * phi.sin();
-    let (psi, delay) = (across.atan2(along), along.hypot(across));
-    if l > 1.0 { Sight::from_static(psi, delay, l) } else { Sight { psi_rain: psi, psi_static: None, delay } }
-}
-
-impl Projector for Flat {
-    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
-        (order.number() == 1 && branch == Branch::Plus).then(|| straight(query))
-    }
-
-    fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
-        each(|point, _| {
-            let direction = 1.0 / point.along.hypot(point.across);
-            [point.along * direction, point.across * direction]
-        })
-    }
-}
+use super::{Frame, Method, each};
 
 /// A relation between α and χ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,7 +93,9 @@ impl Projector for Approximation {
     fn project(&self, query: Query, order: Order, _branch: Branch) -> Option<Sight> {
         if order.number() == 1 { self.solve(query) } else { None }
     }
+}
 
+impl Method for Approximation {
     fn frame(&self, _l: f64) -> Box<dyn Frame + '_> {
         each(|point, _| self.solve(point.query))
     }

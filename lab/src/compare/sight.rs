@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::picture::{Motion, Thing, World};
-use super::shoot::{Branch, shoot};
-use super::trace::PixelCamera;
+use lensrunner::judge::picture::{Motion, Thing, World};
+use lensrunner::judge::trace::PixelCamera;
+use lensrunner::judge::{Branch, shoot};
 
 /// Local error of the integration of each ray that is shot.
 const TOLERANCE: f64 = 1e-13;

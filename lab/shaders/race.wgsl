@@ -4,7 +4,7 @@ struct RaceFrame {
     radial: vec4<f32>, // x: look-ups of each thread, w: the camera's radius
 }
 
-/// As in bindings.wgsl.
+/// As in shaders/bindings.wgsl.
 const TABLE_ROW: u32 = 1024u;
 
 @group(0) @binding(0) var<uniform> frame: RaceFrame;

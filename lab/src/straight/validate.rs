@@ -1,7 +1,6 @@
 //! The validator: walks a whole tree and says what is wrong with it.
 
-use super::bounds::{Bounds, Scalar};
-use super::tree::{MAX_DEPTH, Tree};
+use lensrunner::judge::bvh::{Bounds, MAX_DEPTH, Scalar, Tree};
 
 /// What a tree may have wrong. Numbers are indices of nodes and primitives.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -3,9 +3,14 @@
 
 use wide::f32x8;
 
-use super::lookup::{LEAST_LAPSE2, LensRay, YOUNG, lens_lookup_aged};
-use super::single::{BEND_RANGE, BEND_START, HALF_TURN, LensCamera, SMALLEST_SWEEP, SWEEP_LENGTH};
-use super::table::slice::{HEADER, Slice};
+use lensrunner::lensing::lookup::{LEAST_LAPSE2, LensRay, YOUNG, lens_lookup_aged};
+use lensrunner::lensing::methods::table::{in_range, seen};
+use lensrunner::lensing::methods::{Projector, Query, Sight, Table, Vertex};
+use lensrunner::lensing::single::{BEND_RANGE, BEND_START, HALF_TURN, LensCamera, SMALLEST_SWEEP, SWEEP_LENGTH};
+use lensrunner::lensing::table::slice::{HEADER, Slice};
+use lensrunner::spacetime::light::{Branch, Order};
+
+use super::{Frame, Method};
 
 /// Points in a batch.
 pub const LANES: usize = 8;
@@ -94,7 +99,7 @@ fn angle(sine: f32x8, cosine: f32x8) -> f32x8 {
 }
 
 /// r, 1 − 1/r, r − L, φ.
-pub(crate) fn source_point(cam: &LensCamera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
+pub(super) fn source_point(cam: &LensCamera, along: f32x8, across: f32x8, height: f32x8) -> [f32x8; 4] {
     let l = all(cam.l);
     let square = along * along + across * across;
     let r = (height * height + across * across).sqrt();
@@ -214,7 +219,7 @@ fn residuals(slice: &Slice, x: f32x8, y: f32x8) -> [f32x8; 3] {
         let mut sum = wide::f32x4::ZERO;
         for (b, weight) in wy.iter().enumerate() {
             let at = HEADER + (j[lane] as usize + b) * (nx as usize + 2) + i[lane] as usize;
-            let texels = &slice.texels[at..at + 4];
+            let texels = &slice.texels()[at..at + 4];
             let mut row = wide::f32x4::ZERO;
             for (texel, weights) in texels.iter().zip(&wx) {
                 row += wide::f32x4::from(*texel) * wide::f32x4::splat(weights[lane]);
@@ -235,7 +240,7 @@ fn spline_weights(t: f32x8) -> [f32x8; 4] {
 }
 
 /// The rays of `order` (1 to 3) from eight points, each `along` outward and `across` from the axis, away from the camera of `slice`;
-/// `height` = L + along. As [`super::lens_lookup_at`] for each; points inside the horizon go through it one by one.
+/// `height` = L + along. As [`lensrunner::lensing::lens_lookup_at`] for each; points inside the horizon go through it one by one.
 pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES], height: [f32; LANES], order: u32) -> LensRays {
     let cam = &slice.camera;
     let sides = [along, across, height];
@@ -295,4 +300,43 @@ pub fn lens_lookup_batch(slice: &Slice, along: [f32; LANES], across: [f32; LANES
         }
     }
     rays
+}
+
+/// The game's table, eight points at once.
+pub struct Batch(pub Table);
+
+/// The answers for at most eight points; the last is repeated to fill the batch.
+fn look_up_batch(slice: &Slice, points: &[Vertex], order: Order) -> LensRays {
+    let last = points.len() - 1;
+    let of = |field: fn(&Vertex) -> f32| std::array::from_fn(|i| field(&points[i.min(last)]));
+    lens_lookup_batch(slice, of(|p| p.along), of(|p| p.across), of(|p| p.height), u32::from(order.number()))
+}
+
+struct Batches(Slice);
+
+impl Frame for Batches {
+    fn look_up(&self, points: &[Vertex], order: Order) {
+        for points in points.chunks(LANES) {
+            std::hint::black_box(look_up_batch(&self.0, points, order));
+        }
+    }
+}
+
+impl Projector for Batch {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        if branch == Branch::Minus || !in_range(query) {
+            return self.0.project(query, order, branch);
+        }
+        seen(&look_up_batch(&Slice::new(&self.0.0, query.camera), &[query.into()], order).ray(0), query)
+    }
+}
+
+impl Method for Batch {
+    fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
+        Box::new(Batches(Slice::new(&self.0.0, l)))
+    }
+
+    fn memory(&self) -> usize {
+        self.0.memory()
+    }
 }

@@ -1,5 +1,5 @@
-//! The methods of projection on the GPU by themselves: many look-ups at once through the shipped shader functions, for the chart and for
-//! the tests of twins.
+//! The game's methods of projection on a graphics adapter by themselves: many look-ups at once through the shipped shader functions, for the
+//! chart and for the tests of twins.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -7,15 +7,18 @@ use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
-use crate::lensing::{Slice, Table};
+use lensrunner::lensing::{self, Slice, Table};
+use lensrunner::render::Gpu;
+use lensrunner::render::gpu::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
+use lensrunner::render::gpu::readback::{self, PictureError};
+use lensrunner::render::gpu::shaders::lookup;
+use lensrunner::render::method::Method;
+use lensrunner::render::method::tables::Tables;
 
-use crate::render::Gpu;
-use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
-use crate::render::gpu::readback::{self, PictureError};
-use crate::render::gpu::shaders;
-use crate::render::gpu::stopwatch::Stopwatch;
-use crate::render::method::Method;
-use crate::render::method::tables::Tables;
+use crate::stopwatch::Stopwatch;
+
+/// What calls the lookup.
+const SHADER: &str = include_str!("../../shaders/race.wgsl");
 
 /// Threads of a workgroup.
 const GROUP: usize = 64;
@@ -35,11 +38,17 @@ pub struct Race {
 }
 
 impl Race {
-    /// Of the methods that read `table` or none.
+    /// Of the game's methods; `table` is the one that it draws with.
     pub fn new(gpu: &Gpu, table: Arc<Table>) -> Race {
         let slots = [Slot::Uniform, Slot::Numbers, Slot::Read, Slot::Write];
         let layout = layout(&gpu.device, "race", ShaderStages::COMPUTE, &slots);
         Race { gpu: gpu.clone(), tables: Tables::new(table), layout, pipelines: HashMap::new() }
+    }
+
+    /// On the best adapter there is; None, and a word on stderr, where there is none.
+    pub fn on_best_adapter() -> Option<Race> {
+        let gpu = Gpu::headless().inspect_err(|error| eprintln!("lensrunner: {error}; the chart is drawn without a graphics adapter"));
+        Some(Race::new(&gpu.ok()?, Arc::new(lensing::default_table())))
     }
 
     /// The tables of the methods.
@@ -89,7 +98,7 @@ impl Race {
         let texels = self.texels(method, l);
         let Race { gpu, layout, pipelines, .. } = self;
         let device = &gpu.device;
-        let source = || shaders::race(method);
+        let source = || [SHADER, &lookup(method, true)].join("\n");
         let pipeline = &pipelines
             .entry(method)
             .or_insert_with(|| ["race", "idle"].map(|entry| compute_of(device, method.name(), &source(), entry, &[Some(layout)])))[which];

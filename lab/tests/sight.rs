@@ -1,8 +1,8 @@
 //! Where a point is seen, against the picture that shows it.
 
 use lensrunner::judge::case::Case;
-use lensrunner::judge::probe::Probe;
 use lensrunner::scene::{GameConfig, Scene};
+use lensrunner_lab::compare::probe::{Probe, probe};
 
 /// A ball behind the hole beside the axis, a planet on its orbit and a fast ship, seen in three orders by a moving camera.
 const SCENE: &str = r#"
@@ -29,7 +29,7 @@ momentum = [0.2, 0.0, 1.6]
 fn a_point_is_seen_where_the_picture_shows_it() {
     let scene = Scene::from_toml("sight.toml".as_ref(), SCENE).unwrap();
     let case = Case::new(scene, GameConfig::default(), 0.0, [96, 64]);
-    let probe = case.probe(1e-13);
+    let probe = probe(&case, 1e-13);
     let mut counts = [[0; 3]; 2];
     for y in 0..64 {
         for x in 0..96 {

@@ -1,10 +1,8 @@
-//! The reference for [`super::fall`] (Fang et al. 2010): the height profile of ionisation by isotropic electrons of one energy, 100 eV to 1
+//! The reference for `scene::aurora::fall` (Fang et al. 2010): the height profile of ionisation by isotropic electrons of one energy, 100 eV to 1
 //! MeV.
 
-use super::air::air;
-
-/// Energy spent per ion pair, in keV: the 35 eV of Fang et al. 2010, after Rees 1989.
-pub const PAIR_ENERGY: f64 = 0.035;
+use lensrunner::scene::aurora::air::air;
+use lensrunner::scene::aurora::fall::PAIR_ENERGY;
 
 /// P_ij of table 1 there: rows i = 1 to 8, columns j = 0 to 3.
 const P: [[f64; 4]; 8] = [

@@ -4,17 +4,17 @@ use std::fmt;
 use std::io::Write;
 use std::time::Instant;
 
-use crate::scene::{self, GameConfig, Scene};
+use lensrunner::scene::{self, GameConfig, Scene};
 
-use crate::render::aurora::ration::shares;
-use crate::render::disk::types::DiskCounters;
-use crate::render::gpu::readback::PictureError;
-use crate::render::gpu::targets::target;
-use crate::render::gpu::types::Counters;
-use crate::render::renderer::Surroundings;
-use crate::render::shot::{Moment, ShotError, surroundings};
-use crate::render::stage::{Stage, settings};
-use crate::render::{Gpu, Renderer};
+use lensrunner::render::aurora::ration::shares;
+use lensrunner::render::disk::types::DiskCounters;
+use lensrunner::render::gpu::readback::PictureError;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::gpu::types::Counters;
+use lensrunner::render::renderer::Surroundings;
+use lensrunner::render::shot::{Moment, ShotError, surroundings};
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::{Gpu, Renderer};
 
 /// What to time.
 #[derive(Clone, Debug)]

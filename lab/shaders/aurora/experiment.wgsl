@@ -1,5 +1,5 @@
 // What the walks and the splats of the aurora's experiment share (lab/src/aurora): lengths in km in the axes of the patch, x east, y north,
-// z up, or in r_s where light is bent. Filled by src/render/aurora/race.rs.
+// z up, or in r_s where light is bent. Filled by lab/src/aurora/race.rs.
 
 struct Experiment {
     /// Flat: the camera's place. Bent: that of the patch from the camera, w: the image order.

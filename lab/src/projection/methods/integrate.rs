@@ -3,9 +3,11 @@
 //! u″ = −u + 3/2 u² with its variation η″ = (−1 + 3u) η by the slope at the camera gives Newton's method its derivative, and the travel
 //! time is a third equation. It starts from the table's closed form, which is generous.
 
-use super::{Frame, Projector, Query, Sight, each, sight};
-use crate::lensing::double::{self, LensCamera, bent_sweep, slope_guess};
-use crate::spacetime::light::{Branch, Order};
+use lensrunner::lensing::double::{self, LensCamera, bent_sweep, slope_guess};
+use lensrunner::lensing::methods::{Projector, Query, Sight, sight};
+use lensrunner::spacetime::light::{Branch, Order};
+
+use super::{Frame, Method, each};
 
 /// Shooting with `steps` steps a shot.
 #[derive(Clone, Copy, Debug)]
@@ -105,7 +107,9 @@ impl Projector for Integrate {
         }
         self.solve(&double::camera(query.camera), query, order).filter(|sight| sight.psi_rain.is_finite() && sight.delay.is_finite())
     }
+}
 
+impl Method for Integrate {
     fn frame(&self, l: f64) -> Box<dyn Frame + '_> {
         let cam = double::camera(l);
         each(move |point, order| self.solve(&cam, point.query, order))

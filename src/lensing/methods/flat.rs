@@ -1,0 +1,21 @@
+//! No hole.
+
+use super::{Projector, Query, Sight};
+use crate::spacetime::light::{Branch, Order};
+
+/// Light goes straight: the angle of flat space for a static camera, in the rain frame where nothing is static.
+pub struct Flat;
+
+impl Projector for Flat {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        if order.number() != 1 || branch != Branch::Plus {
+            return None;
+        }
+        let Query { r, phi, camera: l } = query;
+        let half = (0.5 * phi).sin();
+        let along = (r - l) - 2.0 * r * half * half;
+        let across = r * phi.sin();
+        let (psi, delay) = (across.atan2(along), along.hypot(across));
+        Some(if l > 1.0 { Sight::from_static(psi, delay, l) } else { Sight { psi_rain: psi, psi_static: None, delay } })
+    }
+}

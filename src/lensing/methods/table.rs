@@ -1,0 +1,39 @@
+//! The residual table as the game uses it: sliced once a frame, looked up in f32.
+
+use super::{Projector, Query, Sight, Vertex};
+use crate::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
+use crate::lensing::{self, LensRay, Slice};
+use crate::spacetime::light::{self, Branch, Order};
+
+/// The lensing table as the GPU evaluates it: a slice at the camera's radius, then the lookup in f32.
+pub struct Table(pub lensing::Table);
+
+/// Whether the tables reach so far.
+pub fn in_range(query: Query) -> bool {
+    let [low, high] = lensing::table::grid::CAMERA_RANGE;
+    (low..=high).contains(&query.camera) && 1.0 / query.r >= lensing::double::POINT_RANGE[0]
+}
+
+/// One point in a slice.
+pub fn look_up(slice: &Slice, point: &Vertex, order: Order, branch: Branch) -> LensRay {
+    let elapsed = if branch == Branch::Minus { OLD } else { YOUNG };
+    lens_lookup_aged(slice, point.along, point.across, point.height, u32::from(order.number()), elapsed)
+}
+
+/// What the f32 lookup found; None if nothing.
+pub fn seen(ray: &LensRay, query: Query) -> Option<Sight> {
+    ray.valid.then(|| Sight {
+        psi_rain: f64::from(ray.sin_psi).atan2(f64::from(ray.cos_psi)),
+        psi_static: light::static_angle(f64::from(ray.slope), f64::from(ray.energy), 1.0 / query.camera),
+        delay: f64::from(ray.delay),
+    })
+}
+
+impl Projector for Table {
+    fn project(&self, query: Query, order: Order, branch: Branch) -> Option<Sight> {
+        if !in_range(query) {
+            return None;
+        }
+        seen(&look_up(&Slice::new(&self.0, query.camera), &query.into(), order, branch), query)
+    }
+}
