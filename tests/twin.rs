@@ -5,8 +5,8 @@ use lensrunner::render::gpu::{layout, readback};
 
 use crate::gpu::GPU;
 
-/// Runs `body` with the shipped source of `pass` before it: one thread per row of `input`. In `body`, `row` is that row and `twin_out`
-/// takes `outputs` rows from each thread. `tables`: the lens slice and the sky slice; of an empty one the shader must not speak, of another
+/// Runs `body` behind the shipped file of `pass`: one thread per row of `input`. In `body`, `row` is that row and `twin_out` takes `outputs`
+/// rows from each thread; lines of `#import` come first, for names that the file itself does not import. `tables`: the lens slice and the sky slice; of an empty one the shader must not speak, of another
 /// it must.
 pub fn run(pass: Pass, body: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], outputs: usize) -> Vec<[f32; 4]> {
     run_with(pass, body, tables, &[], input, outputs)
@@ -21,8 +21,14 @@ pub fn run_with(
     input: &[[f32; 4]],
     outputs: usize,
 ) -> Vec<[f32; 4]> {
-    let source = format!(
-        "{}
+    let (imports, body): (Vec<&str>, Vec<&str>) = body.lines().partition(|line| line.starts_with("#import "));
+    let [imports, body] = [imports, body].map(|lines| lines.join("\n"));
+    let module = layout::module_of(
+        &GPU.device,
+        "twin",
+        pass.module_with(&format!(
+            "
+{imports}
 @group(3) @binding(0) var<storage, read> twin_rows: array<vec4<f32>>;
 @group(3) @binding(1) var<storage, read_write> twin_out: array<vec4<f32>>;
 @compute @workgroup_size(64)
@@ -30,11 +36,11 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
     if id.x >= arrayLength(&twin_rows) {{ return; }}
     let row = twin_rows[id.x];
     {body}
-}}",
-        pass.source()
+}}
+"
+        )),
     );
     let device = &GPU.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source: wgpu::ShaderSource::Wgsl(source.into()) });
     let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some("twin"),
         layout: None,
@@ -43,7 +49,7 @@ fn twin(@builtin(global_invocation_id) id: vec3<u32>) {{
         compilation_options: Default::default(),
         cache: None,
     });
-    // As in shaders/bindings.wgsl.
+    // As in shaders/gpu/bindings.wgsl.
     let textures: Vec<_> = [(1, "lens slice", tables[0]), (2, "sky slice", tables[1])]
         .into_iter()
         .filter(|(_, _, table)| !table.is_empty())

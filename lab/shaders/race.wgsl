@@ -1,14 +1,11 @@
-// Looks rays up and nothing else: what the chart of methods times, and what the tests hold against the twins. A method's file goes behind.
+// Looks rays up and nothing else: what the chart of methods times, and what the tests hold against the twins. The method is
+// the module `lensrunner::chosen::method`.
 
-struct RaceFrame {
-    radial: vec4<f32>, // x: look-ups of each thread, w: the camera's radius
-}
+#import lensrunner::chosen::method::method_ray
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::lensing::lookup::{OLD, YOUNG}
+#import lensrunner::lensing::slice::lens_texel
 
-/// As in shaders/bindings.wgsl.
-const TABLE_ROW: u32 = 1024u;
-
-@group(0) @binding(0) var<uniform> frame: RaceFrame;
-@group(0) @binding(1) var lens_slice: texture_2d<f32>;
 /// Along, across, height, and the order, 4 more for light of any age.
 @group(0) @binding(2) var<storage, read> race_rows: array<vec4<f32>>;
 /// Two for each thread: cos ψ, sin ψ, delay, presence; frequency, momentum and frequency at the point, e. Summed over its look-ups, where

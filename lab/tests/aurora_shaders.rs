@@ -31,7 +31,9 @@ fn field_lines_and_random_numbers_are_the_same_in_both_languages() {
         (0..400u32).map(|k| [13.7 * k as f32 - 2500.0, 9.1 * k as f32 - 1500.0, 80.0 + k as f32, f32::from_bits(k * 7919)]).collect();
     let lines = run(
         Pass::AuroraWalk,
-        "twin_out[id.x] = vec4<f32>(on_field_line(row.xy, row.z), unit(hash(bitcast<u32>(row.w))));",
+        "#import lensrunner::aurora::streaks::on_field_line
+#import lensrunner::gpu::random::{hash, unit}
+    twin_out[id.x] = vec4<f32>(on_field_line(row.xy, row.z), unit(hash(bitcast<u32>(row.w))));",
         [&[], &[]],
         &rows,
         1,
@@ -146,7 +148,9 @@ fn light_of_electrons(spectrum: &Spectrum) -> Vec<[f64; 4]> {
 fn red_lags_in_the_shader_as_its_lifetime_says() {
     let falls = falls(SPECTRUM);
     // Kinds as in streaks.wgsl: green, red; streaks have waits that are even over many of them.
-    let body = "var streak: Streak; streak.kind = u32(row.x); streak.wait = unit(hash(id.x)); \
+    let body = "#import lensrunner::aurora::streaks::waits
+#import lensrunner::gpu::random::{hash, unit}
+    var streak: Streak; streak.kind = u32(row.x); streak.wait = unit(hash(id.x)); \
                 twin_out[id.x] = vec4<f32>(waits(streak, row.y), 0.0, 0.0, 0.0);";
     for (kind, line) in [(0, Line::Green), (1, Line::Red)] {
         for height in [110.0, 160.0, 220.0, 300.0] {
@@ -169,7 +173,8 @@ fn red_lags_in_the_shader_as_its_lifetime_says() {
 fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
     // A curtain that moves evenly is drawn, at a height between two ends of chords, as old as the ends' mean waits say between them.
     let falls = falls(SPECTRUM);
-    let body = "let count = u32(row.y); let chord = chord_at(RED, row.x, count); let above = chord_height(RED, chord, count); \
+    let body = "#import lensrunner::aurora::streaks::{mean_wait, RED}
+    let count = u32(row.y); let chord = chord_at(RED, row.x, count); let above = chord_height(RED, chord, count); \
                 let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
                 twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
     let heights = heights(SPECTRUM);

@@ -1,6 +1,8 @@
 // Fourth pass of the aurora: strokes are added up, in kR of each of the four lines; each in its level of the pyramid. Depth is that of the
 // stroke's middle.
 
+#import lensrunner::aurora::stroke::{CORNERS, SIGMAS, Stroke}
+
 @group(1) @binding(0) var<uniform> level: Level;
 @group(1) @binding(1) var<storage, read> strokes: array<Stroke>;
 

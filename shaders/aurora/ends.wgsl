@@ -1,5 +1,11 @@
 // Second pass of the aurora: the ends of each streak's chords, from what was projected beside them. One thread per end and image order.
 
+#import lensrunner::aurora::streaks::{
+    across_field, at_height, aurora, between_nodes, chord_height, chord_room, ChordEnd, chords, chords_of, first_reference, node_at, RED,
+    references, segments, streak_of, waits,
+}
+#import lensrunner::gpu::random::{hash, unit}
+
 /// Number of values of the rays' noise, a power of two. The time after which both its drifts have passed a multiple of them is in
 /// animation.rs (RAYS_PERIOD), the length in motion.rs (RAYS_LENGTH).
 const RAYS_CELLS: i32 = 512;

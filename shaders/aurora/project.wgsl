@@ -2,6 +2,13 @@
 // lensing lookup; nothing else does. One thread per end, pole and image order. In flat space apparent positions are linear in positions, so
 // nothing is lost; through bent light a part is short enough.
 
+#import lensrunner::aurora::streaks::{
+    across_field, at_height, aurora, AURORA_BOTH_POLES, aurora_instances, chord_height, chords_of, GREEN, mean_wait, middle_of, RED,
+    Reference, reference_room, references, segments,
+}
+#import lensrunner::geometry::clip::finite_vector
+#import lensrunner::geometry::project::{answer, query_body}
+
 /// Distance of the points beside it, in km: large against the rounding of the lookup, small against its bending.
 const ASIDE: f32 = 20.0;
 

@@ -1,5 +1,11 @@
+#define_import_path lensrunner::aurora::rooms
+
 // Where strokes are stored. Two levels share a room, one from its beginning and one from its end, so the split between them need not be
 // known. The room of the next coarser pair is half as large. Twin of `Rooms` in src/render/aurora/rooms.rs.
+
+#import lensrunner::aurora::levels::lit_tiles::{LIT_TILE_COLUMNS, LIT_TILE_ROWS, lit_tiles_of, numbers_of, PYRAMID}
+#import lensrunner::aurora::streaks::{aurora, stroke_draws}
+#import lensrunner::aurora::stroke::CORNERS
 
 /// Notes that there may be light in a box of pixels (left, top, right, bottom) of a screen of a size, from the finest level or from a
 /// coarser one.

@@ -1,6 +1,12 @@
+#define_import_path lensrunner::aurora::streaks
+
 // What the passes of the aurora share: streaks, each the light of all electrons that come down on a small part of a curtain; where they
 // are, and their light over height. Lengths in km and heights above the planet, in the axes of its magnetic dipole (+z north). The physics
 // is in src/scene/aurora; src/render/aurora fills the buffers.
+
+#import lensrunner::aurora::stroke::Stroke
+#import lensrunner::gpu::random::{hash, unit}
+#import lensrunner::gpu::types::Instance
 
 struct AuroraSettings {
     /// x: streaks, y: chords of a streak that is not red, z: parts of a streak, w: nodes in a row of the history.

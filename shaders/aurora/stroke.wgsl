@@ -1,3 +1,5 @@
+#define_import_path lensrunner::aurora::stroke
+
 // A stroke: a part of a streak that is straight on the screen and evenly bright, blurred. The walk writes strokes, the draw reads them.
 
 struct Stroke {

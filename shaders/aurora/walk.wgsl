@@ -2,6 +2,15 @@
 // ends of a chord the apparent position is linear in height, so a step is a few products and one reciprocal. (Sekiguchi et al. step
 // linearly on the screen itself, which is right from the side and wrong from below; AURORA_LINEAR does so.)
 
+#import lensrunner::aurora::rooms::{light_up, room_of}
+#import lensrunner::aurora::streaks::{
+    aurora, AURORA_LINEAR, chord_at, chord_height, chord_room, chords, chords_of, fall_at, height_of, height_range, photons_of, ranges,
+    segments, Streak, streak_of, strokes,
+}
+#import lensrunner::aurora::stroke::{CORNERS, FILLED, SIGMAS, Stroke}
+#import lensrunner::geometry::clip::clip_position
+#import lensrunner::gpu::bindings::frame
+
 /// Variance of a pixel, and the least variance of a stroke: light must not depend on where in its pixel a point is.
 const PIXEL_VARIANCE: f32 = 0.35;
 /// Greatest brightness of a stroke, in kR, before its ends are blurred: it is stored in half floats.

@@ -1,6 +1,9 @@
-// The gas in a pixel: streaks from the pattern, light from the vertices.
+#define_import_path lensrunner::disk::gas
 
-@group(2) @binding(0) var<uniform> disk: DiskFrame;
+#import lensrunner::disk::light::GasLight
+#import lensrunner::disk::motion::{disk_rate, disk_shares}
+#import lensrunner::disk::types::{disk, own_share}
+
 /// The pattern with its finest octaves, in 8 bits, as (value + 4)/8. Each texel holds itself and its next neighbours to the right, below
 /// and across, so that one fetch is enough for bilinear interpolation. It is fetched and not sampled: software drivers then compute no more
 /// than the address.

@@ -1,4 +1,11 @@
+#define_import_path lensrunner::disk::light
+
 // The light of the gas at a vertex, and how it changes with temperature.
+
+#import lensrunner::disk::types::disk
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::colour::{blackbody_rgb, luminance}
+#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER}
 
 struct GasLight {
     /// Linear light in the scene's unit.

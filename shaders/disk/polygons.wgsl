@@ -1,5 +1,13 @@
 // The disk of polygons, drawn: triangles that the stages of geometry have tessellated, opaque, nearest first by depth.
 
+#import lensrunner::disk::gas::{Gas, gas_at, gas_colour, STEP, streaks_of, two_looks}
+#import lensrunner::disk::light::gas_light
+#import lensrunner::disk::motion::disk_slant
+#import lensrunner::disk::radial::{gas_ratio, radial_gas}
+#import lensrunner::geometry::clip::clip_position
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{SeenVertex, texture_point}
+
 @group(1) @binding(0) var<storage, read> seen: array<SeenVertex>;
 /// Of each instance: turns by r_s/c, and the azimuth, in turns, of what is at 0 in the model at T₀, which is T less the camera's radius.
 @group(1) @binding(2) var<storage, read> turning: array<vec2<f32>>;

@@ -1,4 +1,9 @@
+#define_import_path lensrunner::disk::radial
+
 // Functions of the radius for sprites and polygons, which have points at any: a table of src/scene/disk/radial.rs, linear in r.
+
+#import lensrunner::disk::motion::disk_frequency
+#import lensrunner::gpu::bindings::frame
 
 /// Two rows for each radius: (ln T, depth, momentum outward, along), (lead, half height, ln r over the pattern's height, radius).
 @group(1) @binding(1) var<storage, read> radial_table: array<vec4<f32>>;

@@ -1,6 +1,10 @@
+#define_import_path lensrunner::disk::sigma
+
 // The parameter in which an image of the disk is smooth all round: σ, the mean of the azimuth θ from the camera's and of the angle α round
 // the axis of hole and camera at which the point is seen, tan α = tan θ/h. Where the disk passes behind the hole θ hardly changes while α
 // takes half a turn; as a function of σ the image is smooth everywhere. The twin of src/render/disk/sigma.rs.
+
+#import lensrunner::lensing::closed_form::{angle, HALF_TURN, sine_cosine}
 
 /// Position of a point on its circle: θ in rad, its cosine and its sine.
 struct Bearing {

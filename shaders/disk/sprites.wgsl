@@ -1,6 +1,18 @@
 // The disk of sprites, projected: one thread per spot, one dispatch per image order. A spot is a place that gas flows through, as an arc
 // is. It reaches to its neighbours' middles, as the camera sees them: two lookups beside its own.
 
+#import lensrunner::disk::gas::{Gas, gas_at, gas_colour, place_in, Sides, STEP, Streaks, streaks_over, two_looks}
+#import lensrunner::disk::light::gas_light
+#import lensrunner::disk::motion::disk_slant
+#import lensrunner::disk::radial::{gas_ratio, radial_gas}
+#import lensrunner::disk::sigma::bearing
+#import lensrunner::disk::sprites_types::SeenSprite
+#import lensrunner::disk::types::disk
+#import lensrunner::geometry::clip::{clip_position, finite_vector}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::lensing::closed_form::HALF_TURN
+#import lensrunner::lensing::lookup::{lens_lookup_at, LensRay}
+
 /// Radius in r_s; where it is on its ring, even in σ, in rad; from there to the next.
 struct Sprite {
     radius: f32,

@@ -2,6 +2,9 @@
 // sample does. Spots are drawn in a known order, ring by ring outwards and along each ring, so each knows how much of a pixel those that
 // are drawn later will take.
 
+#import lensrunner::disk::sprites_types::SeenSprite
+#import lensrunner::gpu::bindings::frame
+
 @group(1) @binding(0) var<storage, read> seen_sprites: array<SeenSprite>;
 
 struct Spot {

@@ -1,3 +1,5 @@
+#define_import_path lensrunner::disk::sprites_types
+
 // A spot of gas as the camera sees it.
 
 struct SeenSprite {

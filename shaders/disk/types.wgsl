@@ -1,3 +1,5 @@
+#define_import_path lensrunner::disk::types
+
 // The types of the disk of arcs. A row is a circle of the disk in one image order. A column is a position on it: even ones are the cuts
 // between arcs, odd ones the middles of arcs. θ is the azimuth from the camera's.
 
@@ -27,6 +29,8 @@ struct DiskFrame {
     /// x, y: position in the pattern of the first generation; z, w: step to the next.
     offset: vec4<f32>,
 }
+
+@group(#{DATA_GROUP}) @binding(0) var<uniform> disk: DiskFrame;
 
 struct Circle {
     /// Radius in r_s, lead of falling gas in rad, ln of the temperature in K, optical depth straight through.

@@ -1,6 +1,9 @@
 // Between the stages: one thread that turns counts into indirect arguments. They lie in a group of their own, because a buffer cannot be
 // written and drive a dispatch at once.
 
+#import lensrunner::geometry::bindings::counters
+#import lensrunner::gpu::bindings::frame
+
 @group(2) @binding(0) var<storage, read_write> arguments: Arguments;
 
 /// Indirect arguments, one row of four words each (an indexed draw takes two).

@@ -1,7 +1,7 @@
-// Group 1: what the stages of geometry hand to each other. The order is that of the frame.
+#define_import_path lensrunner::geometry::bindings
 
-/// Instances, as geometry/instance.wgsl reads them.
-@group(1) @binding(0) var instances: texture_2d<u32>;
+#import lensrunner::gpu::types::{Chunk, ModelTriangle, ModelVertex, Piece, SeenVertex, WorkItem}
+
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
 /// The two vertices of an edge, and those opposite to it in its two triangles, or `ALONE`.
 @group(1) @binding(2) var<storage, read> model_edges: array<vec4<u32>>;

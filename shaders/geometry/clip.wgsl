@@ -1,4 +1,8 @@
+#define_import_path lensrunner::geometry::clip
+
 // Where an apparent point lies on the screen.
+
+#import lensrunner::gpu::bindings::frame
 
 fn finite_vector(v: vec3<f32>) -> bool {
     // NaN fails every comparison; infinities fail this one.

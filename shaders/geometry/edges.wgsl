@@ -1,5 +1,20 @@
 // Stage 2: one thread per model edge and image order. The number of segments depends on the edge alone, so its two triangles agree on it.
 
+#import lensrunner::chosen::worldlines::{is_rim, MAY_FOLD}
+#import lensrunner::geometry::bindings::{
+    ALONE, chunks, EDGE_CUT, EDGE_LIMB, edge_states, EDGE_UNSEEN, emitted, model_edges, model_vertices, NO_INSTANCE, seen, VERTEX_ON_AXIS,
+    VERTEX_PLAIN, VERTEX_UNSEEN,
+}
+#import lensrunner::geometry::clip::pixel_fineness
+#import lensrunner::geometry::patch::{
+    angle_between, axis_core, axis_matters, BLOCK, chord_error, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT, offset_of,
+    on_limb, query_fan, ring_strictness, slimness, strictness, turn_about_axis, uneven_sag,
+}
+#import lensrunner::geometry::project::{answer, query_body}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{FLAG_INSIDE, is_thin}
+#import lensrunner::instances::instance::instance_at
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;

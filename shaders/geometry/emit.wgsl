@@ -1,4 +1,15 @@
+#define_import_path lensrunner::geometry::emit
+
 // How a stage hands pieces on: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is kept inside its buffer.
+
+#import lensrunner::geometry::bindings::{counters, indices, model_triangles, pieces, seen, thin, ThinVertex, work}
+#import lensrunner::geometry::clip::clip_position
+#import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, WorkItem}
+#import lensrunner::instances::bounds::leaves_bounds
+#import lensrunner::instances::instance::{in_body_axes, instance_at}
+#import lensrunner::models::hiding::seen_part
 
 /// Height of a triangle on the screen over its longest side, in pixels; negative if its corners run clockwise. In a thin image it decides
 /// how the triangle is drawn. If it is at least `render.min_width`, as it is; else widened to that, with the covered share as alpha, so

@@ -1,5 +1,15 @@
 // Stage 5, the mesh stage: evaluates the projection for each vertex of the work items, then writes their triangles.
 
+#import lensrunner::geometry::bindings::{counters, indices, model_triangles, model_vertices, seen, work}
+#import lensrunner::geometry::clip::{finite_vector, pixel_fineness}
+#import lensrunner::geometry::emit::emit_thin
+#import lensrunner::geometry::patch::{ARC_SHARE, BLOCK, body_point, comes_first, facing_of, query_fan, seen_vertex}
+#import lensrunner::geometry::project::{Answer, answer, Query, query_body}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{Instance, is_thin, ModelTriangle, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, SeenVertex, WorkItem}
+#import lensrunner::instances::bounds::leaves_bounds
+#import lensrunner::instances::instance::{instance_at, normal_of}
+
 /// Rows and columns of the vertex `k` of a block.
 fn triangle_row(k: u32) -> u32 {
     // Row i of the grid has i + 1 vertices; the root is exact for the few rows of a block after the correction.
@@ -63,7 +73,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     fan_place = s;
     var vertex = vertex_at(item, instance, triangle, corner, s);
     if item.piece.what.z == PIECE_FAN {
-        vertex.fan = vec4<f32>(texture_coordinates(instance, triangle, item.piece.corner_0.xyz), fan_place, vertex.fan.w);
+        vertex.fan = vec4<f32>(texture_coordinates(instance, triangle, item.piece.corner_a.xyz), fan_place, vertex.fan.w);
     }
     seen[index] = vertex;
 }
@@ -129,9 +139,9 @@ fn triangle_point(item: WorkItem, k: u32) -> vec3<f32> {
     let n = item.grid.x;
     let i = triangle_row(k);
     let j = k - i * (i + 1u) / 2u;
-    let c0 = item.piece.corner_0.xyz;
-    let c1 = item.piece.corner_1.xyz;
-    let c2 = item.piece.corner_2.xyz;
+    let c0 = item.piece.corner_a.xyz;
+    let c1 = item.piece.corner_b.xyz;
+    let c2 = item.piece.corner_c.xyz;
     if i == 0u {
         return c0;
     } else if i == n && j == 0u {
@@ -165,8 +175,8 @@ fn side_point(a: vec3<f32>, b: vec3<f32>, i: u32, n: u32, level: u32) -> vec3<f3
 /// A vertex of a fan's grid: the point of its outer edge, barycentric, and w: how far from the axis towards it. Each side has its own
 /// level: the arc at the axis, the outer edge, the two radial sides.
 fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
-    let c1 = item.piece.corner_1.xyz;
-    let c2 = item.piece.corner_2.xyz;
+    let c1 = item.piece.corner_b.xyz;
+    let c2 = item.piece.corner_c.xyz;
     let rows = item.grid.x;
     let columns = item.grid.y;
     var s = f32(row) / f32(rows);
@@ -186,9 +196,9 @@ fn fan_point(item: WorkItem, row: u32, column: u32) -> vec4<f32> {
 
 /// A vertex of a strip, barycentric: row 1 runs along the edge opposite corner 0, row 0 along the other two.
 fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
-    let c0 = item.piece.corner_0.xyz;
-    let c1 = item.piece.corner_1.xyz;
-    let c2 = item.piece.corner_2.xyz;
+    let c0 = item.piece.corner_a.xyz;
+    let c1 = item.piece.corner_b.xyz;
+    let c2 = item.piece.corner_c.xyz;
     let columns = item.grid.y;
     if row == 1u {
         return side_point(c1, c2, column, columns, item.levels.x);
@@ -228,7 +238,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     for (var k = select(0u, 1u, s == 1.0); k < count; k++) {
         var query = query_body(body);
         if k == 0u {
-            query = query_body(body_point(instance, triangle, item.piece.corner_0.xyz));
+            query = query_body(body_point(instance, triangle, item.piece.corner_a.xyz));
         } else if k == 2u {
             query = query_fan(apex, found.by_axis, s);
             query.height = mix(apex_height, dot(found.position, frame.radial.xyz), s);
@@ -251,7 +261,7 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
             count = select(2u, 3u, found.ray.valid && here.across < past_axis(instance, here, found.ray.apparent));
         }
     }
-    let corner = mix(item.piece.corner_0.xyz, point, vec3<f32>(s));
+    let corner = mix(item.piece.corner_a.xyz, point, vec3<f32>(s));
     let first = instance.vertices.x;
     let v0 = model_vertices[first + triangle.vertices.x];
     let v1 = model_vertices[first + triangle.vertices.y];

@@ -1,4 +1,16 @@
+#define_import_path lensrunner::geometry::patch
+
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
+
+#import lensrunner::chosen::held::held_momentum
+#import lensrunner::geometry::bindings::model_vertices
+#import lensrunner::geometry::clip::pixel_fineness
+#import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{
+    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_OPEN, two_sided,
+}
+#import lensrunner::instances::instance::shaped
 
 /// Deepest splitting. An edge that passes the axis at a millionth of its length takes a third of it (`halfway`), and not all edges are
 /// halved at the same time.

@@ -1,4 +1,13 @@
+#define_import_path lensrunner::geometry::project
+
 // From a point of an object to where the camera sees it: `answer()`.
+
+#import lensrunner::chosen::method::method_ray
+#import lensrunner::chosen::worldlines::{first_guess, swing_at, velocity_at}
+#import lensrunner::geometry::clip::least_pixel
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{Instance, INSTANCE_MINUS}
+#import lensrunner::lensing::lookup::{OLD, YOUNG}
 
 /// One ray: where its source is seen, how long it took, and the photon's momentum at both ends over |E b|.
 struct Sight {
@@ -60,21 +69,6 @@ fn frequency_ratio(arriving: vec4<f32>, leaving: vec4<f32>, momentum: vec4<f32>)
 fn leaving_direction(leaving: vec4<f32>, momentum: vec4<f32>) -> vec3<f32> {
     let k = leaving.xyz + momentum.xyz * (dot(momentum.xyz, leaving.xyz) / (1.0 + momentum.w) - leaving.w);
     return k / max(length(k), 1e-20);
-}
-
-/// A direction in body axes, in rain axes at T₀.
-fn normal_of(instance: Instance, normal: vec3<f32>) -> vec3<f32> {
-    return instance.turn_x.xyz * normal.x + instance.turn_y.xyz * normal.y + instance.turn_z.xyz * normal.z;
-}
-
-/// The inverse of `normal_of`.
-fn in_body_axes(instance: Instance, v: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(dot(instance.turn_x.xyz, v), dot(instance.turn_y.xyz, v), dot(instance.turn_z.xyz, v));
-}
-
-/// A body offset on the slice at T₀.
-fn shaped(instance: Instance, body: vec3<f32>) -> vec3<f32> {
-    return instance.shape_x.xyz * body.x + instance.shape_y.xyz * body.y + instance.shape_z.xyz * body.z;
 }
 
 /// What is to be projected: a body point, at its own emission time, or a fixed position.

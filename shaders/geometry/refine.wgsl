@@ -1,6 +1,20 @@
 // Stage 4: splitting. One thread per piece. If an edge needs more than eight segments it is halved; else the piece goes to the mesh stage.
 // An edge is judged by its end points alone, so both its sides split it alike.
 
+#import lensrunner::chosen::worldlines::KEEPS_SLIVERS
+#import lensrunner::geometry::bindings::{counters, EDGE_LIMB, edge_states, model_triangles, pieces}
+#import lensrunner::geometry::clip::pixel_fineness
+#import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
+#import lensrunner::geometry::patch::{
+    angle_between, ARC_SHARE, axis_matters, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, halfway, is_lost,
+    level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments, most_turn, MUST_SPLIT, part_between, plane_normal,
+    query_fan, ring_strictness, strictness, turn_about_axis, uneven_sag,
+}
+#import lensrunner::geometry::project::{answer, leaving_direction, query_body}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{FLAG_INSIDE, Instance, is_thin, ModelTriangle, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE}
+#import lensrunner::instances::instance::instance_at
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let queue = counters.turn;
@@ -56,7 +70,7 @@ struct Side {
 }
 
 fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
-    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
     var i = (side + 1u) % 3u;
     var j = (side + 2u) % 3u;
     if !comes_first(corners[i], corners[j]) {
@@ -106,7 +120,7 @@ fn level_between(a: vec3<f32>, b: vec3<f32>, error: f32, least: f32, grazed: boo
 /// corners 1 and 2, the outer edge at ¼, ½, ¾; from 6 the radial side at corner 1 at s = 0, ¼, ½, ¾; from 10 that at corner 2; from 14 the
 /// arc at ¼, ½, ¾.
 fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
-    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
     let fan = piece.what.z == PIECE_FAN;
     let count = select(12u, 17u, fan);
     let normal = plane_normal(instance, triangle, instance.offset.xyz);
@@ -162,12 +176,12 @@ fn emit_leaf(piece: Piece, levels: vec3<u32>, instance: Instance) {
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
-    let corners = array<vec4<f32>, 3>(piece.corner_0, piece.corner_1, piece.corner_2);
+    let corners = array<vec4<f32>, 3>(piece.corner_a, piece.corner_b, piece.corner_c);
     var strip = piece;
     strip.what.z = PIECE_STRIP;
-    strip.corner_0 = corners[turn];
-    strip.corner_1 = corners[(turn + 1u) % 3u];
-    strip.corner_2 = corners[(turn + 2u) % 3u];
+    strip.corner_a = corners[turn];
+    strip.corner_b = corners[(turn + 1u) % 3u];
+    strip.corner_c = corners[(turn + 2u) % 3u];
     emit_work(strip, vec4<u32>(turned, 1u), 1u, columns);
 }
 
@@ -225,7 +239,7 @@ const SLICED: f32 = 0.1;
 
 /// Where the axis meets a measured triangle, as `meets_axis`.
 fn met(piece: Piece, order: u32) -> vec3<f32> {
-    let corners = array<vec3<f32>, 3>(piece.corner_0.xyz, piece.corner_1.xyz, piece.corner_2.xyz);
+    let corners = array<vec3<f32>, 3>(piece.corner_a.xyz, piece.corner_b.xyz, piece.corner_c.xyz);
     // The corners in the order that the triangles of each edge agree on.
     var rank = vec3<u32>(0u, 1u, 2u);
     if !comes_first(corners[rank.x], corners[rank.y]) { rank = rank.yxz; }
@@ -240,9 +254,9 @@ fn met(piece: Piece, order: u32) -> vec3<f32> {
 }
 
 fn refine_triangle(piece: Piece, instance: Instance) {
-    let c0 = piece.corner_0.xyz;
-    let c1 = piece.corner_1.xyz;
-    let c2 = piece.corner_2.xyz;
+    let c0 = piece.corner_a.xyz;
+    let c1 = piece.corner_b.xyz;
+    let c2 = piece.corner_c.xyz;
     let depth = piece.what.w;
     if is_lost(instance, by_axis[0], by_axis[1], by_axis[2]) {
         return;
@@ -319,15 +333,15 @@ fn refine_triangle(piece: Piece, instance: Instance) {
 }
 
 fn refine_fan(piece: Piece, instance: Instance) {
-    let c1 = piece.corner_1.xyz;
-    let c2 = piece.corner_2.xyz;
+    let c1 = piece.corner_b.xyz;
+    let c2 = piece.corner_c.xyz;
     let side = side_of(piece, 0u, instance);
     let outer = side.level;
     let depth = piece.what.w;
     if outer > BLOCK && depth < DEEPEST {
         let m = side.middle;
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, c1, m);
-        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_0.xyz, m, c2);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, c1, m);
+        emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, m, c2);
         return;
     }
     let fineness = pixel_fineness(points[1], points[2]);

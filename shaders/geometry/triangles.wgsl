@@ -1,6 +1,17 @@
 // Stage 3, the object stage: one thread per model triangle and image order. Culls, cuts at the axis, draws what is flat enough as it is,
 // and hands the rest on: to the mesh stage if eight segments a side are enough, else to be split.
 
+#import lensrunner::chosen::method::METHOD_FILTERS
+#import lensrunner::geometry::bindings::{
+    chunks, counters, EDGE_CUT, edge_states, emitted, model_triangles, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_UNSEEN,
+}
+#import lensrunner::geometry::clip::clip_position
+#import lensrunner::geometry::emit::{emit_piece, emit_whole, emit_work, hand_over, off_screen, pixels}
+#import lensrunner::geometry::patch::{BLOCK, is_lost, meets_axis, offset_of, outward_normal}
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::{Chunk, Instance, ModelTriangle, Piece, PIECE_FAN, PIECE_TRIANGLE, SIDE_LONE}
+#import lensrunner::instances::instance::instance_at
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
@@ -39,9 +50,9 @@ fn decide(chunk: Chunk, lane: u32) {
     if turned_away(instance, triangle, slots, offset_of(o0.xyz)) {
         return;
     }
-    let corner_0 = vec3<f32>(1.0, 0.0, 0.0);
-    let corner_1 = vec3<f32>(0.0, 1.0, 0.0);
-    let corner_2 = vec3<f32>(0.0, 0.0, 1.0);
+    let corner_a = vec3<f32>(1.0, 0.0, 0.0);
+    let corner_b = vec3<f32>(0.0, 1.0, 0.0);
+    let corner_c = vec3<f32>(0.0, 0.0, 1.0);
 
     // Where the axis meets the triangle, its image opens into an arc. It is cut there into fans, from `apex` over those of its edges that
     // are in `fans`.
@@ -74,9 +85,9 @@ fn decide(chunk: Chunk, lane: u32) {
     }
     if any(fans) {
         atomicAdd(&counters.cut, 1u);
-        if fans.x { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_1, corner_2); }
-        if fans.y { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_2, corner_0); }
-        if fans.z { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_0, corner_1); }
+        if fans.x { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_b, corner_c); }
+        if fans.y { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_c, corner_a); }
+        if fans.z { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_a, corner_b); }
         return;
     }
 
@@ -93,11 +104,11 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     if most <= BLOCK {
-        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_0, 0.0), vec4<f32>(corner_1, 0.0), vec4<f32>(corner_2, 0.0));
+        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_a, 0.0), vec4<f32>(corner_b, 0.0), vec4<f32>(corner_c, 0.0));
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }
-    emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_0, corner_1, corner_2);
+    emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_a, corner_b, corner_c);
 }
 
 /// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of

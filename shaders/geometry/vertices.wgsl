@@ -1,5 +1,11 @@
 // Stage 1: one thread per model vertex and order. Solves the emission time, projects, writes what the rasteriser may draw as it is.
 
+#import lensrunner::geometry::bindings::{chunks, counters, emitted, model_vertices, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_PLAIN, VERTEX_UNSEEN}
+#import lensrunner::geometry::clip::finite_vector
+#import lensrunner::geometry::patch::{axis_core, axis_matters, seen_vertex}
+#import lensrunner::geometry::project::{answer, query_body}
+#import lensrunner::instances::instance::{instance_at, normal_of}
+
 @compute @workgroup_size(64)
 fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;

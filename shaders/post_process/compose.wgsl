@@ -1,5 +1,7 @@
 // Lays the sum of the thin triangles over the picture, once: their mean colour, as far as they cover the pixel.
 
+#import lensrunner::post_process::coverage::{before_later, covered}
+
 @group(2) @binding(0) var source: texture_2d<f32>;
 @group(2) @binding(1) var signed_source: texture_2d<f32>;
 

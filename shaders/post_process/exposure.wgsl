@@ -1,5 +1,9 @@
 // Exposure: one workgroup reads a coarse level of the bloom chain and moves the exposure towards the target.
 
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::colour::luminance
+#import lensrunner::gpu::types::FLAG_HOLD_EXPOSURE
+
 @group(2) @binding(0) var source: texture_2d<f32>;
 /// State from the last frame: x: exposure, y: mean log luminance, z: 1 once it has been set.
 @group(2) @binding(1) var<storage, read_write> adaptation: vec4<f32>;

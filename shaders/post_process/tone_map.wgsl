@@ -1,5 +1,7 @@
 // Tone mapping: exposure, bloom, tone curve. The target encodes sRGB.
 
+#import lensrunner::gpu::bindings::frame
+
 @group(2) @binding(0) var picture: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
 @group(2) @binding(2) var bloom: texture_2d<f32>;

@@ -1,5 +1,10 @@
 // The background: the Milky Way behind everything, filtered by the size of the lensed pixel. Cells come from cells.wgsl.
 
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::colour::shifted_colour
+#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SkyCorner}
+#import lensrunner::sky::direction::{PANORAMA_BRIGHT, PANORAMA_FAINT, panorama_level, panorama_light, sky_view}
+
 @group(1) @binding(0) var<storage, read> corners: array<SkyCorner>;
 /// The root of the brightness, in 8 bits as in its file.
 @group(1) @binding(1) var milky_way: texture_2d<f32>;

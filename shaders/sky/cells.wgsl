@@ -2,6 +2,12 @@
 // drawn by interpolation where that is right to a fraction of a pixel. The other cells (at the edge of the shadow, at the Einstein ring, at
 // the poles and the seam of the panorama) are drawn pixel by pixel.
 
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::colour::shifted_colour
+#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SkyCorner}
+#import lensrunner::sky::direction::{PANORAMA_BRIGHT, PANORAMA_FAINT, sky_view}
+#import lensrunner::sky::table::PI
+
 @group(1) @binding(0) var<storage, read_write> corners: array<SkyCorner>;
 /// Indices of the interpolated cells, then from the middle on those of the exact ones.
 @group(1) @binding(1) var<storage, read_write> cell_indices: array<u32>;

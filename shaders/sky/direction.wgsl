@@ -1,4 +1,9 @@
+#define_import_path lensrunner::sky::direction
+
 // Where the light of a pixel comes from: its place on the panorama of the Milky Way, and how it is changed on the way.
+
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::sky::table::{camera_doppler, PI, sky_ratio, sky_swept}
 
 /// What is seen of the sky at one place of the screen.
 struct SkyView {

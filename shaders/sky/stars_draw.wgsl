@@ -1,5 +1,8 @@
 // Stars drawn as spots of constant shape and exact total light, so that they neither blink nor stretch as they move across pixels.
 
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::types::SeenStar
+
 @group(1) @binding(0) var<storage, read> seen_stars: array<SeenStar>;
 
 struct Spot {

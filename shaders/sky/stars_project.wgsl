@@ -2,6 +2,11 @@
 // Power goes as the black body at gT over the one at T, times the exact ratio of solid angles in the camera's frame, held below that of a
 // star of finite size.
 
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::gpu::colour::{blackbody_rgb, luminance}
+#import lensrunner::gpu::types::{FLAG_BEAMING, FLAG_DOPPLER, SeenStar, Star}
+#import lensrunner::sky::table::{camera_doppler, PI, sky_ratio, sky_seen}
+
 @group(1) @binding(0) var<storage, read> stars: array<Star>;
 @group(1) @binding(1) var<storage, read_write> seen_stars: array<SeenStar>;
 @group(1) @binding(2) var<storage, read_write> star_draw: StarDraw;

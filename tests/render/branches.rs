@@ -6,7 +6,8 @@
 
 use std::collections::{HashMap, HashSet};
 
-use lensrunner::render::gpu::shaders::{Pass, Worldlines};
+use lensrunner::render::gpu::library::Worldlines;
+use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::method::Method;
 use naga::{AddressSpace, Arena, Block, Expression, Function, Handle, LocalVariable, Module, Statement};
 
@@ -171,12 +172,11 @@ fn walk(module: &Module, known: &mut Known, function: &Function, arguments: Vec<
     (returned, walk.found)
 }
 
-fn branches_on_uniforms(source: &str) -> Vec<String> {
-    let module = naga::front::wgsl::parse_str(source).unwrap_or_else(|wrong| panic!("{}", wrong.emit_to_string(source)));
+fn branches_on_uniforms(module: &Module) -> Vec<String> {
     let mut found = Vec::new();
     for entry in module.entry_points.iter().filter(|entry| entry.stage == naga::ShaderStage::Compute) {
         let given = vec![Source::Varying; entry.function.arguments.len()];
-        found.extend(walk(&module, &mut Known::new(), &entry.function, given).1.into_iter().map(|what| format!("{}: {what}", entry.name)));
+        found.extend(walk(module, &mut Known::new(), &entry.function, given).1.into_iter().map(|what| format!("{}: {what}", entry.name)));
     }
     found
 }
@@ -186,8 +186,8 @@ fn no_compute_pass_branches_on_uniforms_alone() {
     let mut found = Vec::new();
     for pass in Pass::ALL {
         for (worldlines, inside) in [(Worldlines::Bodies, false), (Worldlines::Bodies, true), (Worldlines::Rings, false)] {
-            let source = pass.source_along(worldlines, Method::default(), inside);
-            found.extend(branches_on_uniforms(&source).into_iter().map(|what| format!("{pass:?}, {worldlines:?}, {what}")));
+            let module = pass.module_along(worldlines, Method::default(), inside);
+            found.extend(branches_on_uniforms(&module).into_iter().map(|what| format!("{pass:?}, {worldlines:?}, {what}")));
         }
     }
     assert!(found.is_empty(), "{found:#?}");
@@ -197,13 +197,14 @@ fn no_compute_pass_branches_on_uniforms_alone() {
 #[test]
 fn branches_on_uniforms_are_found() {
     let pass = |body: &str| {
-        format!(
+        let source = format!(
             "struct Frame {{ flag: u32, count: u32 }}
              @group(0) @binding(0) var<uniform> frame: Frame;
              @group(0) @binding(1) var<storage, read_write> data: array<u32>;
              fn called(on: bool, x: u32) -> u32 {{ if on {{ return x * 2u; }} return x; }}
              @compute @workgroup_size(64) fn main(@builtin(global_invocation_id) id: vec3<u32>) {{ {body} }}"
-        )
+        );
+        naga::front::wgsl::parse_str(&source).unwrap_or_else(|wrong| panic!("{}", wrong.emit_to_string(&source)))
     };
     for bad in [
         "if (frame.flag & 1u) != 0u { data[0] = 1u; }",

@@ -75,8 +75,7 @@ impl Counter<'_> {
 /// From far and in thin images a pixel has no loop; from near there are two, of up to sixteen and of up to four places.
 #[test]
 fn pixels_of_the_disk_ask_for_little_arithmetic() {
-    let source = Pass::DiskDraw.source();
-    let module = naga::front::wgsl::parse_str(&source).unwrap();
+    let module = Pass::DiskDraw.module();
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).unwrap();
     let counter = Counter { module: &module, info: &info };
     let work = |name: &str| {

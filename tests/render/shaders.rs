@@ -2,6 +2,7 @@
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
+use lensrunner::render::gpu::layout::module_of;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::method::Method;
 use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
@@ -26,8 +27,7 @@ fn every_pass_compiles_by_every_method() {
     for method in Method::all() {
         for pass in Pass::ALL {
             let scope = GPU.device.push_error_scope(wgpu::ErrorFilter::Validation);
-            let source = wgpu::ShaderSource::Wgsl(pass.source_by(method, true).into());
-            let _ = GPU.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+            let _ = module_of(&GPU.device, "pass", pass.module_by(method, true));
             let error = lensrunner::render::gpu::device::wait(scope.pop());
             assert!(error.is_none(), "{method:?} {pass:?}: {}", error.unwrap());
         }
@@ -37,7 +37,8 @@ fn every_pass_compiles_by_every_method() {
 /// The shaders' own sine, cosine and angle are the library's but for their roundings, whatever the driver's are.
 #[test]
 fn sine_cosine_and_angle_are_the_librarys() {
-    let body = "let both = sine_cosine(row.x);
+    let body = "#import lensrunner::lensing::closed_form::{angle, sine_cosine}
+    let both = sine_cosine(row.x);
     twin_out[id.x] = vec4<f32>(both, angle(abs(both.x), both.y, 1.0), 0.0);";
     let rows: Vec<[f32; 4]> = (0..=8000).map(|i| [(f64::from(i) * 0.001 - 4.0) as f32, 0.0, 0.0, 0.0]).collect();
     for (row, got) in rows.iter().zip(run(Pass::DiskVertices, body, [&[], &[]], &rows, 1)) {
@@ -52,7 +53,8 @@ fn sine_cosine_and_angle_are_the_librarys() {
 
 #[test]
 fn the_lookup_is_the_same_in_both_languages() {
-    let body = "
+    let body = "#import lensrunner::lensing::lookup::lens_lookup_aged
+#import lensrunner::lensing::slice::lens_texel
     let ray = lens_lookup_aged(row.x, row.y, lens_texel(0u).x + row.x, u32(row.z), row.w);
     twin_out[2u * id.x] = vec4<f32>(ray.cos_psi, ray.sin_psi, ray.delay, ray.frequency);
     twin_out[2u * id.x + 1u] = vec4<f32>(ray.emission_radial, ray.emission_tangential, ray.emission_frequency, f32(ray.valid));";
@@ -98,7 +100,7 @@ fn the_lookup_is_the_same_in_both_languages() {
 
 #[test]
 fn the_sky_is_the_same_in_both_languages() {
-    let body = "
+    let body = "#import lensrunner::sky::table::{sky_seen, sky_swept}
     twin_out[id.x] = vec4<f32>(sky_swept(row.x), sky_seen(row.y));";
     for l in [0.5, 1.1, 8.0] {
         let table = sky_table(l);
@@ -115,7 +117,7 @@ fn the_sky_is_the_same_in_both_languages() {
 
 #[test]
 fn the_milky_way_has_its_colours_in_both_languages() {
-    let body = "
+    let body = "#import lensrunner::gpu::bindings::sky_slice
     twin_out[id.x] = vec4<f32>(panorama_light(row.x, PANORAMA_FAINT, PANORAMA_BRIGHT), textureLoad(sky_slice, vec2<u32>(0u), 0).x);";
     let tints = milky_way::tints();
     let rows: Vec<[f32; 4]> = (0..=50).map(|k| [k as f32 / 50.0, 0.0, 0.0, 0.0]).collect();
@@ -130,7 +132,8 @@ fn the_milky_way_has_its_colours_in_both_languages() {
 /// The Milky Way lies among the stars as its file says: neither mirrored nor turned.
 #[test]
 fn the_panorama_is_the_same_in_both_languages() {
-    let body = "
+    let body = "#import lensrunner::gpu::bindings::sky_slice
+#import lensrunner::sky::direction::panorama_place
     twin_out[id.x] = vec4<f32>(panorama_place(row.xyz), 0.0 * textureLoad(sky_slice, vec2<u32>(0u), 0).xy);";
     let mut random = StdRng::seed_from_u64(5);
     let directions: Vec<glam::Vec3> =
@@ -147,7 +150,7 @@ fn the_panorama_is_the_same_in_both_languages() {
 #[test]
 fn coverage_is_the_same_in_both_languages_and_right_on_average() {
     use lensrunner::render::post_process::coverage::{before_later, covered};
-    let body = "
+    let body = "#import lensrunner::post_process::coverage::coverage_sign
     twin_out[id.x] = vec4<f32>(covered(row.x, row.y), coverage_sign(id.x), before_later(row.x / 3.0, row.y), 0.0);";
     let mut random = StdRng::seed_from_u64(9);
     let rows: Vec<[f32; 4]> = (0..4000u32)
@@ -191,7 +194,7 @@ fn coverage_is_the_same_in_both_languages_and_right_on_average() {
 fn hidden_parts_count_the_same_in_both_languages() {
     use glam::Vec3;
     use lensrunner::render::models::hiding::{direction_of, seen_part};
-    let body = "
+    let body = "#import lensrunner::models::hiding::{direction_of, seen_part}
     let outward = select(vec3<f32>(0.0), direction_of(u32(row.w)), row.w >= 0.0);
     twin_out[id.x] = vec4<f32>(direction_of(id.x % 32u), seen_part(id.x * 2654435761u, outward, row.xyz));";
     let mut random = StdRng::seed_from_u64(12);

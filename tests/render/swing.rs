@@ -144,7 +144,8 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
 
 #[test]
 fn the_swing_is_the_same_in_both_languages() {
-    let body = "
+    let body = "#import lensrunner::chosen::worldlines::swing_at
+#import lensrunner::gpu::types::Instance
     if id.x % 26u != 0u { return; }
     let p = Instance(twin_rows[id.x], twin_rows[id.x + 1u], twin_rows[id.x + 2u], twin_rows[id.x + 3u], twin_rows[id.x + 4u],
         twin_rows[id.x + 5u], twin_rows[id.x + 6u], twin_rows[id.x + 7u], twin_rows[id.x + 8u], twin_rows[id.x + 9u], twin_rows[id.x + 10u],

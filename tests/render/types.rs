@@ -1,6 +1,7 @@
 //! What crosses from Rust to the shaders has one layout in both languages: each struct and constant, as the shipped WGSL has it.
 
 use std::mem::{offset_of, size_of};
+use std::sync::{LazyLock, Mutex, PoisonError};
 
 use lensrunner::render::aurora::ground::GroundLight;
 use lensrunner::render::aurora::rooms::CORNERS;
@@ -10,21 +11,40 @@ use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFr
 use lensrunner::render::disk::view::THIN_SAMPLES;
 use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
+use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::gpu::types::{
     self, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
 use lensrunner::render::gpu::types::{flags, placed};
+use lensrunner::render::method::Method;
 use lensrunner::render::models::ALONE;
 use lensrunner::render::models::outside;
 use naga::{ArraySize, Literal, Module, Scalar, ScalarKind, StructMember, TypeInner};
 
-fn module(pass: Pass) -> Module {
-    parsed(&pass.source())
+static LIBRARY: LazyLock<Mutex<Library>> =
+    LazyLock::new(|| Mutex::new(Library::new(Worldlines::Bodies, Method::Table, &[]).unwrap_or_else(|error| panic!("{error}"))));
+
+fn composed(text: &str) -> Module {
+    let values = Values { inside: true, data_group: 1 };
+    let module = LIBRARY.lock().unwrap_or_else(PoisonError::into_inner).compose("types", text, values);
+    module.unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn parsed(source: &str) -> Module {
-    naga::front::wgsl::parse_str(source).unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)))
+/// A shader with the struct at a path. In the memory of a workgroup, where atomics may be.
+fn with_struct(path: &str) -> Module {
+    match path {
+        "sky::cells::CellDraws" => Pass::SkyCells.module(),
+        "geometry::arguments::Arguments" => Pass::Arguments.module(),
+        "disk::arcs::arguments::DiskArguments" => Pass::DiskArguments.module(),
+        _ => composed(&format!("var<workgroup> variable: lensrunner::{path};")),
+    }
+}
+
+/// The name at the end of a path; of a composed name, that without the mark of its module.
+fn plain(name: &str) -> &str {
+    let name = name.rsplit("::").next().unwrap_or(name);
+    name.split("X_naga_oil_mod_X").next().unwrap_or(name)
 }
 
 /// A field as both languages can tell it: name, offset and size in bytes, whether it holds floats (of 4 bytes, as all that crosses).
@@ -32,7 +52,7 @@ type Field = (String, u32, u32, bool);
 
 /// The members of a struct of the shader, and its size in bytes.
 fn struct_of<'a>(module: &'a Module, name: &str) -> (&'a [StructMember], u32) {
-    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref().map(plain) == Some(plain(name)));
     match found.map(|(_, ty)| &ty.inner) {
         Some(TypeInner::Struct { members, span }) => (members, *span),
         other => panic!("{name} is {other:?}"),
@@ -99,125 +119,107 @@ macro_rules! fields {
 
 #[test]
 fn structs_have_one_layout_in_both_languages() {
-    let [mesh, draw, stars, cells, arcs, streaks, resolve, triangles] = [
-        Pass::Mesh,
-        Pass::Draw,
-        Pass::StarsProject,
-        Pass::SkyCells,
-        Pass::DiskVertices,
-        Pass::AuroraWalk,
-        Pass::AuroraResolve,
-        Pass::Triangles,
-    ]
-    .map(module);
     let cases = [
         (
-            &mesh,
-            "Frame",
+            "gpu::types::Frame",
             fields!(Frame: camera_from_rain, rain_from_camera, radial, side_a, side_b, projection, size, light, exposure, switches,
             sky_x, sky_y, sky_z, capacity, fill, unmetered, disk),
         ),
         (
-            &mesh,
-            "Instance",
+            "gpu::types::Instance",
             fields!(Instance: offset, axis, position, velocity, momentum, shape ["shape_x", "shape_y", "shape_z"], spin, spin_rate,
             jolt, force, turn ["turn_x", "turn_y", "turn_z"], snap, light ["light_red", "light_green", "light_blue"],
             bounds ["bound_high", "bound_low", "bound_look"], ids, vertices, triangles),
         ),
-        (&mesh, "ModelVertex", fields!(ModelVertex: position, normal, info)),
-        (&mesh, "ModelTriangle", fields!(ModelTriangle: vertices, edges)),
-        (&mesh, "Chunk", fields!(Chunk: instance, first)),
-        (&mesh, "SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
+        ("gpu::types::ModelVertex", fields!(ModelVertex: position, normal, info)),
+        ("gpu::types::ModelTriangle", fields!(ModelTriangle: vertices, edges)),
+        ("gpu::types::Chunk", fields!(Chunk: instance, first)),
+        ("gpu::types::SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
         (
-            &triangles,
-            "Counters",
+            "geometry::bindings::Counters",
             fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside),
         ),
-        (&draw, "Material", fields!(Material: base, emissive, surface)),
-        (&draw, "GroundLight", fields!(GroundLight: dipole ["dipole_x", "dipole_y", "dipole_z"], colour, map, planet)),
-        (&stars, "Star", fields!(Star: direction, colour)),
+        ("gpu::types::Material", fields!(Material: base, emissive, surface)),
+        ("shading::aurora_light::GroundLight", fields!(GroundLight: dipole ["dipole_x", "dipole_y", "dipole_z"], colour, map, planet)),
+        ("gpu::types::Star", fields!(Star: direction, colour)),
         (
-            &cells,
-            "CellDraws",
+            "sky::cells::CellDraws",
             fields!(CellDraws: smooth ["smooth_indices", "smooth_instances", "smooth_first", "smooth_base", "smooth_instance"], exact ["exact_indices", "exact_instances", "exact_first", "exact_base", "exact_instance"], columns, rows, side, unused),
         ),
-        (&arcs, "DiskFrame", fields!(DiskFrame: towards, sideways, upwards, renewal, gas, sizes, regions, room, light, offset)),
-        (&arcs, "Circle", fields!(Circle: gas, motion, place, rows)),
-        (&arcs, "DiskVertex", fields!(DiskVertex: apparent, gas, more, bend)),
-        (&arcs, "Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
-        (&streaks, "AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
-        (&streaks, "Segment", fields!(Segment: range, light)),
-        (&resolve, "Lines", fields!(Colours: lines ["colours"], steps, tile)),
+        ("disk::types::DiskFrame", fields!(DiskFrame: towards, sideways, upwards, renewal, gas, sizes, regions, room, light, offset)),
+        ("disk::types::Circle", fields!(Circle: gas, motion, place, rows)),
+        ("disk::types::DiskVertex", fields!(DiskVertex: apparent, gas, more, bend)),
+        ("disk::types::Counters", fields!(DiskCounters: vertices, indices, arcs, coarse, caught, stage)),
+        ("aurora::streaks::AuroraSettings", fields!(AuroraSettings: counts, history, clock, strokes, heights)),
+        ("aurora::streaks::Segment", fields!(Segment: range, light)),
+        ("aurora::levels::lit_corners::Lines", fields!(Colours: lines ["colours"], steps, tile)),
     ];
-    for (module, name, rust) in cases {
-        assert_eq!(fields_of(module, name), rust, "{name}");
+    for (path, rust) in cases {
+        assert_eq!(fields_of(&with_struct(path), path), rust, "{path}");
     }
 }
 
 #[test]
 fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
-    let [mesh, arguments, cells, disk_arguments, sprites] =
-        [Pass::Mesh, Pass::Arguments, Pass::SkyCells, Pass::DiskArguments, Pass::DiskSprites].map(module);
     let cases = [
-        (&mesh, "Piece", types::PIECE_BYTES),
-        (&mesh, "WorkItem", types::WORK_BYTES),
-        (&mesh, "ThinVertex", types::THIN_BYTES),
-        (&arguments, "Arguments", types::ARGUMENTS_BYTES),
-        (&cells, "SkyCorner", types::SKY_CORNER_BYTES),
-        (&disk_arguments, "DiskArguments", disk::ARGUMENTS_BYTES),
-        (&sprites, "SeenSprite", disk::SEEN_SPRITE_BYTES),
+        ("gpu::types::Piece", types::PIECE_BYTES),
+        ("gpu::types::WorkItem", types::WORK_BYTES),
+        ("geometry::bindings::ThinVertex", types::THIN_BYTES),
+        ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
+        ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
+        ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
+        ("disk::sprites_types::SeenSprite", disk::SEEN_SPRITE_BYTES),
     ];
-    for (module, name, bytes) in cases {
-        assert_eq!(u64::from(struct_of(module, name).1), bytes, "{name}");
+    for (path, bytes) in cases {
+        assert_eq!(u64::from(struct_of(&with_struct(path), path).1), bytes, "{path}");
     }
 }
 
 /// The value of a constant of the shader, as f64.
-fn constant(module: &Module, name: &str) -> f64 {
-    let found = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name));
-    let (_, constant) = found.unwrap_or_else(|| panic!("no constant {name}"));
+fn constant(path: &str) -> f64 {
+    let module = composed(&format!("const VALUE = lensrunner::{path};"));
+    let found = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some("VALUE"));
+    let (_, constant) = found.unwrap_or_else(|| panic!("no constant {path}"));
     match module.global_expressions[constant.init] {
         naga::Expression::Literal(Literal::U32(value)) => f64::from(value),
         naga::Expression::Literal(Literal::I32(value)) => f64::from(value),
         naga::Expression::Literal(Literal::F32(value)) => f64::from(value),
-        ref other => panic!("{name} is {other:?}"),
+        ref other => panic!("{path} is {other:?}"),
     }
 }
 
 #[test]
 fn constants_have_one_value_in_both_languages() {
-    let [triangles, draw, arcs, streaks, resolve, stroke] =
-        [Pass::Triangles, Pass::Draw, Pass::DiskVertices, Pass::AuroraWalk, Pass::AuroraResolve, Pass::AuroraDraw].map(module);
     let whole = |value: u32| f64::from(value);
     let cases = [
-        (&draw, "FLAG_DOPPLER", whole(flags::DOPPLER)),
-        (&draw, "FLAG_BEAMING", whole(flags::BEAMING)),
-        (&draw, "FLAG_INSIDE", whole(flags::INSIDE)),
-        (&draw, "FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
-        (&triangles, "INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
-        (&triangles, "INSTANCE_HELD", whole(placed::HELD)),
-        (&triangles, "INSTANCE_THIN", whole(placed::THIN)),
-        (&triangles, "INSTANCE_MINUS", whole(placed::MINUS)),
-        (&triangles, "INSTANCE_NARROW", whole(placed::NARROW)),
-        (&triangles, "INSTANCE_OWN", whole(placed::OWN)),
-        (&triangles, "INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
-        (&triangles, "TABLE_ROW", TABLE_ROW as f64),
-        (&triangles, "SIDE_OPEN", whole(outside::OPEN)),
-        (&triangles, "SIDE_ALONG", whole(outside::ALONG)),
-        (&triangles, "SIDE_AGAINST", whole(outside::AGAINST)),
-        (&triangles, "SIDE_LONE", whole(outside::LONE)),
-        (&triangles, "ALONE", whole(ALONE)),
-        (&draw, "BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
-        (&draw, "BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),
-        (&arcs, "THIN_SAMPLES", THIN_SAMPLES as f64),
-        (&arcs, "THIN_AZIMUTHS", AZIMUTHS as f64),
-        (&streaks, "AURORA_LINEAR", whole(LINEAR)),
-        (&streaks, "AURORA_BOTH_POLES", whole(BOTH_POLES)),
-        (&streaks, "PYRAMID", whole(PYRAMID)),
-        (&stroke, "CORNERS", whole(CORNERS)),
-        (&resolve, "SHIFTS", SHIFTS as f64),
+        ("gpu::types::FLAG_DOPPLER", whole(flags::DOPPLER)),
+        ("gpu::types::FLAG_BEAMING", whole(flags::BEAMING)),
+        ("gpu::types::FLAG_INSIDE", whole(flags::INSIDE)),
+        ("gpu::types::FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
+        ("gpu::types::INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
+        ("gpu::types::INSTANCE_HELD", whole(placed::HELD)),
+        ("gpu::types::INSTANCE_THIN", whole(placed::THIN)),
+        ("gpu::types::INSTANCE_MINUS", whole(placed::MINUS)),
+        ("gpu::types::INSTANCE_NARROW", whole(placed::NARROW)),
+        ("gpu::types::INSTANCE_OWN", whole(placed::OWN)),
+        ("instances::instance::INSTANCE_TEXELS", size_of::<Instance>() as f64 / 16.0),
+        ("gpu::bindings::TABLE_ROW", TABLE_ROW as f64),
+        ("gpu::types::SIDE_OPEN", whole(outside::OPEN)),
+        ("gpu::types::SIDE_ALONG", whole(outside::ALONG)),
+        ("gpu::types::SIDE_AGAINST", whole(outside::AGAINST)),
+        ("gpu::types::SIDE_LONE", whole(outside::LONE)),
+        ("geometry::bindings::ALONE", whole(ALONE)),
+        ("gpu::colour::BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
+        ("gpu::colour::BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),
+        ("disk::arcs::place::THIN_SAMPLES", THIN_SAMPLES as f64),
+        ("disk::arcs::place::THIN_AZIMUTHS", AZIMUTHS as f64),
+        ("aurora::streaks::AURORA_LINEAR", whole(LINEAR)),
+        ("aurora::streaks::AURORA_BOTH_POLES", whole(BOTH_POLES)),
+        ("aurora::levels::lit_tiles::PYRAMID", whole(PYRAMID)),
+        ("aurora::stroke::CORNERS", whole(CORNERS)),
+        ("aurora::levels::lit_corners::SHIFTS", SHIFTS as f64),
     ];
-    for (module, name, value) in cases {
-        assert_eq!(constant(module, name), value, "{name}");
+    for (path, value) in cases {
+        assert_eq!(constant(path), value, "{path}");
     }
 }

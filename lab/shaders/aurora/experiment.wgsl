@@ -1,3 +1,5 @@
+#define_import_path lensrunner_lab::aurora::experiment
+
 // What the walks and the splats of the aurora's experiment share (lab/src/aurora): lengths in km in the axes of the patch, x east, y north,
 // z up, or in r_s where light is bent. Filled by lab/src/aurora/race.rs.
 
@@ -31,6 +33,5 @@ struct Electron {
     numbers: vec4<u32>,
 };
 
-const TABLE_ROW: u32 = 1024u;
 const LEVELS: u32 = 160u;
 const TOP: f32 = 420.0;

@@ -1,4 +1,9 @@
+#define_import_path lensrunner_lab::aurora::eye
+
 // The camera of the aurora's experiment near a hole: each point goes through the lensing table.
+
+#import lensrunner::gpu::bindings::frame
+#import lensrunner::lensing::lookup::lens_lookup
 
 /// The apparent place of a point, camera axes (right, up, back): direction times light path. Far behind the camera where there is no ray.
 fn apparent(point: vec3<f32>) -> vec3<f32> {

@@ -1,4 +1,8 @@
+#define_import_path lensrunner_lab::aurora::eye
+
 // The camera of the aurora's experiment in flat space.
+
+#import lensrunner::gpu::bindings::frame
 
 /// The apparent place of a point, camera axes (right, up, back).
 fn apparent(point: vec3<f32>) -> vec3<f32> {

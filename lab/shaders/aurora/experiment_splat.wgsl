@@ -1,5 +1,7 @@
 // The splats of the aurora's experiment: points added up as Gaussians, photons of each of the four lines. Both walks go through it.
 
+#import lensrunner_lab::aurora::experiment::{Experiment, LEVELS}
+
 @group(0) @binding(0) var<uniform> frame: Experiment;
 @group(0) @binding(1) var<storage, read> points: array<vec4<u32>>;
 /// Photons per collision by line at each level.

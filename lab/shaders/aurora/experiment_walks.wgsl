@@ -1,8 +1,11 @@
 // The walks of the aurora's experiment, one thread per electron: the particle method in space, and the exact walk on the screen. What is
 // dealt out and drawn at random is that of lab/src/aurora/walk.rs.
 
-@group(0) @binding(0) var<uniform> frame: Experiment;
-@group(0) @binding(1) var lens_slice: texture_2d<f32>;
+#import lensrunner::gpu::bindings::{frame, TABLE_ROW}
+#import lensrunner::gpu::random::{hash, unit}
+#import lensrunner_lab::aurora::experiment::{Electron, LEVELS, TOP}
+#import lensrunner_lab::aurora::eye::apparent
+
 @group(0) @binding(2) var<storage, read> electrons: array<Electron>;
 /// x, y: height of each level and way astray there, km, z: air overhead, g cm⁻², w: the chord that the level lies in.
 @group(0) @binding(3) var<uniform> air: array<vec4<f32>, LEVELS>;

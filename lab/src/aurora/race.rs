@@ -7,20 +7,20 @@ use bytemuck::{Pod, Zeroable};
 use wgpu::{BufferUsages, ShaderStages};
 
 use lensrunner::render::Gpu;
-use lensrunner::render::gpu::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, raster, storage};
+use lensrunner::render::gpu::layout::{Raster, Slot, TableTexture, bind, buffer, compute_of, layout, module_of, raster, storage};
+use lensrunner::render::gpu::library::{File, Library, Values, Worldlines};
 use lensrunner::render::gpu::readback::{self, PictureError};
-use lensrunner::render::gpu::shaders::lookup;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::method::Method;
 
 use crate::stopwatch::Stopwatch;
 
-const EXPERIMENT: &str = include_str!("../../shaders/aurora/experiment.wgsl");
-const FLAT: &str = include_str!("../../shaders/aurora/experiment_flat.wgsl");
-const BENT: &str = include_str!("../../shaders/aurora/experiment_bent.wgsl");
-const WALKS: &str = include_str!("../../shaders/aurora/experiment_walks.wgsl");
-const SPLAT: &str = include_str!("../../shaders/aurora/experiment_splat.wgsl");
-const RANDOM: &str = include_str!("../../../shaders/functions/random.wgsl");
+const EXPERIMENT: File = ("lab/shaders/aurora/experiment.wgsl", include_str!("../../shaders/aurora/experiment.wgsl"));
+const FLAT: File = ("lab/shaders/aurora/experiment_flat.wgsl", include_str!("../../shaders/aurora/experiment_flat.wgsl"));
+const BENT: File = ("lab/shaders/aurora/experiment_bent.wgsl", include_str!("../../shaders/aurora/experiment_bent.wgsl"));
+const WALKS: File = ("lab/shaders/aurora/experiment_walks.wgsl", include_str!("../../shaders/aurora/experiment_walks.wgsl"));
+const SPLAT: File = ("lab/shaders/aurora/experiment_splat.wgsl", include_str!("../../shaders/aurora/experiment_splat.wgsl"));
+const BINDINGS: File = ("lab/shaders/aurora/experiment_bindings.wgsl", include_str!("../../shaders/aurora/experiment_bindings.wgsl"));
 
 /// `Experiment` in WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
@@ -95,6 +95,13 @@ const POINTS: u64 = 160;
 /// The picture is added up in full floats: halves would lose the faint edges of splats where much has been added already.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
+/// A shader of the experiment with the modules that it imports.
+fn shader((path, source): File, others: &[File]) -> wgpu::naga::Module {
+    let library = Library::new(Worldlines::Bodies, Method::Table, others);
+    let shader = library.and_then(|mut library| library.compose(path, source, Values { inside: false, data_group: 1 }));
+    shader.unwrap_or_else(|error| panic!("{error}"))
+}
+
 /// Pipelines of the experiment.
 #[derive(Debug)]
 pub struct Race {
@@ -123,15 +130,10 @@ impl Race {
         let slots = [Slot::Uniform, Slot::Read, Slot::Uniform];
         let splat_layout = layout(device, "aurora race splat", ShaderStages::VERTEX_FRAGMENT, &slots);
         let walks = [false, true].map(|bent| {
-            let lookup = if bent { lookup(Method::Table, false) } else { String::new() };
-            let source = [EXPERIMENT, RANDOM, &lookup, if bent { BENT } else { FLAT }, WALKS].join("\n");
-            ["particles", "exact"].map(|entry| compute_of(device, entry, &source, entry, &[Some(&walk_layout)]))
+            let shader = shader(WALKS, &[EXPERIMENT, BINDINGS, if bent { BENT } else { FLAT }]);
+            ["particles", "exact"].map(|entry| compute_of(device, entry, shader.clone(), entry, &[Some(&walk_layout)]))
         });
-        let source = [EXPERIMENT, SPLAT].join("\n");
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("aurora race splat"),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
+        let module = module_of(device, "aurora race splat", shader(SPLAT, &[EXPERIMENT]));
         let one = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
             dst_factor: wgpu::BlendFactor::One,

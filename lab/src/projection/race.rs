@@ -10,15 +10,17 @@ use wgpu::{BufferUsages, ShaderStages};
 use lensrunner::lensing::{self, Slice, Table};
 use lensrunner::render::Gpu;
 use lensrunner::render::gpu::layout::{Slot, TableTexture, bind, buffer, compute_of, layout, storage};
+use lensrunner::render::gpu::library::{File, Library, ShaderError, Values, Worldlines};
 use lensrunner::render::gpu::readback::{self, PictureError};
-use lensrunner::render::gpu::shaders::lookup;
 use lensrunner::render::method::Method;
 use lensrunner::render::method::tables::Tables;
 
 use crate::stopwatch::Stopwatch;
 
 /// What calls the lookup.
-const SHADER: &str = include_str!("../../shaders/race.wgsl");
+const SHADER: File = ("lab/shaders/race.wgsl", include_str!("../../shaders/race.wgsl"));
+/// What the lookup reads.
+const BINDINGS: File = ("lab/shaders/race_bindings.wgsl", include_str!("../../shaders/race_bindings.wgsl"));
 
 /// Threads of a workgroup.
 const GROUP: usize = 64;
@@ -98,10 +100,10 @@ impl Race {
         let texels = self.texels(method, l);
         let Race { gpu, layout, pipelines, .. } = self;
         let device = &gpu.device;
-        let source = || [SHADER, &lookup(method, true)].join("\n");
-        let pipeline = &pipelines
-            .entry(method)
-            .or_insert_with(|| ["race", "idle"].map(|entry| compute_of(device, method.name(), &source(), entry, &[Some(layout)])))[which];
+        let pipeline = &pipelines.entry(method).or_insert_with(|| {
+            let shader = shader(method).unwrap_or_else(|error| panic!("{error}"));
+            ["race", "idle"].map(|entry| compute_of(device, method.name(), shader.clone(), entry, &[Some(layout)]))
+        })[which];
         // Whole workgroups: the last row is looked up again.
         let mut padded = rows.to_vec();
         padded.resize(rows.len().next_multiple_of(GROUP).max(GROUP), rows.last().copied().unwrap_or([0.0; 4]));
@@ -134,6 +136,11 @@ impl Race {
         let waited = start.elapsed().as_secs_f64();
         Ok((out, watch.map_or(Ok(waited), |watch| watch.seconds(gpu, waited))?))
     }
+}
+
+fn shader(method: Method) -> Result<wgpu::naga::Module, ShaderError> {
+    let values = Values { inside: true, data_group: 1 };
+    Library::new(Worldlines::Bodies, method, &[BINDINGS])?.compose(SHADER.0, SHADER.1, values)
 }
 
 fn wait(gpu: &Gpu) -> Result<(), PictureError> {

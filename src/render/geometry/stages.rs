@@ -6,7 +6,8 @@ use std::sync::Arc;
 use std::thread::JoinHandle;
 
 use crate::render::gpu::layout::compute_of;
-use crate::render::gpu::shaders::{Pass, Worldlines};
+use crate::render::gpu::library::Worldlines;
+use crate::render::gpu::shaders::Pass;
 use crate::render::method::Method;
 
 /// A method of projection, and whether the camera is inside the horizon.
@@ -41,10 +42,10 @@ impl Makings {
     fn stages(&self, (method, inside): Side) -> Stages {
         let device = &self.device;
         let groups = [Some(&self.frame), Some(&self.geometry)];
-        let source = |pass: Pass| pass.source_along(self.worldlines, method, inside);
-        let stage = |label, pass, entry| compute_of(device, label, &source(pass), entry, &groups);
+        let module = |pass: Pass| pass.module_along(self.worldlines, method, inside);
+        let stage = |label, pass, entry| compute_of(device, label, module(pass), entry, &groups);
         let with_arguments = [Some(&self.frame), Some(&self.geometry), Some(&self.arguments)];
-        let argument = |entry| compute_of(device, entry, &source(Pass::Arguments), entry, &with_arguments);
+        let argument = |entry| compute_of(device, entry, module(Pass::Arguments), entry, &with_arguments);
         Stages {
             vertices: stage("vertices", Pass::Vertices, "main"),
             edges: stage("edges", Pass::Edges, "main"),

@@ -1,5 +1,7 @@
 //! Short forms for bind groups and pipelines: what each pass would otherwise repeat.
 
+use std::borrow::Cow;
+
 use wgpu::{
     BindGroupLayoutEntry, BindingResource, BindingType, Buffer, BufferBindingType, BufferUsages, SamplerBindingType, ShaderStages,
     TextureSampleType, TextureViewDimension,
@@ -232,19 +234,18 @@ pub fn compute(
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
-    compute_of(device, label, &pass.source(), entry, layouts)
+    compute_of(device, label, pass.module(), entry, layouts)
 }
 
-/// A compute pipeline of one entry point of the shader `source`.
+/// A compute pipeline of one entry point of `shader`.
 pub fn compute_of(
     device: &wgpu::Device,
     label: &str,
-    source: &str,
+    shader: wgpu::naga::Module,
     entry: &str,
     layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> wgpu::ComputePipeline {
-    let module =
-        device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(source.into()) });
+    let module = module_of(device, label, shader);
     let layout = pipeline_layout(device, label, layouts);
     device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
         label: Some(label),
@@ -258,7 +259,12 @@ pub fn compute_of(
 
 /// The shader module of a pass.
 pub fn module(device: &wgpu::Device, label: &str, pass: crate::render::gpu::shaders::Pass) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Wgsl(pass.source().into()) })
+    module_of(device, label, pass.module())
+}
+
+/// The shader module of a composed shader.
+pub fn module_of(device: &wgpu::Device, label: &str, shader: wgpu::naga::Module) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor { label: Some(label), source: wgpu::ShaderSource::Naga(Cow::Owned(shader)) })
 }
 
 /// A pipeline layout of these groups.

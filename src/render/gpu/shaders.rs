@@ -1,59 +1,16 @@
-//! The WGSL of each pass, put together from the files of `shaders/`.
-//!
-//! A pass is its own file after the library files it needs; the order is the order of the floors. Nothing is generated, so a line of an
-//! error message can be found by counting through the list.
+//! The shader of each pass: its own file of `shaders/`, with the modules that it imports (`library.rs`).
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+use wgpu::naga::Module;
+
+use crate::render::gpu::library::{File, Library, Values, Worldlines, file};
 use crate::render::method::Method;
 
-const TYPES: &str = include_str!("../../../shaders/types.wgsl");
-const BINDINGS: &str = include_str!("../../../shaders/bindings.wgsl");
-const SEES_INSIDE: &str = include_str!("../../../shaders/functions/sees_inside.wgsl");
-const SEES_OUTSIDE: &str = include_str!("../../../shaders/functions/sees_outside.wgsl");
-const LENSING: &str = include_str!("../../../shaders/functions/lensing.wgsl");
-const RESIDUALS: &str = include_str!("../../../shaders/functions/residuals.wgsl");
-const LENSING_CAMERA: &str = include_str!("../../../shaders/functions/lensing_camera.wgsl");
-const SKY: &str = include_str!("../../../shaders/functions/sky.wgsl");
-const SKY_DIRECTION: &str = include_str!("../../../shaders/sky/direction.wgsl");
-const COLOUR: &str = include_str!("../../../shaders/functions/colour.wgsl");
-const COVERAGE: &str = include_str!("../../../shaders/functions/coverage.wgsl");
-const HIDING: &str = include_str!("../../../shaders/functions/hiding.wgsl");
-const GEOMETRY_BINDINGS: &str = include_str!("../../../shaders/geometry/bindings.wgsl");
-const INSTANCE: &str = include_str!("../../../shaders/geometry/instance.wgsl");
-const SWING: &str = include_str!("../../../shaders/geometry/swing.wgsl");
-const RING: &str = include_str!("../../../shaders/geometry/ring.wgsl");
-const PROJECT: &str = include_str!("../../../shaders/geometry/project.wgsl");
-const PATCH: &str = include_str!("../../../shaders/geometry/patch.wgsl");
-const BOUNDS: &str = include_str!("../../../shaders/geometry/bounds.wgsl");
-const EMIT: &str = include_str!("../../../shaders/geometry/emit.wgsl");
-const CLIP: &str = include_str!("../../../shaders/geometry/clip.wgsl");
-const RANDOM: &str = include_str!("../../../shaders/functions/random.wgsl");
-const ENLARGE: &str = include_str!("../../../shaders/aurora/enlarge.wgsl");
-const STROKE: &str = include_str!("../../../shaders/aurora/stroke.wgsl");
-const LIT_TILES: &str = include_str!("../../../shaders/aurora/lit_tiles.wgsl");
-const LIT_CORNERS: &str = include_str!("../../../shaders/aurora/lit_corners.wgsl");
-const ROOMS: &str = include_str!("../../../shaders/aurora/rooms.wgsl");
-const STREAKS: &str = include_str!("../../../shaders/aurora/streaks.wgsl");
-const DISK: &str = include_str!("../../../shaders/functions/disk.wgsl");
-const DISK_TYPES: &str = include_str!("../../../shaders/disk/types.wgsl");
-const DISK_BINDINGS: &str = include_str!("../../../shaders/disk/bindings.wgsl");
-const DISK_PLACE: &str = include_str!("../../../shaders/disk/place.wgsl");
-const DISK_SIGMA: &str = include_str!("../../../shaders/disk/sigma.wgsl");
-const DISK_RADIAL: &str = include_str!("../../../shaders/disk/radial.wgsl");
-const DISK_SPRITES_TYPES: &str = include_str!("../../../shaders/disk/sprites_types.wgsl");
-const DISK_LIGHT: &str = include_str!("../../../shaders/disk/light.wgsl");
-const DISK_GAS: &str = include_str!("../../../shaders/disk/gas.wgsl");
-const AURORA_LIGHT: &str = include_str!("../../../shaders/geometry/aurora_light.wgsl");
-const SHADE: &str = include_str!("../../../shaders/geometry/shade.wgsl");
-
-/// How the points of models go through spacetime.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Worldlines {
-    /// As those of bodies that fly and turn: `shaders/geometry/swing.wgsl`.
-    #[default]
-    Bodies,
-    /// As those of rings round the hole: `shaders/geometry/ring.wgsl`.
-    Rings,
-}
+/// The libraries that passes have been composed from. One for each choice, so that its modules are worked out once.
+static LIBRARIES: LazyLock<Mutex<HashMap<(Worldlines, Method), Library>>> = LazyLock::new(Default::default);
 
 /// The passes of a frame, by the file that holds their entry points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -161,93 +118,84 @@ impl Pass {
         Pass::DiskSpritesDraw,
     ];
 
-    /// The whole WGSL source of the pass.
-    pub fn source(self) -> String {
-        self.source_by(Method::default(), true)
+    /// The shader of the pass.
+    pub fn module(self) -> Module {
+        self.module_by(Method::default(), true)
     }
 
     /// The same with another method of projection, where the pass looks rays up.
     /// `inside` is whether the camera may be inside the horizon.
-    pub fn source_by(self, method: Method, inside: bool) -> String {
-        self.source_along(Worldlines::Bodies, method, inside)
+    pub fn module_by(self, method: Method, inside: bool) -> Module {
+        self.module_along(Worldlines::Bodies, method, inside)
     }
 
     /// The same where the points of models go along other worldlines.
-    pub fn source_along(self, worldlines: Worldlines, method: Method, inside: bool) -> String {
-        let side = if inside { SEES_INSIDE } else { SEES_OUTSIDE };
-        let method = method.source();
-        let swing = match worldlines {
-            Worldlines::Bodies => SWING,
-            Worldlines::Rings => RING,
-        };
-        let geometry = [TYPES, BINDINGS, side, LENSING, LENSING_CAMERA, &method, GEOMETRY_BINDINGS, INSTANCE, CLIP, swing, PROJECT, PATCH];
-        let disk = [TYPES, BINDINGS, SEES_OUTSIDE, LENSING, RESIDUALS, LENSING_CAMERA, CLIP, DISK, DISK_TYPES, DISK_SIGMA];
-        let own = match self {
-            Pass::Vertices => include_str!("../../../shaders/geometry/vertices.wgsl"),
-            Pass::Edges => include_str!("../../../shaders/geometry/edges.wgsl"),
-            Pass::Triangles => include_str!("../../../shaders/geometry/triangles.wgsl"),
-            Pass::Refine => include_str!("../../../shaders/geometry/refine.wgsl"),
-            Pass::Arguments => include_str!("../../../shaders/geometry/arguments.wgsl"),
-            Pass::Mesh => include_str!("../../../shaders/geometry/mesh.wgsl"),
-            Pass::Draw => include_str!("../../../shaders/geometry/draw.wgsl"),
-            Pass::SkyCells => include_str!("../../../shaders/sky/cells.wgsl"),
-            Pass::Background => include_str!("../../../shaders/sky/background.wgsl"),
-            Pass::StarsProject => include_str!("../../../shaders/sky/stars_project.wgsl"),
-            Pass::StarsDraw => include_str!("../../../shaders/sky/stars_draw.wgsl"),
-            Pass::AuroraProject => include_str!("../../../shaders/aurora/project.wgsl"),
-            Pass::AuroraEnds => include_str!("../../../shaders/aurora/ends.wgsl"),
-            Pass::AuroraRanges => include_str!("../../../shaders/aurora/ranges.wgsl"),
-            Pass::AuroraWalk => include_str!("../../../shaders/aurora/walk.wgsl"),
-            Pass::AuroraDraw => include_str!("../../../shaders/aurora/draw.wgsl"),
-            Pass::AuroraSpread => include_str!("../../../shaders/aurora/spread.wgsl"),
-            Pass::AuroraWipe => include_str!("../../../shaders/aurora/wipe.wgsl"),
-            Pass::AuroraResolve => include_str!("../../../shaders/aurora/resolve.wgsl"),
-            Pass::Compose => include_str!("../../../shaders/post_process/compose.wgsl"),
-            Pass::Bloom => include_str!("../../../shaders/post_process/bloom.wgsl"),
-            Pass::Exposure => include_str!("../../../shaders/post_process/exposure.wgsl"),
-            Pass::ToneMap => include_str!("../../../shaders/post_process/tone_map.wgsl"),
-            Pass::Smooth => include_str!("../../../shaders/post_process/smooth.wgsl"),
-            Pass::DiskVertices => include_str!("../../../shaders/disk/vertices.wgsl"),
-            Pass::DiskSegments => include_str!("../../../shaders/disk/segments.wgsl"),
-            Pass::DiskStrips => include_str!("../../../shaders/disk/strips.wgsl"),
-            Pass::DiskArguments => include_str!("../../../shaders/disk/arguments.wgsl"),
-            Pass::DiskDraw => include_str!("../../../shaders/disk/draw.wgsl"),
-            Pass::DiskPolygons => include_str!("../../../shaders/disk/polygons.wgsl"),
-            Pass::DiskSprites => include_str!("../../../shaders/disk/sprites.wgsl"),
-            Pass::DiskSpritesDraw => include_str!("../../../shaders/disk/sprites_draw.wgsl"),
-        };
-        let library: Vec<&str> = match self {
-            Pass::Vertices | Pass::Edges | Pass::Arguments => geometry.to_vec(),
-            Pass::Triangles | Pass::Refine | Pass::Mesh => geometry.iter().copied().chain([HIDING, BOUNDS, EMIT]).collect(),
-            Pass::Draw => vec![TYPES, BINDINGS, INSTANCE, CLIP, COLOUR, COVERAGE, AURORA_LIGHT, SHADE],
-            Pass::SkyCells | Pass::Background => vec![TYPES, BINDINGS, SKY, COLOUR, SKY_DIRECTION],
-            Pass::StarsProject => vec![TYPES, BINDINGS, SKY, COLOUR],
-            Pass::StarsDraw => vec![TYPES, BINDINGS],
-            Pass::AuroraDraw => vec![STROKE],
-            Pass::AuroraProject => {
-                vec![TYPES, BINDINGS, SEES_OUTSIDE, LENSING, LENSING_CAMERA, &method, CLIP, swing, PROJECT, RANDOM, STROKE, STREAKS]
-            }
-            Pass::AuroraEnds => vec![TYPES, BINDINGS, RANDOM, STROKE, STREAKS],
-            Pass::AuroraWalk => vec![TYPES, BINDINGS, CLIP, RANDOM, STROKE, STREAKS, LIT_TILES, ROOMS],
-            Pass::AuroraRanges => vec![],
-            Pass::AuroraSpread => vec![LIT_TILES, ENLARGE],
-            Pass::AuroraWipe => vec![LIT_TILES, LIT_CORNERS],
-            Pass::AuroraResolve => vec![LIT_TILES, LIT_CORNERS, ENLARGE],
-            Pass::Compose => vec![COVERAGE],
-            Pass::Bloom | Pass::Smooth => vec![],
-            Pass::Exposure | Pass::ToneMap => vec![TYPES, BINDINGS, COLOUR],
-            Pass::DiskVertices => disk.into_iter().chain([DISK_BINDINGS, DISK_PLACE]).collect(),
-            Pass::DiskSegments | Pass::DiskStrips | Pass::DiskArguments => vec![TYPES, BINDINGS, DISK_TYPES, DISK_BINDINGS],
-            Pass::DiskDraw => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT],
-            Pass::DiskPolygons => vec![TYPES, BINDINGS, CLIP, COLOUR, DISK, DISK_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL],
-            Pass::DiskSprites => disk.into_iter().chain([COLOUR, DISK_SPRITES_TYPES, DISK_GAS, DISK_LIGHT, DISK_RADIAL]).collect(),
-            Pass::DiskSpritesDraw => vec![TYPES, BINDINGS, DISK_SPRITES_TYPES],
-        };
-        library.into_iter().chain([own]).collect::<Vec<_>>().join("\n")
+    pub fn module_along(self, worldlines: Worldlines, method: Method, inside: bool) -> Module {
+        self.composed(worldlines, method, inside, "")
     }
-}
 
-/// The lookup of rays by `method` alone, to go behind a declaration of `frame` and `lens_slice`: for shaders outside of the game.
-pub fn lookup(method: Method, inside: bool) -> String {
-    [if inside { SEES_INSIDE } else { SEES_OUTSIDE }, LENSING, LENSING_CAMERA, &method.source()].join("\n")
+    /// The shader of the pass with `more` behind its own file: what a test runs of it.
+    pub fn module_with(self, more: &str) -> Module {
+        self.composed(Worldlines::Bodies, Method::default(), true, more)
+    }
+
+    fn composed(self, worldlines: Worldlines, method: Method, inside: bool, more: &str) -> Module {
+        let (path, source) = self.file();
+        let values = Values { inside: inside && self.may_be_inside(), data_group: if self.draws_data() { 2 } else { 1 } };
+        let mut libraries = LIBRARIES.lock().unwrap_or_else(PoisonError::into_inner);
+        let composed = match libraries.entry((worldlines, method)) {
+            Entry::Occupied(library) => library.into_mut().compose(path, &[source, more].concat(), values),
+            Entry::Vacant(place) => Library::new(worldlines, method, &[])
+                .and_then(|library| place.insert(library).compose(path, &[source, more].concat(), values)),
+        };
+        composed.unwrap_or_else(|error| panic!("{self:?}: {error}"))
+    }
+
+    /// Whether the pass is ever run for a camera inside the horizon that looks at what is inside.
+    fn may_be_inside(self) -> bool {
+        matches!(self, Pass::Vertices | Pass::Edges | Pass::Triangles | Pass::Refine | Pass::Arguments | Pass::Mesh)
+    }
+
+    /// Whether instances, or the numbers of the disk, are in the group of images.
+    fn draws_data(self) -> bool {
+        matches!(self, Pass::Draw | Pass::DiskDraw | Pass::DiskPolygons | Pass::DiskSprites)
+    }
+
+    /// The file that holds the entry points.
+    fn file(self) -> File {
+        match self {
+            Pass::Vertices => file!("geometry/vertices.wgsl"),
+            Pass::Edges => file!("geometry/edges.wgsl"),
+            Pass::Triangles => file!("geometry/triangles.wgsl"),
+            Pass::Refine => file!("geometry/refine.wgsl"),
+            Pass::Arguments => file!("geometry/arguments.wgsl"),
+            Pass::Mesh => file!("geometry/mesh.wgsl"),
+            Pass::Draw => file!("shading/draw.wgsl"),
+            Pass::SkyCells => file!("sky/cells.wgsl"),
+            Pass::Background => file!("sky/background.wgsl"),
+            Pass::StarsProject => file!("sky/stars_project.wgsl"),
+            Pass::StarsDraw => file!("sky/stars_draw.wgsl"),
+            Pass::AuroraProject => file!("aurora/project.wgsl"),
+            Pass::AuroraEnds => file!("aurora/ends.wgsl"),
+            Pass::AuroraRanges => file!("aurora/levels/ranges.wgsl"),
+            Pass::AuroraWalk => file!("aurora/walk.wgsl"),
+            Pass::AuroraDraw => file!("aurora/draw.wgsl"),
+            Pass::AuroraSpread => file!("aurora/levels/spread.wgsl"),
+            Pass::AuroraWipe => file!("aurora/levels/wipe.wgsl"),
+            Pass::AuroraResolve => file!("aurora/levels/resolve.wgsl"),
+            Pass::Compose => file!("post_process/compose.wgsl"),
+            Pass::Bloom => file!("post_process/bloom.wgsl"),
+            Pass::Exposure => file!("post_process/exposure.wgsl"),
+            Pass::ToneMap => file!("post_process/tone_map.wgsl"),
+            Pass::Smooth => file!("post_process/smooth.wgsl"),
+            Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),
+            Pass::DiskSegments => file!("disk/arcs/segments.wgsl"),
+            Pass::DiskStrips => file!("disk/arcs/strips.wgsl"),
+            Pass::DiskArguments => file!("disk/arcs/arguments.wgsl"),
+            Pass::DiskDraw => file!("disk/arcs/draw.wgsl"),
+            Pass::DiskPolygons => file!("disk/polygons.wgsl"),
+            Pass::DiskSprites => file!("disk/sprites.wgsl"),
+            Pass::DiskSpritesDraw => file!("disk/sprites_draw.wgsl"),
+        }
+    }
 }

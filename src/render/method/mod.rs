@@ -1,5 +1,4 @@
-//! How a vertex is projected: one file of `shaders/methods/` each, put into the passes that look rays up after what it needs of
-//! `shaders/functions/`.
+//! How a vertex is projected: one file of `shaders/method/` each, which the passes that look rays up import.
 
 pub mod tables;
 
@@ -21,12 +20,12 @@ pub enum Method {
 const NAMES: [(Method, &str); 4] =
     [(Method::Table, "table"), (Method::Exact, "exact"), (Method::Paper1, "paper1-128"), (Method::Flat, "flat")];
 
-/// The parts that methods share.
-const HELD: &str = include_str!("../../../shaders/methods/held.wgsl");
-const RESIDUALS: &str = include_str!("../../../shaders/functions/residuals.wgsl");
-const ORBIT: &str = include_str!("../../../shaders/functions/orbit.wgsl");
-const EXACT: &str = include_str!("../../../shaders/functions/exact.wgsl");
-const STATIC_RAY: &str = include_str!("../../../shaders/functions/static_ray.wgsl");
+/// What is held in place, for methods with a hole and without.
+const HELD: File = ("shaders/method/held.wgsl", include_str!("../../../shaders/method/held.wgsl"));
+const AT_REST: File = ("shaders/method/at_rest.wgsl", include_str!("../../../shaders/method/at_rest.wgsl"));
+
+/// A file of shaders: its path in the repository, and its text.
+type File = (&'static str, &'static str);
 
 impl Method {
     /// All methods.
@@ -58,14 +57,13 @@ impl Method {
         }
     }
 
-    /// Its shader, which goes behind `functions/lensing.wgsl` and `functions/lensing_camera.wgsl`.
-    pub fn source(self) -> String {
-        let parts: &[&str] = match self {
-            Method::Table => &[HELD, include_str!("../../../shaders/methods/table.wgsl")],
-            Method::Exact => &[ORBIT, EXACT, HELD, include_str!("../../../shaders/methods/exact.wgsl")],
-            Method::Paper1 => &[STATIC_RAY, HELD, include_str!("../../../shaders/methods/paper1.wgsl")],
-            Method::Flat => &[include_str!("../../../shaders/methods/flat.wgsl")],
-        };
-        [&[RESIDUALS], parts].concat().join("\n")
+    /// The files that are imported as `lensrunner::chosen::method` and `lensrunner::chosen::held`.
+    pub fn files(self) -> [(&'static str, &'static str); 2] {
+        match self {
+            Method::Table => [("shaders/method/table.wgsl", include_str!("../../../shaders/method/table.wgsl")), HELD],
+            Method::Exact => [("shaders/method/exact.wgsl", include_str!("../../../shaders/method/exact.wgsl")), HELD],
+            Method::Paper1 => [("shaders/method/paper1.wgsl", include_str!("../../../shaders/method/paper1.wgsl")), HELD],
+            Method::Flat => [("shaders/method/flat.wgsl", include_str!("../../../shaders/method/flat.wgsl")), AT_REST],
+        }
     }
 }

@@ -66,7 +66,8 @@ fn the_ring_of_rows_is_read_the_same_in_both_languages() {
         let slots = layout::storage(&GPU, "nodes", &slots);
         // A node, an age from the newest row to before the oldest, and the part of a curtain that begins with it.
         let input: Vec<[f32; 4]> = (0..400u32).map(|k| [(1 + k % 8) as f32, 0.35 * k as f32 - 1.0, (1 + k % 6) as f32, 0.0]).collect();
-        let body = "var part: Segment; part.range = vec4<u32>(0u, u32(row.x), 0u, u32(row.z)); \
+        let body = "#import lensrunner::aurora::streaks::{middle_of, Segment}
+    var part: Segment; part.range = vec4<u32>(0u, u32(row.x), 0u, u32(row.z)); \
                     twin_out[id.x] = vec4<f32>(node_at(u32(row.x), row.y).xy, middle_of(part, row.y));";
         let got = run_with(Pass::AuroraEnds, body, [&[], &[]], &[(0, &uniform_buffer), (2, &slots)], &input, 1);
         for (row, got) in input.iter().zip(got) {

@@ -237,7 +237,8 @@ fn the_power_of_a_shifted_black_body_goes_as_the_fourth_power_of_g() {
 /// What is written in both languages: slant, shares, orbital rate.
 #[test]
 fn functions_of_the_gas_are_the_same_in_both_languages() {
-    let body = "twin_out[id.x] = vec4<f32>(disk_slant(row.x, row.y, row.z), disk_shares(row.w).x, disk_rate(row.w), 0.0);";
+    let body = "#import lensrunner::disk::motion::{disk_rate, disk_shares}
+    twin_out[id.x] = vec4<f32>(disk_slant(row.x, row.y, row.z), disk_shares(row.w).x, disk_rate(row.w), 0.0);";
     let rows: Vec<[f32; 4]> = (0..200)
         .map(|k| {
             let t = k as f32 / 199.0;

@@ -22,7 +22,8 @@ use crate::twin::run;
 #[test]
 fn bends_are_told_at_the_same_azimuths_in_both_languages() {
     let rows: Vec<[f32; 4]> = (0..AZIMUTHS).map(|k| [azimuth(k) as f32, 0.0, 0.0, 0.0]).collect();
-    let body = "twin_out[id.x] = vec4<f32>(among_azimuths(row.x), FIRST_AZIMUTH, FROM_LAST_AZIMUTH);";
+    let body = "#import lensrunner::disk::arcs::place::{among_azimuths, FIRST_AZIMUTH, FROM_LAST_AZIMUTH}
+    twin_out[id.x] = vec4<f32>(among_azimuths(row.x), FIRST_AZIMUTH, FROM_LAST_AZIMUTH);";
     for (k, got) in run(Pass::DiskVertices, body, [&[], &[]], &rows, 1).into_iter().enumerate() {
         let [before, share, first, last] = got.map(f64::from);
         // A root of single precision, of which twelve are made.

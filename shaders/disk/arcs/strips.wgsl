@@ -1,0 +1,77 @@
+// Stage 4: one thread per arc. Joins the points of its two circles by triangles; its radial sides point to the hole, where they are seen
+// straight.
+
+#import lensrunner::disk::arcs::bindings::{circles, disk_counters, disk_indices, disk_vertices, end_of, rings, segments}
+#import lensrunner::disk::types::disk
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let arcs = disk.sizes.y;
+    if id.x >= arcs * disk.sizes.w {
+        return;
+    }
+    let ring = rings[id.x / arcs];
+    let arc = id.x % arcs;
+    let inner = segments[ring.x * arcs + arc];
+    let outer = segments[ring.y * arcs + arc];
+    if (inner.w & outer.w) != 0u {
+        return;
+    }
+    let first_inner = ring.x * disk.sizes.x + 2u * arc;
+    let first_outer = ring.y * disk.sizes.x + 2u * arc;
+    var nearest = 1e9;
+    for (var k = 0u; k < 3u; k++) {
+        nearest = min(nearest, min(disk_vertices[first_inner + k].apparent.w, disk_vertices[first_outer + k].apparent.w));
+    }
+    if nearest <= 0.0 || max(circles[ring.x].gas.w, circles[ring.y].gas.w) < 1e-4 {
+        return;
+    }
+    let total = inner.x + outer.x;
+    let order = ring.z;
+    let beyond = order == 1u && disk.room.y > 0u && nearest > disk.light.y;
+    let list = select(order - 1u, 3u, beyond);
+    let end = end_of(list);
+    var slot = disk.regions[list] + atomicAdd(&disk_counters.indices[list], 3u * total);
+    if slot + 3u * total > end {
+        // No room. What is left of the list becomes empty triangles, since the draw goes to its end.
+        for (; slot < end; slot++) {
+            disk_indices[slot] = 0u;
+        }
+        atomicAdd(&disk_counters.coarse, 1u);
+        return;
+    }
+    atomicAdd(&disk_counters.arcs, 1u);
+    var i = 0u;
+    var j = 0u;
+    while i + j < total {
+        // Step on the circle whose next point comes first; i/inner.x < j/outer.x in whole numbers.
+        let a = point(first_inner, inner, i);
+        let b = point(first_outer, outer, j);
+        var c = 0u;
+        if i < inner.x && (j == outer.x || (i + 1u) * outer.x <= (j + 1u) * inner.x) {
+            i += 1u;
+            c = point(first_inner, inner, i);
+        } else {
+            j += 1u;
+            c = point(first_outer, outer, j);
+        }
+        disk_indices[slot] = a;
+        disk_indices[slot + 1u] = b;
+        disk_indices[slot + 2u] = c;
+        slot += 3u;
+    }
+}
+
+/// The vertex of point i of an arc of a circle.
+fn point(first: u32, segment: vec4<u32>, i: u32) -> u32 {
+    if i == 0u {
+        return first;
+    }
+    if i == segment.x {
+        return first + 2u;
+    }
+    if segment.x == 2u {
+        return first + 1u;
+    }
+    return disk.sizes.x * disk.sizes.z + segment.y + i - 1u;
+}

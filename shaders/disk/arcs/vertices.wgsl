@@ -1,0 +1,31 @@
+// Stages 1 and 3, in two dispatches of one pipeline: one thread per vertex. The first projects the grid: the ends and the middle of every
+// arc on both its circles. The second, the mesh stage, projects the vertices that segments ask for.
+
+#import lensrunner::disk::arcs::bindings::{cuts, disk_counters, disk_vertices, jobs}
+#import lensrunner::disk::arcs::place::disk_vertex
+#import lensrunner::disk::sigma::bearing
+#import lensrunner::disk::types::disk
+
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>) {
+    let columns = disk.sizes.x;
+    let arcs = disk.sizes.y;
+    let grid = columns * disk.sizes.z;
+    let halved = disk_counters.stage == 1u;
+    if id.x >= select(grid, min(atomicLoad(&disk_counters.vertices), disk.room.x - grid), halved) {
+        return;
+    }
+    // x: arc of a circle, counted along all rows; y of z: how far along it.
+    var job = vec3<u32>(id.x / columns * arcs + id.x % columns / 2u, id.x % columns % 2u, 2u);
+    var slot = id.x;
+    if halved {
+        job = jobs[id.x].xyz;
+        slot += grid;
+    } else if id.x % columns == columns - 1u {
+        // The last column ends the last arc.
+        job = vec3<u32>(job.x - 1u, 2u, 2u);
+    }
+    let cut = job.x % arcs;
+    let sigma = mix(cuts[cut], cuts[cut + 1u], f32(job.y) / f32(job.z));
+    disk_vertices[slot] = disk_vertex(job.x / arcs, bearing(sigma, disk.upwards.w));
+}

@@ -1,3 +1,0 @@
-// For a camera inside the horizon.
-
-const SEES_INSIDE: bool = true;

@@ -1,3 +1,0 @@
-// For a camera outside the horizon, and for what is never inside.
-
-const SEES_INSIDE: bool = false;

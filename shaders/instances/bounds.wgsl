@@ -1,0 +1,53 @@
+#define_import_path lensrunner::instances::bounds
+
+// The guard: no triangle of an object is drawn outside of where the image of its ball can be, whatever went wrong before.
+
+#import lensrunner::geometry::bindings::{counters, seen}
+#import lensrunner::gpu::types::Instance
+
+/// Whether a triangle of three seen vertices leaves one of the instance's caps, or enters one that it must keep out of. If so it is
+/// counted.
+fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
+    if instance.bound_high.w == 0.0 && instance.bound_low.w == 0.0 && instance.bound_look.w == 0.0 {
+        return false;
+    }
+    let a = normalize(seen[i0].apparent.xyz);
+    let b = normalize(seen[i1].apparent.xyz);
+    let c = normalize(seen[i2].apparent.xyz);
+    let leaves = leaves_cap(instance.bound_high, a, b, c) || leaves_cap(instance.bound_low, a, b, c) || leaves_cap(instance.bound_look, a, b, c);
+    if leaves {
+        atomicAdd(&counters.outside, 1u);
+    }
+    return leaves;
+}
+
+/// The same for one cap, as `Bounds` of Rust. A cap is convex: a triangle whose corners are in it is in it. To be outside of a cap the
+/// nearest point of the triangle must be outside.
+fn leaves_cap(cap: vec4<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    if cap.w == 0.0 {
+        return false;
+    }
+    let middle = cap.xyz;
+    let chords = vec3<f32>(square(a - middle), square(b - middle), square(c - middle));
+    if cap.w > 0.0 {
+        return max(chords.x, max(chords.y, chords.z)) > cap.w;
+    }
+    let corners = min(chords.x, min(chords.y, chords.z));
+    let sides = min(nearest_on_side(middle, a, b), min(nearest_on_side(middle, b, c), nearest_on_side(middle, c, a)));
+    let turns = vec3<f32>(dot(cross(a, b), middle), dot(cross(b, c), middle), dot(cross(c, a), middle));
+    let round = (all(turns > vec3<f32>(0.0)) || all(turns < vec3<f32>(0.0))) && dot(a + b + c, middle) > 0.0;
+    return round || min(corners, sides) < -cap.w;
+}
+
+fn square(v: vec3<f32>) -> f32 {
+    return dot(v, v);
+}
+
+/// The square of the chord from a direction to the nearest inner point of the great circle's arc from a to b; 4, the largest value, if an
+/// end is nearer.
+fn nearest_on_side(middle: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let normal = cross(a, b);
+    let foot = middle - normal * (dot(normal, middle) / max(dot(normal, normal), 1e-30));
+    let between = dot(cross(a, foot), normal) > 0.0 && dot(cross(foot, b), normal) > 0.0;
+    return select(4.0, square(foot / max(length(foot), 1e-20) - middle), between);
+}
