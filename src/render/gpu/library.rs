@@ -163,7 +163,7 @@ mod tests {
     use super::*;
 
     const VALUES: Values = Values { inside: true, data_group: 1 };
-    const BROKEN: File = ("shaders/broken.wgsl", "#define_import_path lensrunner::broken\n\nfn wrong() -> u32 {\n    return 1.5;\n}\n");
+    const BROKEN: File = ("shaders/broken.wgsl", "#define_import_path lensrunner::broken\n\nfn wrong() -> u32 {\n    return nothing;\n}\n");
 
     fn error(others: &[File], source: &str) -> String {
         let library = Library::new(Worldlines::Bodies, Method::Table, others);
