@@ -11,9 +11,9 @@
 const TABLE_ROW: u32 = 1024u;
 
 @group(0) @binding(0) var<uniform> frame: Frame;
-/// The lensing table sliced at this frame's camera radius (functions/lensing.wgsl says how it is laid out).
+/// The lensing table sliced at this frame's camera radius (lensing/slice.wgsl says how it is laid out).
 @group(0) @binding(1) var lens_slice: texture_2d<f32>;
-/// The deflection of light from infinity (functions/sky.wgsl).
+/// The deflection of light from infinity (sky/table.wgsl).
 @group(0) @binding(2) var sky_slice: texture_2d<f32>;
-/// Linear sRGB of a black body over ln T (functions/colour.wgsl).
+/// Linear sRGB of a black body over ln T (gpu/colour.wgsl).
 @group(0) @binding(3) var blackbody: texture_2d<f32>;

@@ -133,7 +133,7 @@ struct ModelVertex {
 struct ModelTriangle {
     /// Three vertices in ascending order, counted from the model's own first; w: SIDE_*.
     vertices: vec4<u32>,
-    /// Edge i is opposite to vertex i; w: a bit for each direction from which no other part of the model hides it (functions/hiding.wgsl).
+    /// Edge i is opposite to vertex i; w: a bit for each direction from which no other part of the model hides it (models/hiding.wgsl).
     edges: vec4<u32>,
 }
 

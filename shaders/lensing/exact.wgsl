@@ -3,11 +3,11 @@
 // The closed form of the ray solved for each vertex in single precision, as src/spacetime/light/ does it in double precision: the ray that
 // meets a point by Newton's method in a bracket, and its travel time.
 
+#import lensrunner::lensing::closed_form
 #import lensrunner::lensing::closed_form::{bent_sweep, finite, HALF_TURN, LensCamera, slope_guess, SMALLEST_SWEEP, SourcePoint}
 #import lensrunner::lensing::inside::INSIDE_NODES
 #import lensrunner::lensing::lookup::{LensRay, no_ray, ray_of}
 #import lensrunner::lensing::orbit::{carry, critical_excess, CRITICAL_SQUARE, LEFT, MET, PHOTON_SPHERE, pole_orbit, shoot}
-#import lensrunner::lensing::closed_form
 
 /// A shot from the camera: its fate, u − a and du/dΦ at the end, ∂u/∂x there.
 struct Fired {

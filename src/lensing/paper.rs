@@ -130,7 +130,7 @@ pub fn lookup(table: &Table, [r, phi, l]: [f64; 3], order: u8) -> [f64; 2] {
     sum.map(f64::from)
 }
 
-/// What shaders/methods/paper1.wgsl reads: the constants of the camera radius `l` as in [`super::Slice`], four meshes (bias, first, last)
+/// What shaders/method/paper1.wgsl reads: the constants of the camera radius `l` as in [`super::Slice`], four meshes (bias, first, last)
 /// as r and φ inside, r and φ outside, then for each node, r fastest, two texels (ψ and delay of both orders) of the tables inside and
 /// outside. L is constant within a frame, so the linear step along it is taken here; the two others are left to the shader.
 pub fn slice(table: &Table, l: f64) -> Vec<[f32; 4]> {

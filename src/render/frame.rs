@@ -81,7 +81,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
     }
 }
 
-/// Temperatures of the ends of [`blackbody_table`], in K; as in functions/colour.wgsl.
+/// Temperatures of the ends of [`blackbody_table`], in K; as in gpu/colour.wgsl.
 pub const BLACKBODY_COLDEST: f32 = 200.0;
 /// The upper end, in K.
 pub const BLACKBODY_HOTTEST: f32 = 2.0e6;

@@ -69,7 +69,7 @@ fn a_model_of_two_bodies_has_no_lone_one() {
 /// The picture is the same as with both sides of every triangle drawn, and takes fewer triangles.
 #[test]
 fn nothing_that_is_seen_is_left_out() {
-    /// As in shaders/types.wgsl.
+    /// As in shaders/gpu/types.wgsl.
     const TWO_SIDED: u32 = 1;
     let size = [320, 180];
     // What stays are fronts and outlines, which have the shortest chords.

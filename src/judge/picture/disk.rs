@@ -19,7 +19,7 @@ pub struct Crossing {
     pub delay: f64,
 }
 
-/// Ends of the table of black bodies, in K, as in functions/colour.wgsl.
+/// Ends of the table of black bodies, in K, as in gpu/colour.wgsl.
 const COLDEST: f32 = 200.0;
 const HOTTEST: f32 = 2.0e6;
 

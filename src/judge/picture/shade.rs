@@ -134,7 +134,7 @@ const LN_BLUE: f32 = 6.13988;
 /// Width, in ln λ, of the fall of the spectrum outside the three channels: reflected sunlight falls by half from 0.6 to 0.95 µm.
 const SPECTRUM_FALL: f32 = 0.5;
 
-/// Light of a surface that is not a black body, seen at frequency ratio g: `shifted_colour` of functions/colour.wgsl.
+/// Light of a surface that is not a black body, seen at frequency ratio g: `shifted_colour` of gpu/colour.wgsl.
 pub fn shifted_colour(rgb: Vec3, g: f32, shift: Shift) -> Vec3 {
     let mut colour = rgb;
     if shift.doppler {

@@ -1,5 +1,5 @@
 // The formulas of the lookup, written once and compiled for both precisions by `mod.rs` (`type Real`): in f64 for the bake, in
-// f32 as the twin of shaders/functions/lensing.wgsl, function for function under the same names. What is needed at the camera and at the
+// f32 as the twin of shaders/lensing/closed_form.wgsl, function for function under the same names. What is needed at the camera and at the
 // point alike is done in two lanes of one register.
 //
 // Symbols: a = 1/L, c = 1/r, Φ the angle swept, w = du/dΦ at the camera, w_e the same at the point, e = 1/b with

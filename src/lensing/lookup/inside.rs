@@ -1,4 +1,4 @@
-//! Camera and point both inside the horizon, in f32: the twin of shaders/functions/lensing.wgsl, line by line.
+//! Camera and point both inside the horizon, in f32: the twin of shaders/lensing/inside.wgsl, line by line.
 //!
 //! Between two points inside there is no turning point, so with t = √r and q = e² the angle swept is
 //!

@@ -1,4 +1,4 @@
-//! The lookup in f32: the twin of shaders/functions/lensing.wgsl, line by line.
+//! The lookup in f32: the twin of shaders/lensing/lookup.wgsl, line by line.
 
 pub mod inside;
 pub mod source_point;

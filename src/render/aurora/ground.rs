@@ -16,10 +16,10 @@ use crate::scene::aurora::motion::Motion;
 use crate::scene::aurora::quantiles::{FLUXES, KINDS, PARTS, Quantiles, ROWS};
 use crate::scene::blackbody::xyz_to_rgb;
 
-/// `GroundLight` in shaders/geometry/aurora_light.wgsl.
+/// `GroundLight` in shaders/shading/aurora_light.wgsl.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/geometry/aurora_light.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/shading/aurora_light.wgsl")]
 pub struct GroundLight {
     pub dipole: [[f32; 4]; 3],
     pub colour: [f32; 4],
@@ -81,7 +81,7 @@ impl Glow {
     }
 
     /// The linear sRGB colour of `kilo` thousand collisions a cm² and second. Colours outside sRGB are cut off, as in
-    /// shaders/aurora/resolve.wgsl.
+    /// shaders/aurora/levels/resolve.wgsl.
     fn colour(&self, kilo: f64) -> [f64; 3] {
         xyz_to_rgb(self.xyz.map(|x| kilo * x)).map(|x| x.max(0.0))
     }

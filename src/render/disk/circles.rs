@@ -46,7 +46,7 @@ const WIDEST: [f64; 2] = [0.1, 0.25];
 /// Circles closer together than this, in r_s, count as one.
 const LEAST_RING: f64 = 1e-3;
 /// Number of azimuths on one side of the camera's direction at which errors are tested and parabolas are given. Both sides are alike except
-/// for the light. As in shaders/disk/place.wgsl.
+/// for the light. As in shaders/disk/arcs/place.wgsl.
 pub const AZIMUTHS: usize = 12;
 /// hc/λk at 550 nm, in K: light goes as exp(−this/T) by Wien's law.
 const GREEN: f64 = 26_160.0;
@@ -219,7 +219,7 @@ impl Look<'_> {
             let (along, across) = (r * cosine * level, r * reach);
             let ray = lens_lookup_at(self.slice, (along - l) as f32, across as f32, along as f32, self.order);
             let [cos_psi, sin_psi] = [ray.cos_psi, ray.sin_psi].map(f64::from);
-            // On both sides. As in shaders/disk/place.wgsl, without the products of vectors that vanish.
+            // On both sides. As in shaders/disk/arcs/place.wgsl, without the products of vectors that vanish.
             log_light[k] = [1.0, -1.0].map(|side| {
                 let look = n * cos_psi + (sideways * (side * sine) - upwards * (n.z * cosine)) * (turn * sin_psi / reach);
                 let observed = (gamma(camera.momentum.length_squared()) + camera.momentum.dot(look)) * f64::from(ray.frequency);

@@ -24,7 +24,7 @@ const CORNERED: f64 = 0.03;
 /// Half widths, in pixels, between which an image goes over from the mean gas of a thin image to the gas of each circle. As in
 /// shaders/disk/types.wgsl.
 const MEAN: [f64; 2] = [0.75, 2.0];
-/// Number of circles, at each azimuth, over which the mean gas of a thin image is taken. As in shaders/disk/place.wgsl.
+/// Number of circles, at each azimuth, over which the mean gas of a thin image is taken. As in shaders/disk/arcs/place.wgsl.
 pub const THIN_SAMPLES: usize = 8;
 /// Cuts are left out while arcs on the outermost circle are shorter than this many pixels; splitting arcs into segments restores the shape.
 const LEAST_ARC: f64 = 128.0;

@@ -1,4 +1,4 @@
-//! The aurora's light on the ground, as the surfaces read it (`shaders/geometry/aurora_light.wgsl`).
+//! The aurora's light on the ground, as the surfaces read it (`shaders/shading/aurora_light.wgsl`).
 
 use std::sync::Arc;
 

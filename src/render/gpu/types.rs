@@ -1,4 +1,4 @@
-//! The types that Rust and WGSL share, `shaders/types.wgsl` being the other half. tests/render/types.rs holds sizes, offsets and constants
+//! The types that Rust and WGSL share, `shaders/gpu/types.wgsl` being the other half. tests/render/types.rs holds sizes, offsets and constants
 //! equal.
 
 use bytemuck::{Pod, Zeroable};
@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 /// What the whole frame shares: camera, size, switches. Field by field as `Frame` in WGSL, where the meaning of each is written.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Frame {
     pub camera_from_rain: [[f32; 4]; 4],
     pub rain_from_camera: [[f32; 4]; 4],
@@ -42,7 +42,7 @@ pub mod flags {
 /// One object seen in one image order; `Instance` in WGSL.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Instance {
     pub offset: [f32; 4],
     pub axis: [f32; 4],
@@ -102,7 +102,7 @@ pub mod placed {
 /// `ModelVertex` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct ModelVertex {
     pub position: [f32; 4],
     pub normal: [f32; 4],
@@ -112,7 +112,7 @@ pub struct ModelVertex {
 /// `ModelTriangle` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct ModelTriangle {
     pub vertices: [u32; 4],
     pub edges: [u32; 4],
@@ -121,7 +121,7 @@ pub struct ModelTriangle {
 /// `Chunk` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Chunk {
     pub instance: u32,
     pub first: u32,
@@ -130,7 +130,7 @@ pub struct Chunk {
 /// `SeenVertex` in WGSL, read back by tests.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct SeenVertex {
     pub apparent: [f32; 4],
     pub normal: [f32; 4],
@@ -142,7 +142,7 @@ pub struct SeenVertex {
 /// `Material` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Material {
     pub base: [f32; 4],
     pub emissive: [f32; 4],
@@ -152,7 +152,7 @@ pub struct Material {
 /// `Star` in WGSL.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs, reason = "documented once, in shaders/types.wgsl")]
+#[allow(missing_docs, reason = "documented once, in shaders/gpu/types.wgsl")]
 pub struct Star {
     pub direction: [f32; 4],
     pub colour: [f32; 4],

@@ -1,4 +1,4 @@
-//! Bounds of the image of an object: the image of a ball that holds it. `shaders/geometry/bounds.wgsl` leaves out triangles outside.
+//! Bounds of the image of an object: the image of a ball that holds it. `shaders/instances/bounds.wgsl` leaves out triangles outside.
 //!
 //! The image of a ball in one order is bounded by two angles ψ from outwards, and on one side of the axis by the azimuths that the ball
 //! reaches. Each bound is a cap of directions: two about the axis, one about the middle of the image. Aberration turns caps into caps. Far

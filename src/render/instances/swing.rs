@@ -71,7 +71,7 @@ fn jolted(s: f64, after: f64) -> f64 {
 const FARTHEST_TURN: f32 = 2.0;
 
 /// Offset of a point of a body (model's unit, body axes) from the body's centre at T₀, `s` r_s/c later, on the slice, in r_s and rain axes.
-/// Twin of the function of the same name in shaders/geometry/swing.wgsl.
+/// Twin of the function of the same name in shaders/instances/swing.wgsl.
 pub fn swing_at(instance: &Instance, body: Vec3, s: f32) -> Vec3 {
     let xyz = |row: [f32; 4]| Vec3::new(row[0], row[1], row[2]);
     let columns = |m: [[f32; 4]; 3]| xyz(m[0]) * body.x + xyz(m[1]) * body.y + xyz(m[2]) * body.z;

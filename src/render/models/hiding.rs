@@ -24,7 +24,7 @@ const POINTS: [[f32; 3]; 4] = [
 ];
 
 /// Direction `k` of [`DIRECTIONS`] (unit): the corners of an icosahedron and of the dodecahedron between; the twin of `direction_of` in
-/// `shaders/functions/hiding.wgsl`.
+/// `shaders/models/hiding.wgsl`.
 pub fn direction_of(k: u32) -> Vec3 {
     let sign = |bit: u32| if k & bit != 0 { -1.0 } else { 1.0 };
     if k < 8 {
@@ -68,7 +68,7 @@ const MOST_KNOWN: usize = 12;
 /// A model's corners, and for each triangle a bit for each direction.
 type Known = (Vec<[Vec3; 3]>, Vec<u32>);
 
-/// The part of a triangle that is seen from `direction`: the twin of `seen_part` in `shaders/functions/hiding.wgsl`.
+/// The part of a triangle that is seen from `direction`: the twin of `seen_part` in `shaders/models/hiding.wgsl`.
 pub fn seen_part(seen_from: u32, outward: Vec3, direction: Vec3) -> f32 {
     let (mut sum, mut all) = (0.0, 0.0);
     for k in 0..DIRECTIONS {

@@ -6,9 +6,9 @@ use crate::scene::model::Model;
 
 /// No side is outside: the triangle is part of an open sheet, and both its sides are seen.
 pub const OPEN: u32 = 0;
-/// The cross product of the sides 0–1 and 0–2 points outward; as in shaders/types.wgsl.
+/// The cross product of the sides 0–1 and 0–2 points outward; as in shaders/gpu/types.wgsl.
 pub const ALONG: u32 = 1;
-/// It points inward; as in shaders/types.wgsl.
+/// It points inward; as in shaders/gpu/types.wgsl.
 pub const AGAINST: u32 = 2;
 
 /// Added if the whole model is one closed body. Bodies that make up a model may abut, and where their edges are divided differently their

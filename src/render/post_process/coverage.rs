@@ -1,4 +1,4 @@
-//! Coverage of a pixel by several thin images, and by parts of one: the twin of `shaders/functions/coverage.wgsl`.
+//! Coverage of a pixel by several thin images, and by parts of one: the twin of `shaders/post_process/coverage.wgsl`.
 
 /// The share of a pixel that thin images cover together, from the sum of their coverages and the sum with each object's sign: `covered` of
 /// WGSL.

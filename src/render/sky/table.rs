@@ -1,4 +1,4 @@
-//! The table of light from infinity, made anew for each camera radius from the exact solution. `functions/sky.wgsl` reads it.
+//! The table of light from infinity, made anew for each camera radius from the exact solution. `sky/table.wgsl` reads it.
 
 use std::f64::consts::PI;
 
