@@ -10,7 +10,7 @@ use lensrunner_lab::aurora::splat::{Gaussian, Picture, Splat};
 use lensrunner_lab::aurora::walk::{Method, Walker};
 use std::sync::LazyLock;
 
-use crate::aurora::{FALLS_TABLE, TABLE, all_points};
+use crate::aurora::walk::{FALLS_TABLE, TABLE, all_points};
 
 static SHARES: LazyLock<Shares> = LazyLock::new(Shares::default);
 

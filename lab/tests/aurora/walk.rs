@@ -14,7 +14,7 @@ use lensrunner_lab::aurora::walk::{Method, Walker};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-use crate::aurora_pyramid::by_pyramid;
+use crate::aurora::pyramid::by_pyramid;
 
 pub static FALLS_TABLE: LazyLock<Falls> = LazyLock::new(Falls::new);
 pub static TABLE: LazyLock<lensing::Table> = LazyLock::new(lensing::default_table);
