@@ -1,8 +1,8 @@
 //! What several tests need.
 
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{Arc, LazyLock};
 
 use lensrunner::lensing::{Scheme, Table};
 use proptest::test_runner::{Config, RngSeed};
@@ -44,8 +44,16 @@ impl Drop for Folder {
     }
 }
 
+/// The committed table, loaded once for all tests of a binary.
+static TABLE: LazyLock<Arc<Table>> =
+    LazyLock::new(|| Arc::new(Table::load(&root().join("tables/default.lut"), Scheme::Residual).expect("the committed table")));
+
 /// The committed table.
 pub fn table() -> &'static Table {
-    static TABLE: OnceLock<Table> = OnceLock::new();
-    TABLE.get_or_init(|| Table::load(&root().join("tables/default.lut"), Scheme::Residual).expect("the committed table"))
+    &TABLE
+}
+
+/// The same for a renderer, which keeps it.
+pub fn shared_table() -> Arc<Table> {
+    TABLE.clone()
 }

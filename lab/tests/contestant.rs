@@ -23,7 +23,9 @@ fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
     let off: Vec<f64> = both.map(|(layer, shown)| DVec3::from(shown.body.map(f64::from)).distance(case.body(layer))).collect();
     assert!(off.len() > 40, "only {} pixels show the planet", off.len());
     let mean = off.iter().sum::<f64>() / off.len() as f64;
-    assert!(mean < 0.1 * radius, "points are {mean} off in the mean, of a globe of {radius}");
+    println!("{} pixels, mean {} of the radius", off.len(), mean / radius);
+    // Measured 0.0032.
+    assert!(mean < 0.01 * radius, "points are {mean} off in the mean, of a globe of {radius}");
 }
 
 #[test]
@@ -40,6 +42,8 @@ fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
     let seen: f32 = judge.shares.iter().flatten().filter(|share| share.1 == 2).map(|share| share.2).sum();
     let drawn: Vec<f32> = frame.shown.iter().filter(|shown| shown.order == 2).map(|shown| shown.coverage).collect();
     let sum: f32 = drawn.iter().sum();
+    println!("{sum} drawn in {} pixels, {seen} seen", drawn.len());
     assert!(drawn.len() > 40, "drawn in {} pixels", drawn.len());
-    assert!((sum - seen).abs() < 2.0, "{sum} pixels are drawn, {seen} seen");
+    // Measured 0.655 and 0.667.
+    assert!((sum - seen).abs() < 0.04, "{sum} pixels are drawn, {seen} seen");
 }

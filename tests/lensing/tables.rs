@@ -135,14 +135,6 @@ fn the_committed_table_keeps_its_promise() {
     keeps_its_promise_inside(60_000, 1);
 }
 
-/// The same on as many points as the chart has; a quarter of a minute on two cores.
-#[test]
-#[ignore = "a quarter of a minute; cargo test --release -- --ignored keeps_its_promise"]
-fn the_committed_table_keeps_its_promise_on_300000_points() {
-    keeps_its_promise(300_000, 2);
-    keeps_its_promise_inside(300_000, 2);
-}
-
 /// The committed table is no larger than 16 MiB, and what this program bakes: a table of older formulas would be read as if it fitted.
 #[test]
 fn the_committed_table_is_what_the_program_bakes() {

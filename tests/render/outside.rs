@@ -1,13 +1,9 @@
 //! Triangles that a closed body hides are left out, and nothing else is.
 
-use std::sync::Arc;
-
 use glam::Vec3;
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::gpu::readback;
 use lensrunner::render::models::outside::{AGAINST, ALONG, LONE, OPEN, sides};
 use lensrunner::render::models::{ALONE, Prepared};
-use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::model::Vertex;
@@ -15,6 +11,7 @@ use lensrunner::scene::model::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::{self, GameConfig, Material, Model};
 
 use crate::gpu::GPU;
+use crate::render::support::renderer;
 
 /// The cross product of a triangle's sides, and its middle.
 fn normal_and_middle(model: &Model, triangle: [u32; 3]) -> (Vec3, Vec3) {
@@ -76,9 +73,7 @@ fn nothing_that_is_seen_is_left_out() {
     for (name, kept) in [("ring", 0.75), ("parade", 0.75)] {
         let scene = scene::load(name).unwrap();
         let config = GameConfig::default();
-        let table = Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ()));
-        let around = Surroundings { table, stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-        let mut renderer = Renderer::new(&GPU, &around, wgpu::TextureFormat::Rgba8UnormSrgb, size);
+        let mut renderer = renderer(size);
         let stage = Stage::new(&mut renderer, &scene, &config);
         // Thin images count layers, and leave out the backs of closed bodies by another rule.
         let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, ..Settings::default() };

@@ -6,7 +6,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 
-use crate::render::support::{aurora_alone, default_surroundings, renderer_under};
+use crate::render::support::{aurora_alone, renderer};
 
 /// Times of a frame whose aurora costs `fixed` and, with all of its streaks, `streaks` more; everything else `rest`, ms. `number` tells
 /// frames apart: times waver by a thousandth.
@@ -95,7 +95,7 @@ fn alone(stage: &Stage, size: [u32; 2], config: &GameConfig) -> FrameInput {
 #[test]
 fn fewer_streaks_are_wider_and_as_bright() {
     let size = [320, 180];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.aurora.streaks = 200_000;
     config.aurora.share = 0.02;
@@ -132,7 +132,7 @@ fn fewer_streaks_are_wider_and_as_bright() {
 
 #[test]
 fn an_aurora_is_as_bright_in_a_picture_of_any_size() {
-    let mut renderer = renderer_under(&default_surroundings(), [1, 1]);
+    let mut renderer = renderer([1, 1]);
     let mut config = GameConfig::default();
     // So wide that strokes are hundreds of pixels wide in the larger picture.
     (config.aurora.radius, config.aurora.streaks) = (50.0, 3000);

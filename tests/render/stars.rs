@@ -1,10 +1,8 @@
 //! The way of the stars by itself: how a sky of stars is exposed.
 
 use lensrunner::spacetime::Observer;
-use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use lensrunner::lensing::{SMALL_NODES, Scheme, bake};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::gpu::types::Star;
@@ -12,14 +10,11 @@ use lensrunner::render::renderer::{Renderer, Surroundings};
 use lensrunner::render::settings::Settings;
 
 use crate::gpu::GPU;
+use crate::support::shared_table;
 
 /// A picture of these stars before a Milky Way of even brightness `haze`, from far away.
 fn picture(stars: &[Star], haze: f32, camera: Observer, size: [u32; 2], settings: Settings) -> Picture {
-    let surroundings = Surroundings {
-        table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-        stars: stars.to_vec(),
-        milky_way: vec![(1, 1, vec![haze])],
-    };
+    let surroundings = Surroundings { table: shared_table(), stars: stars.to_vec(), milky_way: vec![(1, 1, vec![haze])] };
     let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
     let input = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings };
     renderer.picture(&input, false).unwrap()

@@ -1,10 +1,8 @@
 //! What several tests of the renderer need.
 
 use lensrunner::spacetime::Observer;
-use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
-use lensrunner::lensing::{self, SMALL_NODES, Scheme, Table, bake};
 use lensrunner::render::Renderer;
 use lensrunner::render::disk::Disk;
 use lensrunner::render::frame::FrameInput;
@@ -15,21 +13,11 @@ use lensrunner::render::stage::{self, Stage, static_camera};
 use lensrunner::scene::GameConfig;
 
 use crate::gpu::GPU;
+use crate::support::shared_table;
 
-/// A sky without light, seen through a table.
-fn dark(table: Arc<Table>) -> Surroundings {
-    Surroundings { table, stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
-}
-
-/// A sky without light, seen through a small table.
+/// A sky without light, seen through the committed table.
 pub fn surroundings() -> Surroundings {
-    static SMALL: LazyLock<Arc<Table>> = LazyLock::new(|| Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())));
-    dark(SMALL.clone())
-}
-
-/// The same through the table of the game.
-pub fn default_surroundings() -> Surroundings {
-    dark(Arc::new(lensing::default_table()))
+    Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] }
 }
 
 /// A renderer of pictures of a size under such a sky.
@@ -37,7 +25,7 @@ pub fn renderer_under(surroundings: &Surroundings, size: [u32; 2]) -> Renderer {
     Renderer::new(&GPU, surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size)
 }
 
-/// The same with the small table.
+/// The same under a sky without light.
 pub fn renderer(size: [u32; 2]) -> Renderer {
     renderer_under(&surroundings(), size)
 }

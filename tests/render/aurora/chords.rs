@@ -1,16 +1,14 @@
 //! The game's own chords, read back from its shader: the light of a streak lies where exact rays have it.
 
 use lensrunner::spacetime::Observer;
-use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use lensrunner::lensing::{self, Slice};
+use lensrunner::lensing::Slice;
 use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::instances::{View, light_path};
-use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::dipole::PLANET_RADIUS;
@@ -23,6 +21,7 @@ use lensrunner::spacetime::matter::gamma;
 
 use crate::gpu::GPU;
 use crate::render::pictures::exact;
+use crate::render::support::renderer;
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Chords that are short enough for every bend.
@@ -157,8 +156,7 @@ fn hold(renderer: &mut Renderer, planet: &Planet, camera: Observer, config: &Gam
 
 #[test]
 fn chords_of_the_game_hold_their_budget() {
-    let surroundings = Surroundings { table: Arc::new(lensing::default_table()), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
-    let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, SIZE);
+    let mut renderer = renderer(SIZE);
     let mut config = GameConfig::default();
     for name in ["aurora-side", "aurora-below", "aurora-orbit", "aurora-lensed"] {
         let scene = scene::load(name).unwrap();

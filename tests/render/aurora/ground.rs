@@ -6,7 +6,7 @@ use lensrunner::render::gpu::readback::Picture;
 use lensrunner::render::stage::{Stage, settings};
 use lensrunner::scene::{self, GameConfig, Model, Scene};
 
-use crate::render::support::{default_surroundings, renderer_under};
+use crate::render::support::renderer;
 use crate::support::Folder;
 
 const SIZE: [u32; 2] = [240, 240];
@@ -77,7 +77,7 @@ fn parts(renderer: &mut Renderer, scene: &Scene, config: &GameConfig) -> Parts {
 
 #[test]
 fn the_ground_gets_half_of_the_light_but_for_what_passes_over_the_horizon() {
-    let mut renderer = renderer_under(&default_surroundings(), SIZE);
+    let mut renderer = renderer(SIZE);
     let height = 9000.0;
     // What a pixel shows of a sphere about the planet: its area, as far as it is seen askew, and the cosine of how much it is.
     let sums = |pixels: &[f64], radius: f64, askew: bool| {
@@ -113,7 +113,7 @@ fn the_ground_gets_half_of_the_light_but_for_what_passes_over_the_horizon() {
 
 #[test]
 fn the_ground_is_lit_beneath_the_curtains() {
-    let mut renderer = renderer_under(&default_surroundings(), SIZE);
+    let mut renderer = renderer(SIZE);
     for (shape, latitude, height, least) in [("arcs", 1.18, 4000.0, 0.94), ("oval", 1.5, 9000.0, 0.87), ("oval", -1.4, 9000.0, 0.87)] {
         let parts = parts(&mut renderer, &scene_above(shape, latitude, height), &config());
         // About 150 km of the ground.
@@ -128,7 +128,7 @@ fn the_ground_is_lit_beneath_the_curtains() {
 
 #[test]
 fn without_an_aurora_the_ground_is_as_it_was() {
-    let mut renderer = renderer_under(&default_surroundings(), SIZE);
+    let mut renderer = renderer(SIZE);
     let scene = scene_above("arcs", 1.18, 4000.0);
     let mut config = config();
     let stage = Stage::new(&mut renderer, &scene, &config);

@@ -12,7 +12,7 @@ use lensrunner::scene::aurora::random::uniform;
 use lensrunner::scene::{self, GameConfig};
 
 use crate::gpu::GPU;
-use crate::render::support::{default_surroundings, renderer_under};
+use crate::render::support::renderer;
 use crate::twin::{run, run_with};
 
 /// Nodes of a row of the tests.
@@ -40,7 +40,7 @@ fn a_step_writes_one_row() {
     }
     assert_eq!(rows.changed(&NodeHistory::default()).count(), ROWS);
     // A watched aurora: a frame makes two rows at most.
-    let mut renderer = renderer_under(&default_surroundings(), [96, 54]);
+    let mut renderer = renderer([96, 54]);
     let (scene, config) = (scene::load("aurora-orbit").unwrap(), GameConfig::default());
     let stage = Stage::new(&mut renderer, &scene, &config).watched();
     let history = |time: f64| {
@@ -112,7 +112,7 @@ fn rows_written_one_by_one_are_drawn_as_all_at_once() {
     let scene = scene::load("aurora-below").unwrap();
     let mut config = GameConfig::default();
     config.aurora.streaks = 3000;
-    let (mut renderer, mut other) = (renderer_under(&default_surroundings(), size), renderer_under(&default_surroundings(), size));
+    let (mut renderer, mut other) = (renderer(size), renderer(size));
     let stage = Stage::new(&mut renderer, &scene, &config);
     let mut draw = |seconds: f64| {
         let time = seconds / config.aurora.pace;
@@ -131,7 +131,7 @@ fn rows_written_one_by_one_are_drawn_as_all_at_once() {
     let most = want.iter().flat_map(|p| &p[..3]).copied().fold(0.0, f32::max);
     let apart = |one: &[[f32; 4]]| one.iter().zip(&want).map(|(a, b)| (a[1] - b[1]).abs() / most).fold(0.0, f32::max);
     println!("{} of the brightest from what was uploaded at once, {} from the picture before", apart(&got), apart(&first));
-    // Threads append strokes in any order, and sums are rounded.
-    assert!(most > 0.0 && apart(&got) < 0.02, "{} of the brightest", apart(&got));
-    assert!(apart(&first) > 0.2, "nothing moved: {}", apart(&first));
+    // Threads append strokes in any order, and sums are rounded: measured 0. What has moved: measured 0.99.
+    assert!(most > 0.1 && apart(&got) < 0.005, "{} of the brightest", apart(&got));
+    assert!(apart(&first) > 0.5, "nothing moved: {}", apart(&first));
 }

@@ -9,11 +9,16 @@ use lensrunner::scene::aurora::lines::{self, Line};
 use lensrunner::scene::{self, GameConfig, Scene};
 
 use crate::gpu::GPU;
-use crate::render::support::{aurora_alone, default_surroundings, renderer_under, total};
+use crate::render::support::{aurora_alone, renderer, total};
 
 /// Greens of a picture that stand out from red and blue.
 fn green(picture: &readback::Picture) -> f32 {
     picture.linear.iter().map(|p| (p[1] - p[0].max(p[2])).max(0.0)).sum()
+}
+
+/// The adapter adds up strokes in 32-bit floats.
+fn adds_floats() -> bool {
+    GPU.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE)
 }
 
 fn orbit_scene() -> (Scene, GameConfig) {
@@ -26,7 +31,7 @@ fn orbit_scene() -> (Scene, GameConfig) {
 fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let scene = scene::load("aurora-orbit").unwrap();
     let size = [160, 90];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.aurora.streaks = 3000;
     let stage = Stage::new(&mut renderer, &scene, &config);
@@ -40,7 +45,8 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let picture = renderer.picture(&frame, false).unwrap();
     assert!(picture.linear.iter().flatten().all(|x| x.is_finite()));
     let shines = green(&picture);
-    assert!(shines > 1.0, "{shines}");
+    // Measured 23.
+    assert!(shines > 10.0, "{shines}");
 
     // The walk of Sekiguchi et al. draws something else, little as it is from orbit; switched off, there is none.
     config.aurora.walk = "linear".into();
@@ -48,7 +54,8 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
     let linear = renderer.picture(&linear, false).unwrap();
     let most = picture.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
     let differs = linear.linear.iter().zip(&picture.linear).map(|(a, b)| (a[1] - b[1]).abs() / most).fold(0.0, f32::max);
-    assert!(differs > 0.003, "{differs}");
+    // Measured 0.012.
+    assert!(differs > 0.005, "{differs}");
     config.aurora.enabled = false;
     let off = Stage::new(&mut renderer, &scene, &config).frame(camera, size, 0.0, &[], None, &settings(&config));
     assert!(off.aurora.is_none());
@@ -65,7 +72,7 @@ fn an_aurora_is_drawn_where_it_is_and_only_there() {
 fn brightness_never_jumps() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap().state(0.0).unwrap().position;
     let aside = (planet.normalize() * 0.9 + DVec3::Z * 0.43).normalize();
@@ -104,7 +111,7 @@ fn the_disk_dims_an_aurora_behind_it() {
         )
     };
     let size = [96, 54];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     // Light takes 14 r_s/c: the planet was half a radian back then, under the plane of the disk or above it.
     for (phase, behind) in [(-1.1, true), (2.0, false)] {
         let path = std::env::temp_dir().join(format!("lensrunner-veil-{}-{behind}.toml", std::process::id()));
@@ -126,15 +133,15 @@ fn the_disk_dims_an_aurora_behind_it() {
             with - total(&renderer.picture(&frame, false).unwrap())
         };
         let share = light(0.9) / light(0.0);
-        // The disk lets a tenth through where it is seen face on.
-        assert!(if behind { (0.0..0.5).contains(&share) } else { (share - 1.0).abs() < 0.1 }, "{share} of the light is left");
+        // The disk lets a tenth through where it is seen face on. Measured 0.23 behind it, 1 − 9e-6 before it.
+        assert!(if behind { (0.1..0.35).contains(&share) } else { (share - 1.0).abs() < 1e-3 }, "{share} of the light is left");
     }
 }
 
 #[test]
 fn the_pyramid_changes_no_picture() {
     let size = [192, 108];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     for name in ["aurora-below", "aurora-orbit"] {
         let scene = scene::load(name).unwrap();
         let mut config = GameConfig::default();
@@ -153,10 +160,10 @@ fn the_pyramid_changes_no_picture() {
         let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
         let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
         let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
-        // As the experiment's: 2 % of the root mean square. Light is kept to what lies beyond three standard deviations.
+        // As the experiment's: 2 % of the root mean square. Measured 0.013, of the light 0.0003. Light is kept to what lies beyond three standard deviations.
         assert!((off / all).sqrt() < 0.02, "{name}: off by {}", (off / all).sqrt());
         let ratio = total(&got) / total(&want);
-        assert!((ratio - 1.0).abs() < 0.01, "{name}: {ratio} of the light");
+        assert!((ratio - 1.0).abs() < 0.002, "{name}: {ratio} of the light");
         // No light where the planet hides it, not a pixel further than before.
         let most = want.linear.iter().map(|p| p[1]).fold(0.0, f32::max);
         let worst = got.linear.iter().zip(&want.linear).map(|(p, q)| (p[1] - q[1]).abs()).fold(0.0, f32::max);
@@ -168,7 +175,7 @@ fn the_pyramid_changes_no_picture() {
 #[test]
 fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
     let size = [192, 108];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let mut config = GameConfig::default();
     config.aurora.streaks = 4000;
     for name in ["aurora-below", "aurora-orbit"] {
@@ -189,20 +196,18 @@ fn parts_of_a_streak_that_are_one_stroke_change_no_picture() {
         let off: f64 = few.linear.iter().zip(&many.linear).map(|(p, q)| square(p, q)).sum();
         let all: f64 = many.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
         println!("{name}: rms {:.4}, light {:.4}", (off / all).sqrt(), total(few) / total(many));
-        // 24 parts are themselves coarser than 48: 3 % seen from below. Joined wrongly they would have other light.
-        assert!((off / all).sqrt() < 0.05, "{name}: off by {}", (off / all).sqrt());
-        assert!((total(few) / total(many) - 1.0).abs() < 0.01, "{name}: {} of the light", total(few) / total(many));
+        // 24 parts are themselves coarser than 48. Measured 0.006, of the light 0.0007. Joined wrongly they would have other light.
+        assert!((off / all).sqrt() < 0.015, "{name}: off by {}", (off / all).sqrt());
+        assert!((total(few) / total(many) - 1.0).abs() < 0.002, "{name}: {} of the light", total(few) / total(many));
     }
 }
 
 #[test]
 fn the_same_frame_is_drawn_the_same() {
     // Halves lose what is faint in the order in which threads append it.
-    if !GPU.device.features().contains(wgpu::Features::FLOAT32_BLENDABLE | wgpu::Features::FLOAT32_FILTERABLE) {
-        return;
-    }
+    assert!(adds_floats(), "the adapter cannot add up 32-bit floats: that frames are drawn the same is not tested on it");
     let size = [192, 108];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let config = GameConfig::default();
     for name in ["aurora-below", "aurora-side"] {
         let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
@@ -222,7 +227,7 @@ fn nothing_is_left_of_an_earlier_frame() {
     // The finest level is made black only where the new frame has light there; odd sizes, that tiles do not divide.
     let config = GameConfig::default();
     let drawn = |names: &[&str], size: [u32; 2], images: usize| {
-        let mut renderer = renderer_under(&default_surroundings(), size);
+        let mut renderer = renderer(size);
         let pictures = names.iter().map(|name| {
             let stage = Stage::new(&mut renderer, &scene::load(name).unwrap(), &config);
             let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), size, 0.0, &config);
@@ -245,7 +250,7 @@ const LENSED_SIZE: [u32; 2] = [591, 333];
 #[test]
 fn nothing_is_left_of_an_earlier_image() {
     let config = GameConfig::default();
-    let mut renderer = renderer_under(&default_surroundings(), LENSED_SIZE);
+    let mut renderer = renderer(LENSED_SIZE);
     let stage = Stage::new(&mut renderer, &scene::load("aurora-lensed").unwrap(), &config);
     let mut frame = aurora_alone(&stage, stage.camera(0.0, &[]), LENSED_SIZE, 0.0, &config);
     let whole = frame.aurora.take().unwrap();
@@ -272,18 +277,18 @@ fn nothing_is_left_of_an_earlier_image() {
 /// Two pictures are the same in colour, the brightest of which is more than `least`.
 fn same(one: &[[f32; 4]], other: &[[f32; 4]], least: f32, name: &str) {
     let most = one.iter().flat_map(|p| &p[..3]).copied().fold(0.0, f32::max);
+    let worst = one.iter().flat_map(|p| &p[..3]).zip(other.iter().flat_map(|p| &p[..3])).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     assert!(most > least, "{name}: {most}");
-    for (a, b) in one.iter().flat_map(|p| &p[..3]).zip(other.iter().flat_map(|p| &p[..3])) {
-        // Halves lose the faintest strokes, where those are all that the adapter adds up in.
-        assert!((a - b).abs() <= 0.02 * most, "{name}: {a} and {b}, of {most}");
-    }
+    // Halves lose the faintest strokes, where those are all that the adapter adds up in. Measured 0 with 32-bit floats.
+    let allowed = if adds_floats() { 1e-3 } else { 0.02 };
+    assert!(worst <= allowed * most, "{name}: off by {worst} of {most}");
 }
 
 #[test]
 fn a_watched_aurora_goes_on_without_a_burst() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config).watched();
     // The camera goes with the planet.
     let mut light = |stage: &Stage, config: &GameConfig, time: f64| {
@@ -295,10 +300,12 @@ fn a_watched_aurora_goes_on_without_a_burst() {
     let gap = 12.0 * scene.planet.unwrap().day;
     let times = (0..10).map(|k| 0.05 * f64::from(k)).chain((0..10).map(|k| gap + 0.05 * f64::from(k)));
     let steps: Vec<_> = times.map(|time| light(&stage, &config, time)).collect();
-    for pair in steps.windows(2) {
+    for (k, pair) in steps.windows(2).enumerate() {
         // Other rays pass in the meantime; the planet turns a little.
         let ratio = pair[1].1 / pair[0].1;
-        assert!((0.6..1.6).contains(&ratio), "{ratio} times as much light from one frame to the next");
+        // Measured 0.003, and 0.049 over the twelve days.
+        let allowed = if k == 9 { 0.15 } else { 0.01 };
+        assert!((ratio - 1.0).abs() < allowed, "{ratio} times as much light from one frame to the next");
         // No row is older than four steps of half a second: the row that was the newest is among the first three.
         let kept = (0..3).any(|k| pair[1].0.ago(k) == pair[0].0.ago(0));
         assert!(kept, "the curtains have moved by more than two rows in a frame");
@@ -322,7 +329,7 @@ fn a_watched_aurora_goes_on_without_a_burst() {
 fn an_oval_is_brighter_at_magnetic_midnight() {
     let (scene, config) = orbit_scene();
     let size = [96, 54];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     let stage = Stage::new(&mut renderer, &scene, &config);
     let planet = scene.planet.unwrap();
     for time in [0.0, 0.3 * planet.day] {
@@ -337,11 +344,11 @@ fn an_oval_is_brighter_at_magnetic_midnight() {
             frame.aurora.as_mut().unwrap().settings.strokes[2..].copy_from_slice(&[(part * x) as f32, (part * y) as f32]);
             total(&renderer.picture(&frame, false).unwrap())
         });
-        // 3 %: brighter parts have harder electrons, whose lines are a little others.
-        assert!(((lit[0] + lit[1]) / (2.0 * lit[2]) - 1.0).abs() < 0.03, "{lit:?}");
-        // The side that faces the camera is seen larger, and more of it.
+        // Brighter parts have harder electrons, whose lines are a little others. Measured 0.0008.
+        assert!(((lit[0] + lit[1]) / (2.0 * lit[2]) - 1.0).abs() < 0.003, "{lit:?}");
+        // The side that faces the camera is seen larger, and more of it. Measured 0.48 and 0.15.
         let facing = midnight.dot((frame.camera.position - state.position).normalize());
-        assert!((lit[0] / lit[1]).ln() * facing.signum() > 0.05, "{lit:?}, {facing}");
+        assert!((lit[0] / lit[1]).ln() * facing.signum() > 0.07, "{lit:?}, {facing}");
     }
 }
 
@@ -349,7 +356,7 @@ fn an_oval_is_brighter_at_magnetic_midnight() {
 fn lines_shift_as_the_settings_ask() {
     let (scene, mut config) = orbit_scene();
     let size = [96, 54];
-    let mut renderer = renderer_under(&default_surroundings(), size);
+    let mut renderer = renderer(size);
     // The red line's X over Y falls as it becomes greener.
     let mut hue = |lensing: bool, light_delay: bool| {
         (config.render.lensing, config.render.light_delay) = (lensing, light_delay);
@@ -373,8 +380,10 @@ fn lines_shift_as_the_settings_ask() {
     let n = (camera.position - planet.position).normalize();
     let doppler = |v: DVec3| (1.0 - v.dot(n)) / (1.0 - v.length_squared()).sqrt();
     let g = doppler(speed(camera.position, camera.momentum)) / doppler(speed(planet.position, planet.momentum));
-    assert!((flat / expected(g) - 1.0).abs() < 1e-3, "{flat} in the frame, {} for g = {g}", expected(g));
+    // Measured 9e-9.
+    assert!((flat / expected(g) - 1.0).abs() < 1e-6, "{flat} in the frame, {} for g = {g}", expected(g));
     // With the hole its field's part comes in, and with the delay another moment.
     let (_, bent) = hue(true, true);
-    assert!((bent - flat).abs() > 1e-5, "{bent} and {flat}");
+    // Measured 0.048.
+    assert!((bent - flat).abs() > 0.02, "{bent} and {flat}");
 }

@@ -1,4 +1,4 @@
-//! The drawn disk against the exact one: where it is seen and how it is shifted. Its pictures are in `lab/tests/disk_pictures.rs`.
+//! The drawn disk against the exact one: where it is seen and how it is shifted. Its pictures are in `lab/tests/disk/pictures.rs`.
 
 use lensrunner::spacetime::Observer;
 use std::f64::consts::{PI, TAU};

@@ -15,7 +15,8 @@ use lensrunner::scene::disk::PATTERN_HEIGHT;
 use lensrunner::spacetime::light::Order;
 
 use crate::render::disk::arcs::exact;
-use crate::render::support::{a_disk, camera, default_surroundings, renderer, settings};
+use crate::render::support::{a_disk, camera, renderer, settings};
+use crate::support::shared_table;
 use crate::twin::run;
 
 /// The azimuths at which bends are told are the same in both languages, the first of them and the last too.
@@ -73,7 +74,7 @@ fn rings_from_near_are_as_true_as_they_are_held_to_be() {
     let disk = a_disk();
     let radial = &disk.gas.radial;
     let all = radii(&disk, true);
-    let table = default_surroundings().table;
+    let table = shared_table();
     // The scenes `disk-skim` and `disk-inner`.
     let skim = static_camera(DVec3::new(0.0, -6.5, 0.3), DVec3::new(-0.75, 0.66, -0.06), DVec3::Z, 80f64.to_radians());
     let inner = static_camera(DVec3::new(0.0, -3.3, 0.5), DVec3::new(0.9, 0.55, -0.1), DVec3::Z, 90f64.to_radians());

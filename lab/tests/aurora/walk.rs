@@ -14,10 +14,10 @@ use lensrunner_lab::aurora::walk::{Method, Walker};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-use crate::aurora_pyramid::by_pyramid;
+use crate::aurora::pyramid::by_pyramid;
+use crate::support::table;
 
 pub static FALLS_TABLE: LazyLock<Falls> = LazyLock::new(Falls::new);
-pub static TABLE: LazyLock<lensing::Table> = LazyLock::new(lensing::default_table);
 
 /// Falls along the field, none of them astray.
 static STRAIGHT: LazyLock<Falls> = LazyLock::new(|| Falls { sway: [0.0; LEVELS], ..Falls::new() });
@@ -138,7 +138,7 @@ fn luminous_length_is_right_through_bent_light() {
     for order in [1, 2] {
         for degrees in (1..=90).map(f64::from) {
             let facing = DQuat::from_axis_angle(axis, degrees.to_radians()) * toward;
-            let slice = || lensing::Slice::new(&TABLE, 12.0);
+            let slice = || lensing::Slice::new(table(), 12.0);
             let from = |at: DVec3| Eye::bent(slice(), 12.0, at, 0.8, facing, 50f64.to_radians(), [1920, 1080], order);
             let bent = from(target).bent.unwrap();
             let off = bent.origin.as_dvec3() + bent.place.as_dmat3() * lit + DVec3::Z * 12.0 - target;
@@ -171,7 +171,7 @@ fn luminous_length_is_right_through_bent_light() {
 #[test]
 fn the_exact_walk_is_the_particle_method() {
     for (view, name) in View::ALL {
-        let eye = view.eye([640, 360], &TABLE);
+        let eye = view.eye([640, 360], table());
         let (mut worst, mut worst_linear, mut compared) = (0.0f32, 0.0f32, 0);
         let streaks = Sheet::numbered(2).streaks(300);
         let all = [Method::Particles, Method::Exact, Method::Linear, Method::Tabled].map(|method| all_points(method, &eye, &streaks));
@@ -206,8 +206,10 @@ fn pictures_agree_with_the_line_integral() {
     let sheet = Sheet::numbered(1);
     let splat = Splat { radius: 4.0, table: true };
     let emission = Emission::new(&sheet, &FALLS_TABLE, splat);
-    for (view, most, linear_least) in [(View::Side, 0.10, 0.0), (View::Below, 0.25, 0.15), (View::Orbit, 0.10, 0.0)] {
-        let eye = view.eye([192, 108], &TABLE);
+    // Measured: exact 0.071, 0.118, 0.083; linear 1.023, 1.468, 1.534 times as much. From the side the field lies along the picture, and
+    // both walks are nearly one.
+    for (view, most, times) in [(View::Side, 0.10, 1.01), (View::Below, 0.2, 1.3), (View::Orbit, 0.12, 1.3)] {
+        let eye = view.eye([192, 108], table());
         let truth = emission.picture(&eye, 1.0);
         let picture = |method: Method| {
             let mut picture = Picture::new(eye.size);
@@ -216,15 +218,16 @@ fn pictures_agree_with_the_line_integral() {
             picture.error(&truth)
         };
         let (exact, linear) = (picture(Method::Exact), picture(Method::Linear));
+        println!("{view:?}: exact {exact}, linear {linear}");
         assert!(exact < most, "{view:?}: exact walk off by {exact}");
-        assert!(linear > linear_least, "{view:?}: linear walk off by {linear} only");
+        assert!(linear > times * exact, "{view:?}: linear walk off by {linear} only, exact walk by {exact}");
     }
 }
 
 #[test]
 fn the_experiment_makes_its_table() {
     let request = ExperimentRequest { auroras: 1, counts: vec![50], radii: vec![3.0], size: [64, 36], repeats: 1 };
-    let rows = run(&request, &TABLE, &mut [], |_| ());
+    let rows = run(&request, table(), &mut [], |_| ());
     assert_eq!(rows.len(), View::ALL.len() * VARIANTS.len());
     assert!(rows.iter().all(|row| row.error.is_finite() && row.total > 0.0));
     for (_, view) in View::ALL {
@@ -243,7 +246,7 @@ fn the_experiment_makes_its_table() {
 #[test]
 fn one_odd_time_is_not_the_median() {
     let request = ExperimentRequest { auroras: 1, counts: vec![10], radii: vec![3.0], size: [16, 9], repeats: 1 };
-    let rows = run(&request, &TABLE, &mut [Box::new(OddClock(0))], |_| ());
+    let rows = run(&request, table(), &mut [Box::new(OddClock(0))], |_| ());
     let walks: Vec<f64> = rows.iter().filter(|row| row.method == "odd clock").map(|row| row.walk).collect();
     assert_eq!(walks, [5.0; View::ALL.len()]);
 }
@@ -276,7 +279,7 @@ fn any_eye() -> impl Strategy<Value = Eye> {
                     // The planet at the photon sphere, and the camera wherever.
                     let l = 1.6 + z / 50.0;
                     Eye::bent(
-                        lensing::Slice::new(&TABLE, l),
+                        lensing::Slice::new(table(), l),
                         l,
                         DVec3::new(x, y, z + 1.0).normalize() * 1.5,
                         0.2,
@@ -288,7 +291,7 @@ fn any_eye() -> impl Strategy<Value = Eye> {
                 }
                 _ => {
                     // Exactly behind the hole: the Einstein ring.
-                    Eye::bent(lensing::Slice::new(&TABLE, 10.0), 10.0, DVec3::new(0.0, 0.0, -10.0), 0.8, DVec3::Z, 1.0, size, 1)
+                    Eye::bent(lensing::Slice::new(table(), 10.0), 10.0, DVec3::new(0.0, 0.0, -10.0), 0.8, DVec3::Z, 1.0, size, 1)
                 }
             }
         },

@@ -148,7 +148,7 @@ fn sprites_without_streaks_have_their_light() {
     }
 }
 
-/// The third image is far thinner than a pixel, and yet it has its light, to a factor of two as that of arcs: from one spot to the next its
+/// The third image is far thinner than a pixel, and yet it has its light: from one spot to the next its
 /// rings part by a few roundings of f32 alone. (As if rings went on without end it had five times too much.) At one time alone it is chance
 /// which streak of the second image is before it.
 #[test]
@@ -167,7 +167,8 @@ fn the_third_image_of_sprites_has_its_light() {
     let [third, second] = [third, second].map(|times| [0, 1].map(|k| times.iter().map(|both| both[k]).sum::<f64>()));
     let [got, want] = [0, 1].map(|k| third[k] - second[k]);
     println!("the third image adds {got:.2}, must add {want:.2}");
-    assert!((0.5..2.0).contains(&(got / want)), "the third image adds {got:.2}, must add {want:.2}");
+    // Measured 0.991.
+    assert!((got / want - 1.0).abs() < 0.05, "the third image adds {got:.2}, must add {want:.2}");
 }
 
 /// The share of later rings, in closed form, is the sum that it stands for.

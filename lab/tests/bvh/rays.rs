@@ -306,7 +306,7 @@ fn eye_hits_of_the_procedural_databases() {
 
 #[test]
 fn a_ply_file_is_read_or_its_fault_named() {
-    let folder = super::support::Folder::new();
+    let folder = crate::support::Folder::new();
     let path = folder.path().join("one.ply");
     let header = "ply\nformat binary_little_endian 1.0\ncomment any\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n\
                   element face 1\nproperty list uchar int vertex_indices\nend_header\n";

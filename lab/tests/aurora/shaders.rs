@@ -1,7 +1,6 @@
 //! The aurora on the GPU: its functions against their Rust twins, its history, its numbers, and the experiment.
 
 use glam::{DVec2, DVec3};
-use lensrunner::lensing;
 use lensrunner::render::aurora::rooms::{CORNERS, DRAWS_BYTES, FOURS, Rooms};
 use lensrunner::render::aurora::{AuroraSettings, PYRAMID, RAYS_PERIOD, planet_history, veil};
 use lensrunner::render::gpu::layout;
@@ -23,6 +22,7 @@ use lensrunner_lab::aurora::splat::Splat;
 use lensrunner_lab::aurora_race;
 
 use crate::gpu::GPU;
+use crate::support::table;
 use crate::twin::{run, run_with};
 
 #[test]
@@ -163,8 +163,8 @@ fn red_lags_in_the_shader_as_its_lifetime_says() {
                 "{line:?} at {height} km: one waits too long"
             );
             // The mean of 8,000 draws of what decays within four lives is good to 1 %; between its 64 heights the table is off by a few per
-            // cent, and by milliseconds where the life is that short.
-            assert!((mean - want).abs() <= 0.05 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
+            // cent, and by milliseconds where the life is that short. Measured 0.010 of the life, and 4 ms.
+            assert!((mean - want).abs() <= 0.02 * want + 0.01, "{line:?} at {height} km waits {mean} s, lives {want} s");
         }
     }
 }
@@ -178,14 +178,19 @@ fn red_lags_where_it_is_drawn_as_its_lifetime_says() {
                 let below = chord_height(RED, chord + 1u, count); let s = clamp((above - row.x) / (above - below), 0.0, 1.0); \
                 twin_out[id.x] = vec4<f32>(mix(mean_wait(RED, above), mean_wait(RED, below), s), s, above, below);";
     let heights = heights(SPECTRUM);
-    // So many chords, and by how much the straight line between their ends may be off, in parts of the wait: a curtain moves some 100 m in
-    // a second.
-    for (count, part) in [(4.0, 1.0), (8.0, 0.3)] {
+    // So many chords, and by how much the straight line between their ends may be off, in parts of the wait and in seconds: a curtain moves
+    // some 100 m in a second. Measured 0.30 of the wait and 2.1 s with 4 chords, 0.17 and 0.9 s with 8.
+    for (count, part, seconds) in [(4.0, 0.4, 2.0), (8.0, 0.2, 1.0)] {
         let rows: Vec<[f32; 4]> = (150..400).step_by(10).map(|z| [z as f32, count, 0.0, 0.0]).collect();
         for (row, got) in rows.iter().zip(run_with(Pass::AuroraWalk, body, [&[], &[]], &[(0, &heights), (4, &falls)], &rows, 1)) {
             let want = lines::delays(f64::from(row[0]))[Line::Red as usize];
             assert!(got[2] >= row[0] && row[0] >= got[3], "{row:?} lies in {got:?}");
-            assert!((f64::from(got[0]) - want).abs() < part * want + 1.0, "{} km, {count} chords: {} s, lives {want} s", row[0], got[0]);
+            assert!(
+                (f64::from(got[0]) - want).abs() < part * want + seconds,
+                "{} km, {count} chords: {} s, lives {want} s",
+                row[0],
+                got[0]
+            );
         }
     }
 }
@@ -226,24 +231,24 @@ fn a_planet_far_away_has_a_history() {
     std::fs::remove_file(&path).unwrap();
     for back in [10.0, 900.0, 6000.0, 1e5] {
         let history = planet_history(&planet, 0.0, back, planet.dipole()).expect("it is somewhere");
-        assert!(history.at(-back).position.is_finite() && history.at(0.0).position.is_finite());
+        for time in [-back, 0.0] {
+            let off = history.at(time).position.distance(planet.state(time).unwrap().position);
+            println!("{back} r_s/c back: off by {off}");
+            assert!(off < 1e-6, "at T = {time} of {back} it is off by {off}");
+        }
     }
 }
 
 #[test]
 fn the_adapter_draws_the_experiment_as_the_processor_does() {
     let (_, mut runners) = aurora_race::runners();
-    // An adapter that cannot add up 32-bit floats draws none, and says so.
-    if runners.is_empty() {
-        return;
-    }
-    let table = lensing::default_table();
+    assert!(!runners.is_empty(), "the adapter cannot add up 32-bit floats: the experiment's shaders are not tested on it");
     let (falls, tables) = (Falls::new(), Tables::default());
     let sheet = Sheet::numbered(2);
     let streaks = sheet.streaks(150);
     // From amid the curtains too: what is behind the camera leaves no light.
     let amid = Eye::flat(DVec3::new(0.0, 0.0, 150.0), DVec3::new(0.0, 100.0, 150.0), DVec3::Z, 1.0, [128, 72]);
-    let eyes = [View::Below, View::Bent].map(|view| view.eye([128, 72], &table));
+    let eyes = [View::Below, View::Bent].map(|view| view.eye([128, 72], table()));
     for (eye, view) in eyes.into_iter().zip(["below", "bent"]).chain([(amid, "amid")]) {
         let job = Job { eye: &eye, falls: &falls, streaks: &streaks, seed: sheet.seed, splat: Splat { radius: 0.5, table: true } };
         for runner in &mut runners {
@@ -253,6 +258,7 @@ fn the_adapter_draws_the_experiment_as_the_processor_does() {
             // Rounding of f32 moves a collision here and there to the next level, and steps of the processor's tabulated Gaussian differ
             // from the adapter's own.
             let off = got.picture.error(&want);
+            // Measured 0.018 from below.
             assert!(off < 0.02, "{view}, {}: off by {off} (chords allow {TOLERANCE} px)", runner.name());
             let light = |pixels: &[[f32; 4]]| pixels.iter().map(|pixel| f64::from(pixel[0])).sum::<f64>();
             let ratio = light(&got.picture.pixels) / light(&want.pixels);

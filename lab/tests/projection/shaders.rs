@@ -1,10 +1,10 @@
 //! The game's methods of projection in the shader: each does what Rust does, by the shipped functions.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
 use lensrunner::lensing::methods::{Exact, Projector, Query};
-use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
+use lensrunner::lensing::{Scheme, Slice, bake};
 use lensrunner::render::method::Method;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner_lab::projection::methods::{CATALOGUE, Paper};
@@ -13,8 +13,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 
 use crate::gpu::GPU;
-
-static TABLE: LazyLock<Arc<Table>> = LazyLock::new(|| Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())));
+use crate::support::{shared_table, table};
 
 /// Radians.
 const QUARTER_PIXEL: f64 = 0.004 * std::f64::consts::PI / 180.0;
@@ -49,11 +48,11 @@ fn rows(l: f64, random: &mut StdRng) -> Vec<[f32; 4]> {
 /// of sums gives another answer where single precision ends.
 #[test]
 fn the_table_is_the_same_in_both_languages() {
-    let mut race = Race::new(&GPU, TABLE.clone());
+    let mut race = Race::new(&GPU, shared_table());
     let mut random = StdRng::seed_from_u64(3);
     for l in [0.3, 1.02, 1.5, 6.0, 900.0] {
         let rows = rows(l, &mut random);
-        let slice = Slice::new(&TABLE, l);
+        let slice = Slice::new(table(), l);
         let (mut seen, mut off) = (0, 0);
         for (row, [a, b]) in rows.iter().zip(race.look_up(Method::Table, l, &rows).unwrap()) {
             let [along, across, height, code] = *row;
@@ -77,7 +76,7 @@ fn the_table_is_the_same_in_both_languages() {
 /// table's). Rays that wind around the photon sphere lose their digits in single precision: at most 5 of 1,500.
 #[test]
 fn the_exact_method_is_exact() {
-    let mut race = Race::new(&GPU, TABLE.clone());
+    let mut race = Race::new(&GPU, shared_table());
     let mut random = StdRng::seed_from_u64(3);
     for l in [0.3, 1.02, 1.5, 6.0, 900.0] {
         let rows = rows(l, &mut random);
@@ -105,7 +104,7 @@ fn the_exact_method_is_exact() {
 /// Straight light is the direction of the offset itself, its time the distance.
 #[test]
 fn the_flat_method_goes_straight() {
-    let mut race = Race::new(&GPU, TABLE.clone());
+    let mut race = Race::new(&GPU, shared_table());
     let rows = rows(6.0, &mut StdRng::seed_from_u64(4));
     for (row, [a, _]) in rows.iter().zip(race.look_up(Method::Flat, 6.0, &rows).unwrap()) {
         let distance = row[0].hypot(row[1]);
@@ -121,7 +120,7 @@ fn the_flat_method_goes_straight() {
 #[test]
 fn paper_ones_fetch_is_the_same_on_both() {
     let table = bake(Scheme::Paper, 12, |_| ());
-    let mut race = Race::new(&GPU, TABLE.clone());
+    let mut race = Race::new(&GPU, shared_table());
     race.tables().set_paper(Arc::new(table.clone()));
     let paper = Paper(table);
     let mut random = StdRng::seed_from_u64(5);
@@ -163,7 +162,7 @@ fn the_adapter_takes_part_in_the_chart() {
     let output = Output { folder: folder.path().to_owned(), redraw: false };
     let methods = vec!["table".to_owned(), "flat".to_owned()];
     let request = projection::ProjectionRequest { output, points: 4096, seed: 1, methods };
-    let mut race = Race::new(&GPU, TABLE.clone());
+    let mut race = Race::new(&GPU, shared_table());
     projection::run(&request, Some(&mut race)).unwrap();
     let sheet = Sheet::load(&folder.path().join("projection-gpu.csv")).unwrap();
     assert_eq!(sheet.rows.len(), 6);

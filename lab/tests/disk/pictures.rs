@@ -71,11 +71,12 @@ fn the_disk_hides_what_is_behind_it_and_is_hidden_by_what_is_before() {
     std::fs::remove_dir_all(&folder).unwrap();
     println!("gas {gas:?}, near {near:?}, far {far:?}");
     for (c, light) in gas.into_iter().enumerate() {
-        assert!(near.1[c] > 1e-3 && far.1[c] > 1e-3, "the ball is dark");
+        assert!(near.1[c] > 0.1 && far.1[c] > 0.1, "the ball is dark");
         assert!((near.0[c] / near.1[c] - 1.0).abs() < 2e-3, "the disk shows before what hides it: {near:?}");
         // The disk stops four fifths face on, and more from the side.
         let passed = (far.0[c] - light) / far.1[c];
-        assert!((0.0..0.2).contains(&passed), "{passed} of the light behind the disk comes through");
+        // Measured 0.023 to 0.026.
+        assert!((0.01..0.05).contains(&passed), "{passed} of the light behind the disk comes through");
     }
 }
 

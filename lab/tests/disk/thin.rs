@@ -102,8 +102,8 @@ fn the_third_image_has_its_light() {
     for place in &places()[..2] {
         let [_, third] = light_over_exact(place, None, &TIMES);
         println!("{}: {third:.3} of the third image's light", place.name);
-        // 1.12 and 1.21: a streak more or less is a tenth of it, and those of its circles go straight from one to the next.
-        assert!((0.8..1.25).contains(&third), "{}: {third:.3} of the third image's light", place.name);
+        // Measured 1.083 and 1.185: the streaks of its circles go straight from one to the next.
+        assert!((1.0..1.25).contains(&third), "{}: {third:.3} of the third image's light", place.name);
     }
 }
 
@@ -160,7 +160,8 @@ fn a_shift_of_colour_alone_leaves_the_light_of_thin_images() {
     };
     let [colour, neither, brightness, both] = [(true, false), (false, false), (false, true), (true, true)].map(|(a, b)| light(a, b));
     println!("colour alone {:.3} of neither, brightness alone {:.3} of both", colour / neither, brightness / both);
-    assert!((colour / neither - 1.0).abs() < 0.25 && (brightness / both - 1.0).abs() < 0.25, "{colour}, {neither}, {brightness}, {both}");
+    // Measured 0.970 and 0.867.
+    assert!((colour / neither - 1.0).abs() < 0.07 && (brightness / both - 1.0).abs() < 0.2, "{colour}, {neither}, {brightness}, {both}");
 }
 
 /// Gaps take the light of their share of the gas, with its streaks, whether they are seen or closed.

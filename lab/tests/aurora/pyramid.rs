@@ -10,13 +10,14 @@ use lensrunner_lab::aurora::splat::{Gaussian, Picture, Splat};
 use lensrunner_lab::aurora::walk::{Method, Walker};
 use std::sync::LazyLock;
 
-use crate::aurora::{FALLS_TABLE, TABLE, all_points};
+use crate::aurora::walk::{FALLS_TABLE, all_points};
+use crate::support::table;
 
 static SHARES: LazyLock<Shares> = LazyLock::new(Shares::default);
 
 #[test]
 fn the_table_of_the_gaussian_is_the_gaussian() {
-    let eye = View::Side.eye([192, 108], &TABLE);
+    let eye = View::Side.eye([192, 108], table());
     let found = all_points(Method::Exact, &eye, &Sheet::numbered(0).streaks(200)).concat();
     let draw = |table: bool| {
         let mut picture = Picture::new(eye.size);
@@ -107,7 +108,7 @@ fn the_pyramid_keeps_all_light() {
 fn the_pyramid_is_the_sum_of_gaussians() {
     // 2 % of the picture's root mean square: a splat's own error (see above), which differs in sign from place to place.
     for (view, name) in View::ALL {
-        let eye = view.eye([192, 108], &TABLE);
+        let eye = view.eye([192, 108], table());
         let found = all_points(Method::Exact, &eye, &Sheet::numbered(3).streaks(200)).concat();
         for radius in [0.5f32, 1.5, 6.0] {
             let want = direct_sum(eye.size, &found, f64::from(radius));
@@ -124,7 +125,7 @@ fn the_pyramid_is_the_sum_of_gaussians() {
 #[test]
 fn wider_instructions_change_no_bit() {
     for (view, name) in View::ALL {
-        let eye = view.eye([192, 108], &TABLE);
+        let eye = view.eye([192, 108], table());
         let streaks = Sheet::numbered(5).streaks(300);
         let lattice = Lattice::around(&eye, &streaks, 0.25);
         let walker = Walker::new(&eye, &FALLS_TABLE, Some(&lattice), 3);
@@ -150,7 +151,7 @@ fn wider_instructions_change_no_bit() {
 fn nothing_is_left_in_a_pyramid_that_is_used_again() {
     // Wide splats, which touch other tiles and layers than narrow ones.
     let found = |view: View, number: u32| {
-        let eye = view.eye([192, 108], &TABLE);
+        let eye = view.eye([192, 108], table());
         all_points(Method::Exact, &eye, &Sheet::numbered(number).streaks(100)).concat().into_iter().collect::<Points>()
     };
     let mut pyramid = Pyramid::new([192, 108]);
@@ -172,7 +173,7 @@ fn threads_draw_the_picture_of_one() {
     let tables = Tables::default();
     for (view, name) in View::ALL {
         // An odd height and bands that begin within a tile.
-        let eye = view.eye([190, 107], &TABLE);
+        let eye = view.eye([190, 107], table());
         let streaks = Sheet::numbered(3).streaks(300);
         let job = Job { eye: &eye, falls: &FALLS_TABLE, streaks: &streaks, seed: 3, splat: Splat { radius: 3.0, table: true } };
         let picture = |name: &str| draw(*VARIANTS.iter().find(|variant| variant.name == name).unwrap(), &job, &tables).picture;
@@ -187,7 +188,7 @@ fn threads_draw_the_picture_of_one() {
 #[test]
 fn nothing_is_left_of_a_picture_whose_memory_is_used_again() {
     // An odd width, which ends with half a pair; a sheet far out of sight, of which nothing is drawn; and no electron at all.
-    let eye = View::Side.eye([189, 107], &TABLE);
+    let eye = View::Side.eye([189, 107], table());
     let streaks = Sheet::numbered(3).streaks(100);
     let away: Vec<Streak> = streaks.iter().map(|streak| Streak { top: streak.top * 100.0, end: streak.end * 100.0, ..*streak }).collect();
     for streaks in [&streaks[..], &away, &[]] {

@@ -1,0 +1,5 @@
+//! The aurora of the laboratory: walks, pyramids of splats, and the shaders.
+
+mod pyramid;
+mod shaders;
+mod walk;

@@ -1,0 +1,5 @@
+//! Straight rays through trees of boxes: the trees, the rays, and what breaks other tracers.
+
+mod build;
+mod rays;
+mod robust;

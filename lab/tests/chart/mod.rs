@@ -1,0 +1,3 @@
+//! What all charts share.
+
+mod toolkit;

@@ -1,0 +1,4 @@
+//! Scenes that nobody chose.
+
+mod pictures;
+mod scenes;

@@ -1,0 +1,9 @@
+//! The drawn disk against the exact one.
+
+mod chase;
+mod near;
+mod order;
+mod pictures;
+mod polygons;
+mod sprites;
+mod thin;

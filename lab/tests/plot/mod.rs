@@ -1,0 +1,3 @@
+//! How charts are drawn.
+
+mod figures;

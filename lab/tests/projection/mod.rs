@@ -1,0 +1,5 @@
+//! The race of the projections.
+
+mod chart;
+mod methods;
+mod shaders;

@@ -1,0 +1,3 @@
+//! The image of a thin disk.
+
+mod ray;
