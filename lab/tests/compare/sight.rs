@@ -4,7 +4,7 @@ use lensrunner::judge::case::Case;
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner_lab::compare::probe::{Probe, probe};
 
-/// A ball behind the hole beside the axis, a planet on its orbit and a fast ship, seen in three orders by a moving camera.
+/// A ball behind the hole beside the axis and a ship that comes from beside the camera, which moves too.
 const SCENE: &str = r#"
 [camera]
 position = [0.0, 1.0, 9.0]
@@ -21,8 +21,8 @@ triangles = 1200
 name = "fast"
 model = "hunter.glb"
 ai = "none"
-position = [5.0, 0.5, -1.0]
-momentum = [0.2, 0.0, 1.6]
+position = [0.1, 1.0, 7.6]
+momentum = [0.1, 0.0, -0.8]
 "#;
 
 #[test]
@@ -42,5 +42,6 @@ fn a_point_is_seen_where_the_picture_shows_it() {
             assert!(off < 1e-6, "{point:?} at ({x}, {y}): seen {off} px away");
         }
     }
-    assert!(counts[0][0] > 30 && counts[0][1] > 10 && counts[1][0] > 10, "{counts:?}");
+    // Measured 115 and 42 pixels of the ball.
+    assert!(counts[0][0] > 10 && counts[1][0] > 50 && counts[1][1] > 20, "{counts:?}");
 }
