@@ -6,12 +6,12 @@ use std::time::Instant;
 
 use glam::{Mat3, Vec3};
 
+use crate::aurora::engine::lattice::Lattice;
+use crate::aurora::engine::splat::Picture;
+use crate::aurora::engine::walk::across;
 use crate::aurora::experiment::{Job, Runner, TOLERANCE, Timed};
-use crate::aurora::lattice::Lattice;
 use crate::aurora::race::{Electron, Experiment, Race, Scene, Walk};
 use crate::aurora::sheet::{FALLS, Falls, LEVELS, TOP, row_reach};
-use crate::aurora::splat::Picture;
-use crate::aurora::walk::across;
 use lensrunner::render::Gpu;
 
 /// One walk on the best adapter there is.

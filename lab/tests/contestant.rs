@@ -30,8 +30,8 @@ fn a_globe_of_fewer_triangles_tells_which_points_it_shows() {
 
 #[test]
 fn thin_images_of_a_ship_cover_what_the_judge_sees_of_them() {
-    use lensrunner_lab::compare::narrow;
-    use lensrunner_lab::compare::probe::probe;
+    use lensrunner_lab::compare::measure::narrow;
+    use lensrunner_lab::compare::measure::probe::probe;
     // The ship ahead of the camera is drawn out to a ring of the second order, a hundredth of a pixel wide.
     let mut config = GameConfig::default();
     config.render.least_width = 0.001;

@@ -8,16 +8,16 @@ use std::time::Instant;
 
 use glam::DVec3;
 
+use super::engine::lattice::Lattice;
+use super::engine::points::Points;
+use super::engine::pyramid::Pyramid;
+use super::engine::shares::Shares;
+use super::engine::splat::{Gaussian, Picture, Splat};
+use super::engine::tasks::{Tasks, on_threads};
+use super::engine::walk::{Method, Walker};
 use super::eye::Eye;
-use super::lattice::Lattice;
-use super::points::Points;
-use super::pyramid::Pyramid;
-use super::shares::Shares;
 use super::sheet::{Falls, Sheet, Streak, field_direction};
-use super::splat::{Gaussian, Picture, Splat};
-use super::tasks::{Tasks, on_threads};
 use super::truth::Emission;
-use super::walk::{Method, Walker};
 use lensrunner::lensing::{Slice, Table};
 
 /// From where the auroras are seen.

@@ -4,9 +4,9 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+use super::engine::splat::{Picture, Splat};
 use super::eye::Eye;
 use super::sheet::{BOTTOM, FALLS, Falls, LEVELS, Sheet, TOP, field_direction, level_height, reach_row};
-use super::splat::{Picture, Splat};
 use lensrunner::scene::aurora::dipole::REFERENCE_HEIGHT;
 use lensrunner::scene::aurora::{fall, lines};
 

@@ -1,7 +1,7 @@
 //! What of a verdict is beyond the limits.
 
 use super::fault::{Fault, Kind, Limits};
-use super::metrics::Verdict;
+use super::measure::metrics::Verdict;
 
 impl Verdict {
     /// Whether there is anything to judge: an image of something solid, or colours that the judge knows.

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use super::metrics::{Limits, Verdict};
+use super::measure::metrics::{Limits, Verdict};
 use super::report::{BEYOND, said};
 use crate::chart::{Provenance, Sheet, SheetError};
 use lensrunner::judge::case::TraceRequest;

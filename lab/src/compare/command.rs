@@ -7,9 +7,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use super::Frame;
 use super::collect::{add, moments, open};
-use super::metrics::{Limits, compare};
-use super::narrow;
-use super::probe::probe;
+use super::measure::metrics::{Limits, compare};
+use super::measure::narrow;
+use super::measure::probe::probe;
 use super::report::{side_by_side, table};
 use crate::chart::SheetError;
 use crate::flip::flip;

@@ -7,11 +7,11 @@ use std::time::Instant;
 use super::Frame;
 use super::command::Contestant;
 use super::deadline::{Deadline, GaveUp, trace_within};
-use super::displacement::Effort;
 use super::fault::{Fault, Kind, Limits};
-use super::metrics::{Verdict, compare_with};
-use super::narrow::{grossly_wrong, see_again_but};
-use super::probe::probe;
+use super::measure::displacement::Effort;
+use super::measure::metrics::{Verdict, compare_with};
+use super::measure::narrow::{grossly_wrong, see_again_but};
+use super::measure::probe::probe;
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
 

@@ -1,11 +1,7 @@
 //! The verdict: a renderer's picture of a scene against the judge's, object by object and order by order.
 //!
-//! - [`metrics`]: displacement between the same surface points, coverage, wrong orders, holes, light in the dark.
-//! - [`displacement`]: where the judge sees the surface point that the contestant shows at a pixel.
-//! - [`probe`]: what the judge sees between the pixels; [`sight`]: where it sees a point, hidden or not.
-//! - [`narrow`]: images narrower than a pixel, seen with more rays.
+//! - [`measure`]: what differs between two pictures: displacement, coverage, area, holes.
 //! - [`report`]: the numbers as text, the pictures side by side.
-//! - [`area`]: how large each image is.
 //! - [`fault`]: the limits and what is beyond them.
 //! - [`beyond`]: what of a verdict is beyond its limits.
 //! - [`deadline`]: how long the judge may take.
@@ -15,22 +11,16 @@
 //! - [`collect`]: verdicts of many scenes in one table.
 //! - [`command`]: `lensrunner-lab compare`.
 
-pub mod area;
 pub mod beyond;
 pub mod collect;
 pub mod command;
 pub mod deadline;
-pub mod displacement;
 pub mod fault;
 pub mod flight;
-mod grid;
 pub mod judged;
-pub mod metrics;
-pub mod narrow;
-pub mod probe;
+pub mod measure;
 pub mod random;
 pub mod report;
-pub mod sight;
 
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::Picture;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::Frame;
-use super::metrics::{Limits, Verdict};
+use super::measure::metrics::{Limits, Verdict};
 use lensrunner::judge::picture::Picture;
 use lensrunner::judge::picture::post_process::{PostProcess, post_process};
 

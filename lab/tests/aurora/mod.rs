@@ -1,5 +1,4 @@
-//! The aurora of the laboratory: walks, pyramids of splats, and the shaders.
+//! The aurora of the laboratory: the drawing on the processor, and the shaders.
 
-mod pyramid;
+mod engine;
 mod shaders;
-mod walk;

@@ -15,10 +15,10 @@ use lensrunner::scene::aurora::motion::RAYS_LENGTH;
 use lensrunner::scene::aurora::quantiles::Quantiles;
 use lensrunner::scene::aurora::random;
 use lensrunner::spacetime::light::{self, Branch, Order};
+use lensrunner_lab::aurora::engine::splat::Splat;
 use lensrunner_lab::aurora::experiment::{Job, TOLERANCE, Tables, VARIANTS, View, draw};
 use lensrunner_lab::aurora::eye::Eye;
 use lensrunner_lab::aurora::sheet::{Falls, Sheet};
-use lensrunner_lab::aurora::splat::Splat;
 use lensrunner_lab::aurora_race;
 
 use crate::gpu::GPU;

@@ -4,7 +4,7 @@ use lensrunner::judge::case::TraceRequest;
 use lensrunner::scene;
 use lensrunner_lab::chart::Sheet;
 use lensrunner_lab::compare::collect::{COLUMNS, add, markdown, moments, rows};
-use lensrunner_lab::compare::metrics::{Displacement, Group, Limits, Verdict};
+use lensrunner_lab::compare::measure::metrics::{Displacement, Group, Limits, Verdict};
 
 fn request(at: f64) -> TraceRequest {
     TraceRequest { scene: "ring".into(), size: [640, 360], at, samples: 9, threads: 0, tolerance: 1e-12, packet: 8, limit: None }

@@ -1,10 +1,7 @@
 //! The verdict on the game's picture.
 
 mod collect;
-mod displacement;
 mod flight;
 mod horizon;
-mod metrics;
-mod narrow;
+mod measure;
 mod random;
-mod sight;

@@ -1,12 +1,12 @@
 //! Sixteen rays through what a packet has left for them.
 
+use super::best::Best;
+use super::best::GROUP;
 use super::hull::{Axes, Planes};
 use super::lanes::{Eight, Lanes, Mask, Sixteen};
-use super::ray::{Hit, Ray};
-use super::wide::{Block, LEAF, Stack, Waits, Wide, leaf};
-use super::wide_best::Best;
-use super::wide_best::GROUP;
-use super::wide_ray::{meet, sheared};
+use super::ray::{meet, sheared};
+use super::tree::{Block, LEAF, Stack, Waits, Wide, leaf};
+use crate::straight::ray::{Hit, Ray};
 
 /// Rays that a transposition takes at once.
 pub(super) const EIGHT: usize = 8;

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use super::Frame;
-use super::deadline::Deadline;
 use super::displacement::Probe;
 use super::grid::Grid;
+use crate::compare::Frame;
+use crate::compare::deadline::Deadline;
 use lensrunner::judge::picture::Picture;
 
 /// Rays along each side of a pixel in which a narrow image lies.

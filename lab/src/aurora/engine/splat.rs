@@ -1,7 +1,7 @@
 //! From luminous points to a picture: Gaussians added up, with a table or without.
 
 use super::points::{Point, Points};
-use super::sheet::Falls;
+use crate::aurora::sheet::Falls;
 
 /// Photons of each of the four lines per pixel.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! The tree of eight children a node: one instruction tests eight boxes, or eight triangles.
 
-use super::bounds::Bounds;
-use super::build::{Settings, build};
-use super::single::bounds;
-use super::tree::{Costs, MAX_DEPTH, Tree};
+use crate::straight::bounds::Bounds;
+use crate::straight::build::{Settings, build};
+use crate::straight::single::bounds;
+use crate::straight::tree::{Costs, MAX_DEPTH, Tree};
 
 /// Marks a child that is a [`Block`] and not a [`Wide8`].
 pub(super) const LEAF: u32 = 1 << 31;
@@ -147,7 +147,7 @@ impl Wide8 {
 
 impl Block {
     pub(super) fn new(held: &[u32], triangles: &[[[f32; 3]; 3]]) -> Block {
-        let mut block = Block { corners: [[[f32::NAN; 8]; 3]; 3], triangles: [super::ray::Hit::NONE; 8] };
+        let mut block = Block { corners: [[[f32::NAN; 8]; 3]; 3], triangles: [crate::straight::ray::Hit::NONE; 8] };
         for (lane, &i) in held.iter().enumerate() {
             block.triangles[lane] = i;
             for corner in 0..3 {

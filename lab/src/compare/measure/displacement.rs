@@ -9,9 +9,9 @@ use std::sync::{Mutex, PoisonError};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::Frame;
-use super::deadline::Deadline;
 pub use super::probe::{Point, Probe};
+use crate::compare::Frame;
+use crate::compare::deadline::Deadline;
 use lensrunner::judge::picture::Picture;
 
 /// What came of measuring at a pixel.

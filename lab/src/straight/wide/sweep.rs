@@ -1,13 +1,13 @@
 //! A first look at the rays of a packet: their common direction, and the hull of each group.
 
+use super::best::GROUP;
+use super::eye::Laid;
+use super::group::{ALL, EIGHT, NO_END, filled, lanes};
 use super::hull::{Axes, Hull};
 use super::lanes::{Eight, Mask, Sixteen};
-use super::ray::{Ray, widening};
-use super::triangle::fastest;
-use super::wide::Wide;
-use super::wide_best::GROUP;
-use super::wide_eye::Laid;
-use super::wide_group::{ALL, EIGHT, NO_END, filled, lanes};
+use super::tree::Wide;
+use crate::straight::ray::{Ray, widening};
+use crate::straight::triangle::fastest;
 
 /// Of seven times sixteen numbers, which are sixteen rays of seven, those that are not of an origin: one bit each.
 const OTHER: [u32; 7] = {

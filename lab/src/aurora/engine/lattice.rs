@@ -5,8 +5,8 @@
 
 use glam::{Vec2, Vec3};
 
-use super::eye::Eye;
-use super::sheet::{Streak, TOP, field_direction};
+use crate::aurora::eye::Eye;
+use crate::aurora::sheet::{Streak, TOP, field_direction};
 
 /// Most halvings along each axis.
 const MOST_HALVINGS: [u32; 3] = [7, 6, 3];

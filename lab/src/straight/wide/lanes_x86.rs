@@ -1,7 +1,7 @@
 //! The wide instructions of x86-64. Measured to pay: AVX2 makes two to three times the speed of the portable lanes, which the compiler
 //! makes of SSE2; AVX-512 a further third where sixteen rays descend together.
 //!
-//! Each type must be used only where its instructions have been detected: [`super::wide::Wide`] chooses it nowhere else. That is what every
+//! Each type must be used only where its instructions have been detected: [`super::tree::Wide`] chooses it nowhere else. That is what every
 //! `SAFETY` here calls "the instructions exist".
 #![allow(unsafe_code)]
 

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use rayon::prelude::*;
 
-use super::Frame;
 use super::area::{Area, areas};
 use super::displacement::{Effort, Measured, Probe, displacements};
-pub use super::fault::Limits;
+use crate::compare::Frame;
+pub use crate::compare::fault::Limits;
 use lensrunner::judge::picture::Picture;
 
 /// Displacements between the same surface points in the two pictures, in pixels.

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use super::sheet::Streak;
+use crate::aurora::sheet::Streak;
 
 /// Electrons walked before their points are drawn: some 2,000 points, which nearly fit into a processor's first cache.
 const TASK: usize = 64;

@@ -1,9 +1,9 @@
 //! One ray through the wide tree: eight boxes or eight triangles at a time.
 
 use super::lanes::{Eight, Lanes, Mask, Portable};
-use super::ray::{Hit, Ray, Slabs, widening};
-use super::triangle::Shear;
-use super::wide::{Block, Instructions, LEAF, NOBODY, STACK, Stack, Waits, Wide, leaf};
+use super::tree::{Block, Instructions, LEAF, NOBODY, STACK, Stack, Waits, Wide, leaf};
+use crate::straight::ray::{Hit, Ray, Slabs, widening};
+use crate::straight::triangle::Shear;
 
 impl Wide {
     /// The nearest triangle that each ray meets, ray by ray. `hits` is as long as `rays`.

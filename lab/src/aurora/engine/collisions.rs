@@ -4,7 +4,7 @@
 use bytemuck::cast;
 
 use super::points::{LANES, eight};
-use super::sheet::{Falls, LEVELS};
+use crate::aurora::sheet::{Falls, LEVELS};
 
 /// Room for every level and a vector beyond, a power of two.
 pub const ROOM: usize = 256;

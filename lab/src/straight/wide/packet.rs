@@ -6,16 +6,16 @@
 //! front of them, nearest first. The nodes above are opened once for all rays, whatever the size of the packet, and no node is opened for
 //! rays that cannot reach it.
 
+use super::best::GROUP;
+use super::eye::{self, Laid, Run, TOGETHER};
+use super::group::{EIGHT, Item, group, push};
 use super::hull::{Hull, Planes};
 use super::lanes::{Eight, Pair, Portable, Sixteen};
 #[cfg(target_arch = "x86_64")]
 use super::lanes_x86::{Avx, Avx512};
-use super::ray::{Hit, Ray};
 use super::sweep;
-use super::wide::{Instructions, STACK, Stack, Waits, Wide};
-use super::wide_best::GROUP;
-use super::wide_eye::{self, Laid, Run, TOGETHER};
-use super::wide_group::{EIGHT, Item, group, push};
+use super::tree::{Instructions, STACK, Stack, Waits, Wide};
+use crate::straight::ray::{Hit, Ray};
 
 /// So many groups at most share their last list, the one that is sorted; twice as many are as fast.
 const SHARE: usize = TOGETHER;
@@ -66,7 +66,7 @@ impl Default for Packets {
 
 impl Wide {
     /// The nearest triangle that each ray meets; the same bits as [`Wide::closest_each`]. The rays are taken in the order given, so that
-    /// neighbours in the list should be neighbours in space ([`super::order::tiles`] arranges a picture): any set gives the right answer, a
+    /// neighbours in the list should be neighbours in space ([`crate::straight::order::tiles`] arranges a picture): any set gives the right answer, a
     /// good order a fast one.
     ///
     /// # Panics
@@ -169,7 +169,7 @@ fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], pac
         if from_eye && hulls[groups.clone()].iter().all(|hull| hull.is_along_z() && hull.is_narrow(NARROW)) {
             let run = groups.start * GROUP..(groups.end * GROUP).min(rays.len());
             let eye = Run { rays: &rays[run.clone()], laid: &laid[groups.clone()], hulls: &hulls[groups] };
-            wide_eye::descend::<L, S>(wide, &eye, &mut hits[run], &axes, items, stack);
+            eye::descend::<L, S>(wide, &eye, &mut hits[run], &axes, items, stack);
             continue;
         }
         for at in groups {

@@ -3,18 +3,18 @@
 use glam::{DQuat, DVec3, Vec3};
 use lensrunner::lensing;
 use lensrunner::spacetime::light::{Branch, Order, connect, rain_angle};
+use lensrunner_lab::aurora::engine::lattice::Lattice;
+use lensrunner_lab::aurora::engine::points::{Point, Points};
+use lensrunner_lab::aurora::engine::splat::{Gaussian, Picture, Splat};
+use lensrunner_lab::aurora::engine::walk::{Method, Walker};
 use lensrunner_lab::aurora::experiment::{ExperimentRequest, Job, Runner, Tables, Timed, VARIANTS, View, draw, run};
 use lensrunner_lab::aurora::eye::Eye;
-use lensrunner_lab::aurora::lattice::Lattice;
-use lensrunner_lab::aurora::points::{Point, Points};
 use lensrunner_lab::aurora::sheet::{FALLS, Falls, LEVELS, Sheet, Streak, TOP, field_direction};
-use lensrunner_lab::aurora::splat::{Gaussian, Picture, Splat};
 use lensrunner_lab::aurora::truth::Emission;
-use lensrunner_lab::aurora::walk::{Method, Walker};
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
-use crate::aurora::pyramid::by_pyramid;
+use crate::aurora::engine::pyramid::by_pyramid;
 use crate::support::table;
 
 pub static FALLS_TABLE: LazyLock<Falls> = LazyLock::new(Falls::new);

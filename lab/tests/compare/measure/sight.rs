@@ -2,7 +2,7 @@
 
 use lensrunner::judge::case::Case;
 use lensrunner::scene::{GameConfig, Scene};
-use lensrunner_lab::compare::probe::{Probe, probe};
+use lensrunner_lab::compare::measure::probe::{Probe, probe};
 
 /// A ball behind the hole beside the axis and a ship that comes from beside the camera, which moves too.
 const SCENE: &str = r#"

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::Frame;
-use super::fault::{Fault, Kind, Limits};
 use super::grid::{FULL, Grid, thin_parts};
+use crate::compare::Frame;
+use crate::compare::fault::{Fault, Kind, Limits};
 use lensrunner::judge::picture::Picture;
 
 /// The size of one image of one object.

@@ -8,8 +8,8 @@ use lensrunner::judge::picture::{Picture, Pose, Quality, Worldline};
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner_lab::compare::Frame;
 use lensrunner_lab::compare::command::difference;
-use lensrunner_lab::compare::metrics::{Limits, Verdict, compare};
-use lensrunner_lab::compare::probe::probe;
+use lensrunner_lab::compare::measure::metrics::{Limits, Verdict, compare};
+use lensrunner_lab::compare::measure::probe::probe;
 
 const SIZE: [u32; 2] = [160, 90];
 

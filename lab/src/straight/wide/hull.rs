@@ -5,7 +5,7 @@
 //! these are the planes through the packet's outermost rays. Nothing is asked of the order of rays, nor that they start in one point.
 
 use super::lanes::{Eight, Lanes, Mask};
-use super::wide::{Block, Wide8};
+use super::tree::{Block, Wide8};
 
 /// Slopes above this make a hull too wide to be of use, and its rounding too large: such packets are split instead.
 pub(super) const STEEPEST: f32 = 4.0;

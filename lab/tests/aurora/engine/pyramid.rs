@@ -1,16 +1,16 @@
 //! How points of the aurora's experiment become a picture: the pyramid against plain sums, its memory, and threads.
 
+use lensrunner_lab::aurora::engine::lattice::Lattice;
+use lensrunner_lab::aurora::engine::points::{Point, Points};
+use lensrunner_lab::aurora::engine::pyramid::Pyramid;
+use lensrunner_lab::aurora::engine::shares::Shares;
+use lensrunner_lab::aurora::engine::splat::{Gaussian, Picture, Splat};
+use lensrunner_lab::aurora::engine::walk::{Method, Walker};
 use lensrunner_lab::aurora::experiment::{Job, Tables, VARIANTS, View, draw};
-use lensrunner_lab::aurora::lattice::Lattice;
-use lensrunner_lab::aurora::points::{Point, Points};
-use lensrunner_lab::aurora::pyramid::Pyramid;
-use lensrunner_lab::aurora::shares::Shares;
 use lensrunner_lab::aurora::sheet::{Falls, Sheet, Streak};
-use lensrunner_lab::aurora::splat::{Gaussian, Picture, Splat};
-use lensrunner_lab::aurora::walk::{Method, Walker};
 use std::sync::LazyLock;
 
-use crate::aurora::walk::{FALLS_TABLE, all_points};
+use crate::aurora::engine::walk::{FALLS_TABLE, all_points};
 use crate::support::table;
 
 static SHARES: LazyLock<Shares> = LazyLock::new(Shares::default);

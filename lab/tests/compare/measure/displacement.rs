@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use lensrunner::judge::picture::{Layer, Picture};
-use lensrunner_lab::compare::displacement::{Effort, Measured, Point, Probe, displacements};
+use lensrunner_lab::compare::measure::displacement::{Effort, Measured, Point, Probe, displacements};
 use lensrunner_lab::compare::{Frame, Shown};
 
 /// A wall of which each point is its own place on the screen; before it, a rod a sixth of a pixel wide, whose points are far from the

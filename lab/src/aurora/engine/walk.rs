@@ -6,10 +6,10 @@
 use glam::{Vec2, Vec3};
 
 use super::collisions::Collisions;
-use super::eye::Eye;
 use super::lattice::Lattice;
 use super::points::{Eight, LANES, Point, Points};
-use super::sheet::{Falls, LEVELS, Streak, TOP, field_direction, row_reach};
+use crate::aurora::eye::Eye;
+use crate::aurora::sheet::{Falls, LEVELS, Streak, TOP, field_direction, row_reach};
 use lensrunner::scene::aurora::fall;
 use lensrunner::scene::aurora::random::hash;
 

@@ -4,10 +4,10 @@
 //! the sign of normal · (x, y, 1) tells. That is the edge function of `Shear`, but for rounding: so it only leaves out, by a margin that
 //! covers both roundings, and `Shear` decides on what is left.
 
+use super::group::ALL;
 use super::lanes::{Eight, Lanes, Mask, Sixteen};
-use super::wide::Block;
-use super::wide_group::ALL;
-use super::wide_ray::{load, splat};
+use super::ray::{load, splat};
+use super::tree::Block;
 
 /// Units in the last place, relative to the eye's distance times an edge's length, by which an edge function must have a sign for it to
 /// count: 2⁻¹⁹ are 32 of 2⁻²⁴.
@@ -94,10 +94,10 @@ mod tests {
     use rand::{RngExt, SeedableRng};
 
     use super::*;
-    use crate::straight::lanes::{Pair, Portable};
     use crate::straight::ray::Ray;
     use crate::straight::triangle::{Shear, fastest};
-    use crate::straight::wide_best::GROUP;
+    use crate::straight::wide::best::GROUP;
+    use crate::straight::wide::lanes::{Pair, Portable};
 
     /// Triangles of any size and shape at any distance, and rays through their corners, along their edges and beside them: none that
     /// `Shear` says is met is left out, and of the others few are kept.

@@ -3,16 +3,16 @@
 //! All four look at a node at once, by the hull of all. At a block it is asked which rays reach its box. A block that few rays
 //! reach is tested by each of them; else its triangles are tested by sixteen rays at once, after a cheaper test has left out most.
 
+use super::best::Best;
+use super::best::GROUP;
 use super::edges::Edges;
+use super::group::{Item, corner, push};
 use super::hull::{Axes, Hull, Planes};
 use super::lanes::{Eight, Mask, Sixteen};
-use super::ray::{Hit, Ray};
-use super::triangle::Shear;
-use super::wide::{Block, LEAF, Stack, Waits, Wide, Wide8, leaf};
-use super::wide_best::Best;
-use super::wide_best::GROUP;
-use super::wide_group::{Item, corner, push};
-use super::wide_ray::{self, meet, sheared, splat};
+use super::ray::{self, meet, sheared, splat};
+use super::tree::{Block, LEAF, Stack, Waits, Wide, Wide8, leaf};
+use crate::straight::ray::{Hit, Ray};
+use crate::straight::triangle::Shear;
 
 /// Groups that descend together, 8 × 8 pixels: from one to two castle gains a fifth, from two to four a tenth.
 pub(super) const TOGETHER: usize = 4;
@@ -92,7 +92,7 @@ impl<'a, S: Sixteen> Group<'a, S> {
         let slopes = [self.slopes[0].store()[lane], self.slopes[1].store()[lane], self.slopes[2].store()[lane]];
         let before = Hit { t: self.best.t.store()[lane], triangle: self.best.triangle.store()[lane].to_bits() };
         let mut best = before;
-        wide_ray::block::<L>(block, &Shear { origin: ray.origin, axis, slopes }, ray.until, &mut best);
+        ray::block::<L>(block, &Shear { origin: ray.origin, axis, slopes }, ray.until, &mut best);
         if best == before {
             return false;
         }

@@ -1,10 +1,10 @@
 //! What sixteen rays have met so far, and how a triangle comes to be it.
 
 use super::lanes::{Mask, Sixteen};
-use super::ray::{Hit, Ray};
-use super::triangle::Shear;
-use super::wide::Block;
-use super::wide_ray::Met;
+use super::ray::Met;
+use super::tree::Block;
+use crate::straight::ray::{Hit, Ray};
+use crate::straight::triangle::Shear;
 
 /// Rays that descend together: a look at a node costs the same for all, and 4 × 4 pixels have hardly more in front of them than 4 × 2.
 pub(super) const GROUP: usize = 16;

@@ -19,8 +19,8 @@ use super::collisions::ORDERS;
 use super::layers::{LAYERS, Layer, MARGIN, Pair, TILE, across, sum};
 use super::points::{Eight, LANES, Points, greater, lesser};
 use super::shares::{FINEST, MIDDLE, PLACES, SHARES, SIDE, Shares, WIDTHS, WIDTHS_PER_PIXEL, half_of, integer, nearest};
-use super::sheet::Falls;
 use super::splat::{LEAST_SIGMA, MOST_SIGMA, Picture};
+use crate::aurora::sheet::Falls;
 
 /// One over the least variance of the splats of a layer, pixels of it squared: narrower ones cannot be told by the humps that its pixels
 /// become to some 6 % of their peak.

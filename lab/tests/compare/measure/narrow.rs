@@ -6,8 +6,9 @@ use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::{Picture, Quality};
 use lensrunner::scene::{GameConfig, Scene};
 use lensrunner_lab::compare::command::difference;
-use lensrunner_lab::compare::metrics::{Limits, compare};
-use lensrunner_lab::compare::{Frame, Shown, narrow};
+use lensrunner_lab::compare::measure::metrics::{Limits, compare};
+use lensrunner_lab::compare::measure::narrow;
+use lensrunner_lab::compare::{Frame, Shown};
 
 /// The number of the ball below.
 const BALL: u32 = 197;
@@ -57,7 +58,7 @@ fn a_ray_a_pixel_is_enough_but_where_images_are_narrow() {
     let faults = |again: bool, factor: f32| {
         let mut judge = trace(&case, 1);
         let frame = drawn(&case, &exact, factor);
-        let probe = lensrunner_lab::compare::probe::probe(&case, 1e-9);
+        let probe = lensrunner_lab::compare::measure::probe::probe(&case, 1e-9);
         if again {
             narrow::see_again(&mut judge, &frame, &probe);
         }

@@ -1,0 +1,4 @@
+//! The experiment's drawing on the processor: walks, and pyramids of splats.
+
+mod pyramid;
+mod walk;
