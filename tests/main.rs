@@ -4,6 +4,8 @@
 mod gpu;
 mod house;
 mod judge;
+#[cfg(feature = "game")]
+mod layout;
 mod lensing;
 mod projector;
 #[cfg(feature = "game")]
