@@ -166,6 +166,192 @@ fn box_of(pixel: vec2<f32>, shape: Shape, level: u32) -> vec4<f32> {
     return vec4<f32>(pixel - reach, pixel + reach);
 }
 
+/// Parts of a streak's light that are drawn as one stroke: an evenly bright line with the mean and the variance of them all.
+struct Joined {
+    /// The number of the first part after them, and the height where it begins.
+    next: u32,
+    lower: f32,
+    /// Height of the middle, and half the length, km.
+    height: f32,
+    half_km: f32,
+}
+
+/// Joins the parts from `k` of `count` on, which begin at the height `start`, as long as they extend over less than `most_km`.
+fn join(streak: Streak, fall: f32, k: u32, count: u32, start: f32, most_km: f32) -> Joined {
+    var joined: Joined;
+    joined.next = k;
+    joined.lower = start;
+    // Moments of the joined parts: light, light times height from here, light times its square.
+    var sums = vec3<f32>(0.0);
+    loop {
+        let passed = light_above(joined.next, count, streak.phase);
+        joined.next++;
+        let below = light_above(joined.next, count, streak.phase);
+        let lower = height_of(fall, streak.kind, below);
+        let middle = 0.5 * (joined.lower + lower) - start;
+        let extent = joined.lower - lower;
+        sums += (below - passed) * vec3<f32>(1.0, middle, middle * middle + extent * extent / 12.0);
+        joined.lower = lower;
+        let further = light_above(joined.next + 1u, count, streak.phase);
+        if !(start - height_of(fall, streak.kind, further) < most_km) | (joined.next >= count) {
+            break;
+        }
+    }
+    let mean = sums.y / sums.x;
+    joined.height = start + mean;
+    joined.half_km = sqrt(3.0 * max(sums.z / sums.x - mean * mean, 0.0));
+    return joined;
+}
+
+/// The ends of a stroke, apparent positions, homogeneous; and the share of it that is left, 0 if nothing is seen of it.
+struct Line {
+    high: vec4<f32>,
+    low: vec4<f32>,
+    left: f32,
+}
+
+/// The stroke of joined parts between its ends. What is behind the camera or much nearer than the rest is cut off.
+fn line_of(streak: Streak, joined: Joined, first: u32, count: u32, is_linear: bool) -> Line {
+    var line: Line;
+    line.high = apparent_at(streak.kind, joined.height + joined.half_km, first, count);
+    line.low = apparent_at(streak.kind, joined.height - joined.half_km, first, count);
+    if line.high.w * line.low.w == 0.0 {
+        return line;
+    }
+    // Linear on the screen between top and foot, if the way of Sekiguchi et al. is asked for.
+    let range = height_range(streak.kind);
+    let top = chords[first].apparent;
+    let foot = chords[first + count].apparent;
+    let t = (range.x - joined.height - vec2<f32>(joined.half_km, -joined.half_km)) / (range.x - range.y);
+    let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
+    line.high = vec4<f32>(select(line.high.xy, screen.xy * -line.high.z, is_linear), line.high.zw);
+    line.low = vec4<f32>(select(line.low.xy, screen.zw * -line.low.z, is_linear), line.low.zw);
+    let least = max(frame.projection.z, NEAREST * max(-line.high.z, -line.low.z));
+    if max(-line.high.z, -line.low.z) <= least {
+        return line;
+    }
+    // Homogeneous coordinates are linear between the ends, and so is the light that is left.
+    line.left = 1.0;
+    if -line.high.z < least {
+        let t = (-least - line.high.z) / (line.low.z - line.high.z);
+        line.high = mix(line.high, line.low, t);
+        line.left = 1.0 - t;
+    }
+    if -line.low.z < least {
+        let t = (-least - line.high.z) / (line.low.z - line.high.z);
+        line.low = mix(line.high, line.low, t);
+        line.left *= t;
+    }
+    return line;
+}
+
+/// How a stroke lies on the screen, in pixels.
+struct Seen {
+    /// Its direction, a unit vector, and its length.
+    direction: vec2<f32>,
+    length: f32,
+    /// Covariances of its blur: along it, across it, both.
+    blur: vec3<f32>,
+    /// √det J Jᵀ of the derivative of the projection, J: pixels per km².
+    area: f32,
+    /// Light of the chord there, as a share: what waited, and what was prompt.
+    waited: f32,
+    prompt: f32,
+}
+
+/// The same of a stroke at the height of the joined parts.
+fn seen_of(streak: Streak, joined: Joined, line: Line, first: u32, count: u32, focal: vec2<f32>) -> Seen {
+    let chord = chord_at(streak.kind, joined.height, count);
+    let above = chord_height(streak.kind, chord, count);
+    let per_chord = above - chord_height(streak.kind, chord + 1u, count);
+    let a = chords[first + chord];
+    let b = chords[first + chord + 1u];
+    let c = 0.5 * (line.high.xyz + line.low.xyz);
+    let s = clamp((above - joined.height) / per_chord, 0.0, 1.0);
+    let along = screen_step(c, mix(a.along.xyz, b.along.xyz, s), focal);
+    let across = screen_step(c, mix(a.across.xyz, b.across.xyz, s), focal);
+    let fallen = screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal);
+    // The blur of a point of it, seen through J: J diag(σ²) Jᵀ.
+    let variance = vec3<f32>(streak.spread, aurora.strokes.x * aurora.strokes.x);
+    let x = vec3<f32>(along.x, across.x, fallen.x);
+    let y = vec3<f32>(along.y, across.y, fallen.y);
+    let blur = vec3<f32>(dot(variance, x * x), dot(variance, x * y), dot(variance, y * y)) + vec3<f32>(PIXEL_VARIANCE, 0.0, PIXEL_VARIANCE);
+    // The same along the stroke on the screen and to the left of it.
+    let ends = focal * (line.low.xy / -line.low.z - line.high.xy / -line.high.z);
+    var seen: Seen;
+    seen.length = length(ends);
+    seen.direction = vec2<f32>(1.0, 0.0);
+    if seen.length > 1e-3 {
+        seen.direction = ends / seen.length;
+    }
+    let u = seen.direction;
+    let v = vec2<f32>(-u.y, u.x);
+    let uu = blur.x * u.x * u.x + 2.0 * blur.y * u.x * u.y + blur.z * u.y * u.y;
+    let vv = blur.x * v.x * v.x + 2.0 * blur.y * v.x * v.y + blur.z * v.y * v.y;
+    let uv = blur.x * u.x * v.x + blur.y * (u.x * v.y + u.y * v.x) + blur.z * u.y * v.y;
+    seen.blur = vec3<f32>(uu, vv, uv);
+    seen.area = length(cross(x, y));
+    seen.waited = mix(a.along.w, b.along.w, s);
+    seen.prompt = mix(a.across.w, b.across.w, s);
+    return seen;
+}
+
+/// The level to which a stroke goes: that at which its standard deviation is 0.75 to 1.5 pixels.
+fn level_of(seen: Seen) -> u32 {
+    // The least width of the stroke: the lesser eigenvalue, with the variance of the line.
+    let total = seen.blur.x + seen.length * seen.length / 12.0;
+    let vv = seen.blur.y;
+    let gap = sqrt(0.25 * (total - vv) * (total - vv) + seen.blur.z * seen.blur.z);
+    let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
+    let coarsest = max(u32(aurora.strokes.y), 1u) - 1u;
+    return min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
+}
+
+/// Draws a stroke of an image order with this light, in photons by line. False if there is no room for it.
+fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
+    let c = 0.5 * (line.high.xyz + line.low.xyz);
+    var level = level_of(seen);
+    let clip = clip_position(c);
+    let high_clip = clip_position(line.high.xyz);
+    let low_clip = clip_position(line.low.xyz);
+    let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
+    let depth = clip.z / clip.w;
+    let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
+    var shape = shape_of(level, seen.direction, seen.length, seen.blur);
+    var around = box_of(pixel, shape, level);
+    if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
+        return true;
+    }
+    if level > 0u {
+        let range = depths_in(around);
+        // Behind all that is there (depth is reversed); and what an outline crosses is tested pixel by pixel.
+        if depth < range.x {
+            return true;
+        }
+        if depth < range.y {
+            level = 0u;
+            shape = shape_of(level, seen.direction, seen.length, seen.blur);
+            around = box_of(pixel, shape, level);
+        }
+    }
+    // kR: photons per area across the line of sight. (2.5066 is √2π.)
+    let full = photons * (seen.area / (FILLED * shape.stretch * 2.5066283 * shape.sigma));
+    let light = full * min(1.0, BRIGHTEST / max(max(full.x, full.y), max(full.z, full.w)));
+    if !(light.x + light.y + light.z + light.w > FAINTEST) {
+        return true;
+    }
+    let room = room_of(order, &level);
+    if room == 0xffffffffu {
+        return false;
+    }
+    light_up(order, around, frame.size.xy, level == 0u);
+    let half = shape.half * 2.0 / frame.size.xy;
+    let side = shape.side * 2.0 / frame.size.xy;
+    let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
+    strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, shape.stretch / (2.0 * shape.blurred), halves);
+    return true;
+}
+
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = id.x;
@@ -178,151 +364,42 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     if unseen(streak.spread, first, chord_count) {
         return;
     }
-    let segment = segments[streak.segment];
     // How hard its electrons are, by the flux when those of its middle came down. In rays there are more of them, and harder ones.
     let fall = fall_at(chords[first + chord_count / 2u].along.w);
     let count = min(aurora.counts.z, arrayLength(&strokes));
     // Collisions of 35 eV, in kR km².
-    let collisions = streak.share * segment.light.x;
+    let collisions = streak.share * segments[streak.segment].light.x;
     let focal = frame.projection.xy * 0.5 * frame.size.xy;
-    let range = height_range(streak.kind);
     let top = chords[first].apparent;
     let foot = chords[first + chord_count].apparent;
     let is_linear = (aurora.history.w & AURORA_LINEAR) != 0u;
     if is_linear & ((top.w * foot.w == 0.0) | (max(top.z, foot.z) > -frame.projection.z)) {
         return;
     }
-    var upper = top_of(streak, fall, count);
+    var joined: Joined;
+    joined.lower = top_of(streak, fall, count);
     var made = photons_of(fall, streak.kind, 0.0);
-    // Parts of the light; `k` is the next one. Parts close together on the screen, as seen along the streak, are one stroke.
-    var k = 0u;
-    while k < count {
-        let start = upper;
+    // Parts of the light. Those close together on the screen, as seen along the streak, are one stroke.
+    while joined.next < count {
+        let start = joined.lower;
         // A width holds for its own chord.
         let end = chord_height(streak.kind, chord_at(streak.kind, start, chord_count) + 1u, chord_count);
         let most_km = min(MERGED * width_along(streak, start, first, chord_count, focal), start - end);
-        // Moments of the joined parts: light, light times height from here, light times its square.
-        var sums = vec3<f32>(0.0);
-        loop {
-            let passed = light_above(k, count, streak.phase);
-            k++;
-            let below = light_above(k, count, streak.phase);
-            let lower = height_of(fall, streak.kind, below);
-            let middle = 0.5 * (upper + lower) - start;
-            let extent = upper - lower;
-            sums += (below - passed) * vec3<f32>(1.0, middle, middle * middle + extent * extent / 12.0);
-            upper = lower;
-            if !(start - height_of(fall, streak.kind, light_above(k + 1u, count, streak.phase)) < most_km) | (k >= count) {
-                break;
-            }
-        }
-        // An evenly bright line with the mean and the variance of them all.
-        let mean = sums.y / sums.x;
-        let height = start + mean;
-        let half_km = sqrt(3.0 * max(sums.z / sums.x - mean * mean, 0.0));
-        var high = apparent_at(streak.kind, height + half_km, first, chord_count);
-        var low = apparent_at(streak.kind, height - half_km, first, chord_count);
+        joined = join(streak, fall, joined.next, count, start, most_km);
         let made_before = made;
-        made = photons_of(fall, streak.kind, light_above(k, count, streak.phase));
-        let chord = chord_at(streak.kind, height, chord_count);
-        let above = chord_height(streak.kind, chord, chord_count);
-        let per_chord = above - chord_height(streak.kind, chord + 1u, chord_count);
-        let a = chords[first + chord];
-        let b = chords[first + chord + 1u];
-        if (high.w * low.w == 0.0) | (a.apparent.w * b.apparent.w == 0.0) {
+        made = photons_of(fall, streak.kind, light_above(joined.next, count, streak.phase));
+        let chord = chord_at(streak.kind, joined.height, chord_count);
+        if chords[first + chord].apparent.w * chords[first + chord + 1u].apparent.w == 0.0 {
             continue;
         }
-        // Linear on the screen between top and foot, if the way of Sekiguchi et al. is asked for.
-        let t = (range.x - height - vec2<f32>(half_km, -half_km)) / (range.x - range.y);
-        let screen = vec4<f32>(mix(top.xy / -top.z, foot.xy / -foot.z, t.x), mix(top.xy / -top.z, foot.xy / -foot.z, t.y));
-        high = vec4<f32>(select(high.xy, screen.xy * -high.z, is_linear), high.zw);
-        low = vec4<f32>(select(low.xy, screen.zw * -low.z, is_linear), low.zw);
-        // What is behind the camera or much nearer than the rest is cut off.
-        let least = max(frame.projection.z, NEAREST * max(-high.z, -low.z));
-        if max(-high.z, -low.z) <= least {
+        let line = line_of(streak, joined, first, chord_count, is_linear);
+        if line.left <= 0.0 {
             continue;
         }
-        // Homogeneous coordinates are linear between the ends, and so is the light that is left.
-        var left = 1.0;
-        if -high.z < least {
-            let t = (-least - high.z) / (low.z - high.z);
-            high = mix(high, low, t);
-            left = 1.0 - t;
-        }
-        if -low.z < least {
-            let t = (-least - high.z) / (low.z - high.z);
-            low = mix(high, low, t);
-            left *= t;
-        }
-        let c = 0.5 * (high.xyz + low.xyz);
-        let s = clamp((above - height) / per_chord, 0.0, 1.0);
-        let along = screen_step(c, mix(a.along.xyz, b.along.xyz, s), focal);
-        let across = screen_step(c, mix(a.across.xyz, b.across.xyz, s), focal);
-        let fallen = screen_step(c, (b.apparent.xyz - a.apparent.xyz) / per_chord, focal);
-        // The blur of a point of it, seen through the derivative of the projection, J: J diag(σ²) Jᵀ.
-        let variance = vec3<f32>(streak.spread, aurora.strokes.x * aurora.strokes.x);
-        let x = vec3<f32>(along.x, across.x, fallen.x);
-        let y = vec3<f32>(along.y, across.y, fallen.y);
-        let blur = vec3<f32>(dot(variance, x * x), dot(variance, x * y), dot(variance, y * y)) + vec3<f32>(PIXEL_VARIANCE, 0.0, PIXEL_VARIANCE);
-        // The same along the stroke on the screen and to the left of it.
-        let ends = focal * (low.xy / -low.z - high.xy / -high.z);
-        let seen = length(ends);
-        var u = vec2<f32>(1.0, 0.0);
-        if seen > 1e-3 {
-            u = ends / seen;
-        }
-        let v = vec2<f32>(-u.y, u.x);
-        let uu = blur.x * u.x * u.x + 2.0 * blur.y * u.x * u.y + blur.z * u.y * u.y;
-        let vv = blur.x * v.x * v.x + 2.0 * blur.y * v.x * v.y + blur.z * v.y * v.y;
-        let uv = blur.x * u.x * v.x + blur.y * (u.x * v.y + u.y * v.x) + blur.z * u.y * v.y;
-        // The least width of the stroke: the lesser eigenvalue, with the variance of the line.
-        let total = uu + seen * seen / 12.0;
-        let gap = sqrt(0.25 * (total - vv) * (total - vv) + uv * uv);
-        let minor = sqrt(max(0.5 * (total + vv) - gap, PIXEL_VARIANCE));
-        // The level at which its standard deviation is 0.75 to 1.5 pixels.
-        let coarsest = max(u32(aurora.strokes.y), 1u) - 1u;
-        var level = min(u32(max(log2(2.0 * minor / NARROW), 0.0)), coarsest);
-        let clip = clip_position(c);
-        let high_clip = clip_position(high.xyz);
-        let low_clip = clip_position(low.xyz);
-        let middle = 0.5 * (high_clip.xy / high_clip.w + low_clip.xy / low_clip.w);
-        let depth = clip.z / clip.w;
-        let pixel = (vec2<f32>(0.5, -0.5) * middle + 0.5) * frame.size.xy;
-        var shape = shape_of(level, u, seen, vec3<f32>(uu, vv, uv));
-        var around = box_of(pixel, shape, level);
-        if any(around.zw < vec2<f32>(0.0)) | any(around.xy > frame.size.xy) {
-            continue;
-        }
-        if level > 0u {
-            let range = depths_in(around);
-            // Behind all that is there (depth is reversed); and what an outline crosses is tested pixel by pixel.
-            if depth < range.x {
-                continue;
-            }
-            if depth < range.y {
-                level = 0u;
-                shape = shape_of(level, u, seen, vec3<f32>(uu, vv, uv));
-                around = box_of(pixel, shape, level);
-            }
-        }
-        // kR: photons per area across the line of sight, and √det J Jᵀ is pixels per km². (2.5066 is √2π.)
-        let area = length(cross(x, y));
-        let waited = mix(a.along.w, b.along.w, s);
-        let prompt = mix(a.across.w, b.across.w, s);
-        let photons = (made - made_before) * (left * collisions) * vec4<f32>(waited, prompt, waited, prompt);
-        let full = photons * (area / (FILLED * shape.stretch * 2.5066283 * shape.sigma));
-        let light = full * min(1.0, BRIGHTEST / max(max(full.x, full.y), max(full.z, full.w)));
-        if !(light.x + light.y + light.z + light.w > FAINTEST) {
-            continue;
-        }
-        let room = room_of(id.y, &level);
-        if room == 0xffffffffu {
+        let seen = seen_of(streak, joined, line, first, chord_count, focal);
+        let photons = (made - made_before) * (line.left * collisions) * vec4<f32>(seen.waited, seen.prompt, seen.waited, seen.prompt);
+        if !draw_stroke(id.y, line, seen, photons) {
             return;
         }
-        light_up(id.y, around, frame.size.xy, level == 0u);
-        let half = shape.half * 2.0 / frame.size.xy;
-        let side = shape.side * 2.0 / frame.size.xy;
-        let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
-        strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, shape.stretch / (2.0 * shape.blurred), halves);
     }
 }

@@ -161,35 +161,54 @@ fn between_rays(a: LensRay, b: LensRay, t: f32) -> LensRay {
     return ray;
 }
 
-/// The vertex of `row` there.
-fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
-    let circle = circles[row];
-    let order = circle.rows.x;
-    let n = frame.radial.xyz;
+/// The half plane, bounded by the axis, that contains all rays to a bearing: the same for all radii.
+struct HalfPlane {
+    /// Across the axis, a unit vector; and by how much the bearing's unit vector reaches along it.
+    side: vec3<f32>,
+    reach: f32,
+    /// sin² and cos² of θ/2, free of cancellation.
+    halves: vec2<f32>,
+}
+
+fn half_plane_of(at: Bearing) -> HalfPlane {
     let s = at.sine;
     let c = at.cosine;
-    // sin² and cos² of θ/2, free of cancellation.
     let halves = select(vec2<f32>(0.5 - 0.5 * c, 0.5 * s * s / (1.0 - c)), vec2<f32>(0.5 * s * s / (1.0 + c), 0.5 + 0.5 * c), c > 0.0);
-    let turn = select(1.0, -1.0, order == 2u);
-
-    // The same for all radii: the half plane, bounded by the axis, that contains the ray.
     let up = -disk.towards.w * c;
     let reach = sqrt(up * up + s * s);
-    let side = (disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12);
+    return HalfPlane((disk.upwards.xyz * up + disk.sideways.xyz * s) / max(reach, 1e-12), reach, halves);
+}
 
-    var ray: LensRay;
-    // The ray of this circle if the gap beside it is closed.
-    var in_gap: LensRay;
+/// The rays that a vertex needs.
+struct Rays {
+    /// That of its circle; and that of the circle if the gap beside it is closed.
+    ray: LensRay,
+    in_gap: LensRay,
+    /// Viewing angles. Order 1: of the circle, across its gap, a little aside. Else: of the circle, and where the whole disk begins and ends.
+    psi: vec3<f32>,
+    /// Where the second image begins and ends beside the third: the same ray crosses the plane on the other side of the hole.
+    second: vec2<f32>,
+    valid: bool,
+    /// Whether the third image is behind the second.
+    behind_second: bool,
+}
+
+/// The step aside, away from the axis, where the circle is near it.
+fn step_aside(at: Bearing) -> f32 {
+    return select(-ALONG_STEP, ALONG_STEP, at.cosine > 0.0);
+}
+
+/// Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. A gap has another side, and its slant must be
+/// known: the third point is a little aside. The lookup is called from this one place.
+fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
+    let circle = circles[row];
+    let order = circle.rows.x;
     let gap = circle.place.z;
-    var psi = vec3<f32>(0.0);
-    var valid = true;
-    // Where the second image begins and ends beside the third: the same ray crosses the plane on the other side of the hole.
-    var second = vec2<f32>(0.0);
-    var behind_second = order == 3u;
-    // Away from the axis, where the circle is near it.
-    let step = select(-ALONG_STEP, ALONG_STEP, c > 0.0);
-    // Orders 2 and 3 may be thin: they need to know where the whole disk begins and ends here. A gap has another side, and its slant must
-    // be known: the third point is a little aside. The lookup is called from this one place.
+    let reach = plane.reach;
+    let step = step_aside(at);
+    var rays: Rays;
+    rays.valid = true;
+    rays.behind_second = order == 3u;
     for (var k = 0u; k < select(select(3u, select(1u, 3u, gap > 0.0), order == 1u), 5u, order == 3u); k++) {
         let beside = k == 1u && order == 1u;
         let aside = select(0.0, step, k == 2u && order == 1u);
@@ -197,67 +216,146 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
         let opposite = k > 2u;
         let there = circles[which];
         let r = select(there.gas.x, there.place.y, beside);
-        let ahead = select(c, -c, opposite) * disk.sideways.w;
-        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(halves.x, halves.y, opposite);
+        let ahead = select(at.cosine, -at.cosine, opposite) * disk.sideways.w;
+        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(plane.halves.x, plane.halves.y, opposite);
         let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach), select(order, 2u, opposite));
         let seen = found.valid && found.delay > 0.0;
-        valid = valid && (seen || opposite);
-        behind_second = behind_second && (seen || !opposite);
+        rays.valid = rays.valid && (seen || opposite);
+        rays.behind_second = rays.behind_second && (seen || !opposite);
         let angle_seen = angle(found.sin_psi, found.cos_psi, 1.0);
         if k == 0u {
-            ray = found;
-            psi.x = angle_seen;
+            rays.ray = found;
+            rays.psi.x = angle_seen;
         } else if k == 1u {
-            in_gap = found;
-            psi.y = angle_seen;
+            rays.in_gap = found;
+            rays.psi.y = angle_seen;
         } else if k == 2u {
-            psi.z = angle_seen;
+            rays.psi.z = angle_seen;
         } else if k == 3u {
-            second.x = angle_seen;
+            rays.second.x = angle_seen;
         } else {
-            second.y = angle_seen;
+            rays.second.y = angle_seen;
         }
     }
+    return rays;
+}
+
+/// How far a gap beside a circle of order 1 is open, 0 to 1.
+fn open_gap(row: u32, at: Bearing, plane: HalfPlane, rays: Rays) -> f32 {
+    let circle = circles[row];
+    let gap = circle.place.z;
+    let n = frame.radial.xyz;
+    let ray = rays.ray;
+    let pixel = frame.size.z * pixel_of(n * ray.cos_psi + plane.side * ray.sin_psi, plane.side * ray.cos_psi - n * ray.sin_psi);
+    // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
+    let across = (rays.psi.z - rays.psi.x) / step_aside(at) * disk.sideways.w * at.sine / max(plane.reach, 1e-12);
+    let way = vec2<f32>(across, ray.sin_psi * disk.upwards.w / max(plane.reach * plane.reach, 1e-12));
+    let dark = circle.place.w * abs(rays.psi.x - rays.psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
+    let ring = dark * (1.0 - gap) / gap;
+    return min(smoothstep(SEEN_GAP.x, SEEN_GAP.y, dark), 1.0 - clamp((LEAST_RING - ring) / max(dark, 1e-6), 0.0, 1.0));
+}
+
+/// Where a vertex is seen.
+struct Apparition {
+    /// The direction of the vertex, and that where all of a thin image is seen.
+    at: vec3<f32>,
+    all_at: vec3<f32>,
+    /// Order 1, which is wide: the share of the area with gas, and a great number. Else: the distance from the image's middle and half its
+    /// width, in pixels; their gaps are closed.
+    thin: vec2<f32>,
+    /// For the third image: distance of its middle from that of the second image, and half the width of the second, in pixels.
+    nearer: vec2<f32>,
+}
+
+/// `turn` is −1 where the image is on the other side of the axis; `share` that of the ring's area that has gas.
+fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32, share: f32) -> Apparition {
+    let n = frame.radial.xyz;
+    let ray = rays.ray;
+    let side = plane.side;
+    let seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
+    if order == 1u {
+        return Apparition(seen_at, seen_at, vec2<f32>(share, 1e6), vec2<f32>(0.0, 1e6));
+    }
+    // Pixels by the size of one at this place of the picture.
+    let pixel = frame.size.z * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
+    let half = 0.5 * abs(rays.psi.z - rays.psi.y) / pixel;
+    let middle = 0.5 * (rays.psi.y + rays.psi.z);
+    let d = clamp((rays.psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
+    let nearer = vec2<f32>(middle - 0.5 * (rays.second.x + rays.second.y), 0.5 * abs(rays.second.y - rays.second.x)) / pixel;
+    let moved = middle + d * pixel;
+    let seen_turn = sine_cosine(moved);
+    let all_turn = sine_cosine(middle);
+    return Apparition(n * seen_turn.y + side * (turn * seen_turn.x), n * all_turn.y + side * (turn * all_turn.x), vec2<f32>(d, half), nearer);
+}
+
+/// The seen gas of a vertex.
+struct SeenGas {
+    /// x: ln of the seen temperature in K, y: optical depth along the disk's axis.
+    shown: vec2<f32>,
+    ln_g: f32,
+}
+
+/// Mixes the gas of a circle, `own`, with the mean gas of its image where that is thin. `azimuth` is that from the camera's, `slant` the
+/// way through the disk along the ray over that along its axis.
+fn seen_gas(row: u32, own: SeenGas, slant: f32, azimuth: f32, rays: Rays, seen: Apparition, share: f32) -> SeenGas {
+    let circle = circles[row];
+    let own_part = own_share(seen.thin.y);
+    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
+    let coming = -seen.all_at * rays.ray.frequency;
+    let seen_as = camera_doppler_of(seen.all_at) * rays.ray.frequency;
+    // Software drivers skip a loop without steps, but run through every branch.
+    let is_behind = rays.behind_second && own_share(seen.nearer.y) < 1.0;
+    let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, circle.rows.x == 3u);
+    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, rays.ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
+    let before = select(vec2<f32>(0.0, 1.0), second_before(seen.nearer.x, seen.nearer.y, hiding) * vec2<f32>(share, 1.0), is_behind);
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own_part == 1.0), azimuth, coming, rays.ray.frequency, seen_as, share, before);
+    var gas = own;
+    if own_part < 1.0 {
+        let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(own.shown.x, own.shown.y * slant), own_part);
+        gas.shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
+        gas.ln_g = mix(mean.z, own.ln_g, own_part);
+    }
+    return gas;
+}
+
+/// How streaks change the light of a vertex: `bend` of a circle, of which a thin image shows the share `own`.
+fn bend_of(row: u32, at: Bearing, azimuth: f32, own: f32) -> vec4<f32> {
+    let place = among_azimuths(azimuth);
+    let first_bend = row * THIN_AZIMUTHS + u32(place.x);
+    // What a thin image shows of all of its gas is the same everywhere in it.
+    let bend = mix(bends[first_bend], bends[first_bend + 1u], vec4<f32>(place.y));
+    // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
+    let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
+    let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, at.sine < 0.0) * apart * (bend.y - bend.w);
+    return vec4<f32>(bend.x, own * brighter, own * bend.z, f32((row - circles[row].rows.y) & 1u));
+}
+
+/// The vertex of `row` there.
+fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
+    let circle = circles[row];
+    let order = circle.rows.x;
+    let n = frame.radial.xyz;
+    let s = at.sine;
+    let c = at.cosine;
+    let turn = select(1.0, -1.0, order == 2u);
+    let plane = half_plane_of(at);
+    var rays = rays_of(row, at, plane);
 
     // Share of the ring's area that has gas: less, by as much as it has grown over its gaps.
+    let gap = circle.place.z;
     var share = 1.0 - gap;
     if gap > 0.0 && order == 1u {
-        let pixel = frame.size.z * pixel_of(n * ray.cos_psi + side * ray.sin_psi, side * ray.cos_psi - n * ray.sin_psi);
-        // Across the circle, from its direction on the screen: towards the axis and round it per radian of θ.
-        let way = vec2<f32>((psi.z - psi.x) / step * disk.sideways.w * s / max(reach, 1e-12), ray.sin_psi * disk.upwards.w / max(reach * reach, 1e-12));
-        let dark = circle.place.w * abs(psi.x - psi.y) * abs(way.y) / max(length(way), 1e-12) / pixel;
-        let ring = dark * share / gap;
-        let open = min(smoothstep(SEEN_GAP.x, SEEN_GAP.y, dark), 1.0 - clamp((LEAST_RING - ring) / max(dark, 1e-6), 0.0, 1.0));
+        let open = open_gap(row, at, plane, rays);
         share /= 1.0 - open * gap;
-        ray = between_rays(in_gap, ray, open);
+        rays.ray = between_rays(rays.in_gap, rays.ray, open);
     }
-
-    var seen_at = n * ray.cos_psi + side * (turn * ray.sin_psi);
-    // For order 1, which is wide, the share of the area with gas; in the others, whose gaps are closed, it is the same everywhere.
-    var thin = vec2<f32>(share, 1e6);
-    // Where all of a thin image is seen.
-    var all_at = seen_at;
-    // For the third image: distance of its middle from that of the second image, and half the width of the second, in pixels.
-    var nearer = vec2<f32>(0.0, 1e6);
-    if order > 1u {
-        // Pixels by the size of one at this place of the picture.
-        let pixel = frame.size.z * pixel_of(seen_at, side * (turn * ray.cos_psi) - n * ray.sin_psi);
-        let half = 0.5 * abs(psi.z - psi.y) / pixel;
-        let middle = 0.5 * (psi.y + psi.z);
-        let d = clamp((psi.x - middle) / (pixel * max(half, 1e-4)), -1.0, 1.0) * drawn_half(half);
-        thin = vec2<f32>(d, half);
-        nearer = vec2<f32>(middle - 0.5 * (second.x + second.y), 0.5 * abs(second.y - second.x)) / pixel;
-        let moved = middle + d * pixel;
-        let seen_turn = sine_cosine(moved);
-        let all_turn = sine_cosine(middle);
-        seen_at = n * seen_turn.y + side * (turn * seen_turn.x);
-        all_at = n * all_turn.y + side * (turn * all_turn.x);
-    }
+    let ray = rays.ray;
+    let seen = apparition_of(order, plane, rays, turn, share);
 
     var vertex: DiskVertex;
-    let apparent = (frame.camera_from_rain * vec4<f32>(seen_at * ray.delay, -ray.delay)).xyz;
-    if !valid || !finite_vector(apparent) {
-        if valid {
+    let apparent = (frame.camera_from_rain * vec4<f32>(seen.at * ray.delay, -ray.delay)).xyz;
+    if !rays.valid || !finite_vector(apparent) {
+        if rays.valid {
             atomicAdd(&disk_counters.caught, 1u);
         }
         vertex.apparent = vec4<f32>(0.0);
@@ -268,48 +366,25 @@ fn disk_vertex(row: u32, at: Bearing) -> DiskVertex {
     // The photon and the gas at the point, rain axes.
     let outward = disk.towards.xyz * c + disk.sideways.xyz * s;
     let along_orbit = disk.sideways.xyz * c - disk.towards.xyz * s;
-    let tangent = (side * (c * disk.sideways.w) - n * reach) * turn;
+    let tangent = (plane.side * (c * disk.sideways.w) - n * plane.reach) * turn;
     let leaving = outward * ray.emission_radial - tangent * ray.emission_tangential;
     let momentum = outward * circle.motion.x + along_orbit * circle.motion.y;
     let gamma = sqrt(1.0 + dot(momentum, momentum));
     let emitted = max(gamma * ray.emission_frequency - dot(momentum, leaving), 1e-9);
-    let arriving = -seen_at * ray.frequency;
-    let observed = camera_doppler_of(seen_at) * ray.frequency;
+    let observed = camera_doppler_of(seen.at) * ray.frequency;
     let g = clamp(observed / emitted, 1e-3, 1e3);
     let cosine = abs(dot(leaving, disk_normal())) / emitted;
 
-    var ln_g = log(g);
     let turns = (at.theta + cuts_origin() - circle.gas.y) / (2.0 * HALF_TURN);
     let slant = disk_slant(cosine, ray.delay, circle.motion.z);
-    var shown = vec2<f32>(circle.gas.z + ln_g, circle.gas.w);
-    let own = own_share(thin.y);
-    let shifts = (frame.switches.x & FLAG_DOPPLER) != 0u;
     let azimuth = angle(abs(s), c, 1.0);
-    let coming = -all_at * ray.frequency;
-    let seen_as = camera_doppler_of(all_at) * ray.frequency;
-    // Software drivers skip a loop without steps, but run through every branch.
-    let is_behind = behind_second && own_share(nearer.y) < 1.0;
-    let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, order == 3u);
-    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
-    let before = select(vec2<f32>(0.0, 1.0), second_before(nearer.x, nearer.y, hiding) * vec2<f32>(share, 1.0), is_behind);
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own == 1.0), azimuth, coming, ray.frequency, seen_as, share, before);
-    if own < 1.0 {
-        let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(shown.x, shown.y * slant), own);
-        shown = vec2<f32>(along.x, along.y / max(slant, 1e-6));
-        ln_g = mix(mean.z, ln_g, own);
-    }
+    let own = SeenGas(vec2<f32>(circle.gas.z + log(g), circle.gas.w), log(g));
+    let gas = seen_gas(row, own, slant, azimuth, rays, seen, share);
     // From near, the slant is computed in each pixel.
     let along_ray = select(slant, 1.0, order <= disk.room.y);
-    vertex.gas = vec4<f32>(turns, circle.motion.w, shown.x, shown.y * along_ray);
-    vertex.more = vec4<f32>(ln_g, cosine, thin);
-    let place = among_azimuths(azimuth);
-    let first_bend = row * THIN_AZIMUTHS + u32(place.x);
-    // What a thin image shows of all of its gas is the same everywhere in it.
-    let bend = mix(bends[first_bend], bends[first_bend + 1u], vec4<f32>(place.y));
-    // Where θ changes its sign both sides have the same light: they meet before the first azimuth and beyond the last.
-    let apart = min(min(azimuth / FIRST_AZIMUTH, (HALF_TURN - azimuth) / FROM_LAST_AZIMUTH), 1.0);
-    let brighter = 0.5 * (bend.y + bend.w) + select(0.5, -0.5, s < 0.0) * apart * (bend.y - bend.w);
-    vertex.bend = vec4<f32>(bend.x, own * brighter, own * bend.z, f32((row - circle.rows.y) & 1u));
+    vertex.gas = vec4<f32>(turns, circle.motion.w, gas.shown.x, gas.shown.y * along_ray);
+    vertex.more = vec4<f32>(gas.ln_g, cosine, seen.thin);
+    vertex.bend = bend_of(row, at, azimuth, own_share(seen.thin.y));
     return vertex;
 }
 
