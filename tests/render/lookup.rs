@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 
 use glam::{DMat3, DQuat, DVec3};
 use lensrunner::judge::shoot;
-use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, bake};
+use lensrunner::lensing::{Scheme, Slice, bake};
 use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
@@ -24,6 +24,7 @@ use lensrunner::spacetime::light::{self, Branch, Order};
 use lensrunner::spacetime::matter::{ShipState, gamma, step};
 
 use crate::gpu::GPU;
+use crate::support::shared_table;
 
 /// One for all: most of a renderer's time here is the compiling of its passes.
 static BENCH: LazyLock<Mutex<Bench>> = LazyLock::new(|| Mutex::new(Bench::new([64, 36])));
@@ -42,11 +43,7 @@ pub struct Bench {
 
 impl Bench {
     pub fn new(size: [u32; 2]) -> Bench {
-        let surroundings = Surroundings {
-            table: Arc::new(bake(Scheme::Residual, SMALL_NODES, |_| ())),
-            stars: Vec::new(),
-            milky_way: vec![(1, 1, vec![0.0])],
-        };
+        let surroundings = Surroundings { table: shared_table(), stars: Vec::new(), milky_way: vec![(1, 1, vec![0.0])] };
         let mut renderer = Renderer::new(&GPU, &surroundings, wgpu::TextureFormat::Rgba8UnormSrgb, size);
         let ball = shapes::icosphere(80, Material::default());
         let model = renderer.add_model(&ball);

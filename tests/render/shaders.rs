@@ -1,7 +1,7 @@
 //! Shaders: each pass is valid WGSL, and what is written in both languages agrees when the shipped shader runs.
 
+use lensrunner::lensing::Slice;
 use lensrunner::lensing::lookup::{OLD, YOUNG, lens_lookup_aged};
-use lensrunner::lensing::{SMALL_NODES, Scheme, Slice, Table, bake};
 use lensrunner::render::gpu::layout::module_of;
 use lensrunner::render::gpu::shaders::Pass;
 use lensrunner::render::method::Method;
@@ -9,13 +9,11 @@ use lensrunner::render::sky::table::{sky_seen, sky_swept, sky_table};
 use lensrunner::scene::sky::milky_way;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use std::sync::LazyLock;
 
+use crate::support::table;
 use crate::twin::run;
 
 use crate::gpu::GPU;
-
-static TABLE: LazyLock<Table> = LazyLock::new(|| bake(Scheme::Residual, SMALL_NODES, |_| ()));
 
 /// f32 sums in another order, and a driver's sin, log and exp, differ by a few units in the last place; near turning points that grows.
 fn close(got: f32, want: f32, relative: f32) -> bool {
@@ -60,7 +58,7 @@ fn the_lookup_is_the_same_in_both_languages() {
     twin_out[2u * id.x + 1u] = vec4<f32>(ray.emission_radial, ray.emission_tangential, ray.emission_frequency, f32(ray.valid));";
     let mut random = StdRng::seed_from_u64(1);
     for l in [0.3f64, 1.02, 1.5, 6.0, 40.0, 900.0] {
-        let slice = Slice::new(&TABLE, l);
+        let slice = Slice::new(table(), l);
         let rows: Vec<[f32; 4]> = (0..3000)
             .map(|i| {
                 // Half of the points of a camera inside are inside too, where the age of light decides which of two rays it is.
