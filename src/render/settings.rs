@@ -78,7 +78,7 @@ impl Default for Settings {
             method: Method::Table,
             light_delay: true,
             halvings: 13,
-            vertex_budget: 600_000,
+            vertex_budget: 1_200_000,
             min_width: 1.0,
             thin_below: 1.0,
             coarse_below: 0.0,

@@ -118,7 +118,7 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
         }
         // Near the hole, relative to the object's size, an image is stretched round the ring and shows more detail than its width tells.
         let model = if object.reach < 0.1 * position.length() { object.model_for(width, settings) } else { object.model };
-        set_strictness(&mut instance, view, width, order, model);
+        set_strictness(&mut instance, view, width, order);
         let longer = drawn_out(camera, &instance, position, order, age);
         instance.bounds = view.bounds(&extent, position, object.reach, longer, order, age);
         Some(Placed { model, instance })
@@ -133,14 +133,13 @@ pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec
 }
 
 /// Says how strictly the chords of an image `width` pixels wide are held to their curves, and whether it is a thin or a narrow one.
-fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order, model: ModelRange) {
+fn set_strictness(instance: &mut Instance, view: &View, width: f64, order: Order) {
     if width < view.settings.thin_below && view.settings.min_width > 0.0 {
         instance.triangles[3] |= THIN;
         instance.axis[3] = THIN_STRICTNESS;
     } else {
         instance.triangles[3] |= if width < NARROW_BELOW && order.number() > 1 { NARROW } else { 0 };
-        let most = if model.triangles[1] < FINE_MODEL { MOST_SLIM } else { MOST_SLIM_FINE };
-        instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, most) as f32;
+        instance.axis[3] = (SLIM_BELOW / width).clamp(1.0, MOST_SLIM) as f32;
     }
     if NEAR_PHOTON_SPHERE.contains(&view.camera.radius()) {
         instance.axis[3] *= PHOTON_SPHERE_STRICTNESS;
@@ -164,19 +163,15 @@ const THIN_STRICTNESS: f32 = 4.0;
 /// Images narrower than this, in pixels, are slim ones. The narrower they are, the closer their chords are held, since all of them are near
 /// an outline. The width is the largest; a ring is a tenth as wide elsewhere.
 const SLIM_BELOW: f64 = 16.0;
-/// Largest strictness of slim images.
-const MOST_SLIM: f64 = 4.0;
+/// Largest strictness of slim images. With 8, half as many random scenes of rings 1 to 3 px wide were beyond the limits as with 4 and less
+/// (seed 2026112503: 9 of 19). Narrower ones would take more vertices than there is room for.
+const MOST_SLIM: f64 = 8.0;
 /// Camera radii, in r_s, from which light that circles the hole is seen beside what lies behind it. Images there are sheared, and their
 /// inner points are off by more than the chords around them.
 const NEAR_PHOTON_SPHERE: std::ops::RangeInclusive<f64> = 1.3..=1.8;
 /// Strictness there. With a budget of 0.3 px instead of 0.5 px, points of balls behind the hole were within half a pixel; with 0.5 px up to
 /// 0.59 px off.
 const PHOTON_SPHERE_STRICTNESS: f32 = 1.7;
-/// Models with so many triangles have short edges, which sag less. Held as close as others, ships behind the hole filled the buffers.
-const FINE_MODEL: u32 = 2000;
-/// Largest strictness of slim images of such models.
-const MOST_SLIM_FINE: f64 = 2.0;
-
 fn row(v: DVec3, w: f64) -> [f32; 4] {
     [v.x as f32, v.y as f32, v.z as f32, w as f32]
 }
