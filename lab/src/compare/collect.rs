@@ -40,7 +40,7 @@ pub const COLUMNS: [&str; 23] = [
 
 /// When scenes that move are looked at, besides T = 0: in the chase the ships turn and thrust; in the plunge the camera nears the horizon
 /// (1.2) and is inside (1.5).
-const LATER: [(&str, &[f64]); 2] = [("chase", &[5.0, 20.0, 25.0]), ("plunge", &[1.2, 1.5])];
+pub const LATER: [(&str, &[f64]); 2] = [("chase", &[5.0, 20.0, 25.0]), ("plunge", &[1.2, 1.5])];
 
 /// The scenes that the project comes with, each with the times T (r_s/c) at which it is judged.
 pub fn moments() -> Vec<(String, f64)> {
