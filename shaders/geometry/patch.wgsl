@@ -84,6 +84,13 @@ fn turn_about_axis(a: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
     return select(0.0, turn, axis_matters(a.z, order) || axis_matters(b.z, order));
 }
 
+/// The same for an edge of which three points between its ends are known. The edge of a moving body is curved: one that passes close by the
+/// axis may swing round it although both its ends are seen on the same side.
+fn turn_along(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>, order: u32) -> f32 {
+    return max(turn_about_axis(a, b, order), turn_about_axis(a, quarter, order) + turn_about_axis(quarter, middle, order)
+        + turn_about_axis(middle, three_quarters, order) + turn_about_axis(three_quarters, b, order));
+}
+
 /// Whether three positions by the axis are so near to it that f32 tells nothing of their azimuths. Nothing is visible between them.
 fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
@@ -120,10 +127,12 @@ fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
     return select(max(CORE_ROUNDINGS * instance.axis.z, 0.1 * pixel / frame.size.x), instance.axis.z, is_thin(instance));
 }
 
-/// The most segments that an edge needs between two positions by the axis, where a pixel spans `pixel`, in r_s. Within a fiftieth of a
-/// pixel of the axis f32 does not tell azimuths, and all that is visible is that the ring is whole.
+/// Within this share of a pixel of the axis all that is visible is that the ring is whole.
+const AXIS_SHARE: f32 = 0.02;
+
+/// The most segments that an edge needs between two positions by the axis, where a pixel spans `pixel`, in r_s.
 fn most_segments(instance: Instance, a: vec3<f32>, b: vec3<f32>, pixel: f32) -> u32 {
-    let core = max(length(a.xy), length(b.xy)) < 0.02 * pixel && axis_matters(a.z, instance.ids.x);
+    let core = max(length(a.xy), length(b.xy)) < AXIS_SHARE * pixel && axis_matters(a.z, instance.ids.x);
     return select(0xffffu, BLOCK, core);
 }
 

@@ -6,9 +6,9 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
-    angle_between, ARC_SHARE, axis_matters, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, halfway, is_lost,
+    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, halfway, is_lost,
     level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments, most_turn, MUST_SPLIT, part_between, plane_normal,
-    query_fan, ring_strictness, strictness, turn_about_axis, uneven_sag,
+    query_fan, ring_strictness, strictness, turn_along, uneven_sag,
 }
 #import lensrunner::geometry::project::{answer, leaving_direction, query_body}
 #import lensrunner::gpu::bindings::frame
@@ -92,7 +92,11 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
     result.level = min(result.level, most_segments(instance, by_axis[i], by_axis[j], pixel));
-    result.turn = turn_about_axis(by_axis[i], by_axis[j], instance.ids.x);
+    // The points between the ends, in the order of i and j.
+    let k = 4u + 3u * side;
+    let swapped = i != (side + 1u) % 3u;
+    let first = select(k - 1u, k + 1u, swapped);
+    result.turn = turn_along(by_axis[i], by_axis[first], by_axis[k], by_axis[2u * k - first], by_axis[j], instance.ids.x);
     let sag = uneven_sag(by_axis[i], by_axis[j], result.level, result.turn, angle_between(points[i], points[j]));
     if result.turn > most_turn(instance) || level_for(sag * fineness * strict * closer, 1.0) > 1u {
         result.error = MUST_SPLIT;
@@ -253,6 +257,12 @@ fn met(piece: Piece, order: u32) -> vec3<f32> {
     return result;
 }
 
+/// At the deepest splitting a piece may still turn too much about the axis: near it rounding decides on azimuths. Its chords would run across
+/// the ring, so it is left out. This is whether that may be seen: `farthest` is the largest distance of its corners from the axis, in r_s.
+fn reaches_out(farthest: f32) -> bool {
+    return farthest > AXIS_SHARE * frame.size.z / pixel_fineness(points[1], points[2]) * length(points[1]);
+}
+
 fn refine_triangle(piece: Piece, instance: Instance) {
     let c0 = piece.corner_a.xyz;
     let c1 = piece.corner_b.xyz;
@@ -293,7 +303,11 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(instance);
     if most <= BLOCK || depth >= DEEPEST || sliver {
         if most > BLOCK && !sliver {
-            atomicAdd(&counters.coarse, 1u);
+            let far = reaches_out(max(length(by_axis[0].xy), max(length(by_axis[1].xy), length(by_axis[2].xy))));
+            atomicAdd(&counters.coarse, select(0u, 1u, far));
+            if turned > most_turn(instance) {
+                return;
+            }
         }
         emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), instance);
         return;
@@ -335,6 +349,9 @@ fn refine_triangle(piece: Piece, instance: Instance) {
 fn refine_fan(piece: Piece, instance: Instance) {
     let c1 = piece.corner_b.xyz;
     let c2 = piece.corner_c.xyz;
+    if is_lost(instance, by_axis[1], by_axis[2], by_axis[2]) {
+        return;
+    }
     let side = side_of(piece, 0u, instance);
     let outer = side.level;
     let depth = piece.what.w;
@@ -342,6 +359,10 @@ fn refine_fan(piece: Piece, instance: Instance) {
         let m = side.middle;
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, c1, m);
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, m, c2);
+        return;
+    }
+    if side.turn > most_turn(instance) {
+        atomicAdd(&counters.coarse, select(0u, 1u, reaches_out(max(length(by_axis[1].xy), length(by_axis[2].xy)))));
         return;
     }
     let fineness = pixel_fineness(points[1], points[2]);

@@ -104,7 +104,11 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
     let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
     let settings = Settings { own_ship, ..settings(config) };
     let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
-    Ok(renderer.picture(&frame, request.layers)?)
+    let picture = renderer.picture(&frame, request.layers)?;
+    if let Some(complaint) = renderer.counters()?.complaint() {
+        warn!("the picture is not complete: {complaint}");
+    }
+    Ok(picture)
 }
 
 /// Draws the picture into a file, with the configuration of `config`.
