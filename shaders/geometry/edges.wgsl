@@ -8,7 +8,7 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::patch::{
     angle_between, axis_core, axis_matters, BLOCK, chord_error, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT, offset_of,
-    on_limb, query_fan, ring_strictness, slimness, strictness, turn_about_axis, uneven_sag,
+    on_limb, query_fan, ring_strictness, ring_tangent, slack_of, slimness, strictness, turn_about_axis, uneven_sag,
 }
 #import lensrunner::geometry::project::{answer, query_body}
 #import lensrunner::gpu::bindings::frame
@@ -70,7 +70,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     let nearest = min(length(a.xy), length(b.xy));
     let fineness = pixel_fineness(from_apparent, to_apparent);
     let pixel = frame.size.z / fineness;
-    let closer = fineness * max(select(1.0, limb_strictness(instance), limb), ring_strictness(nearest, pixel * length(from_apparent), a.z, order));
+    let closer = fineness * max(select(1.0, limb_strictness(instance), limb), ring_strictness(instance, nearest, pixel * length(from_apparent), a.z));
     let least_radius = min(frame.radial.w, seen[instance.ids.z + edge.x].leaving.w);
     let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
     let quarter = 0.25 * frame.size.w / (closer * slimness(instance));
@@ -82,6 +82,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);
         let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);
         var points = array<vec3<f32>, 5>(from_apparent, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), to_apparent);
+        var tangent = vec3<f32>(0.0);
         for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
             let t = f32(k) * 0.25;
             var query = query_body(p + (q - p) * t);
@@ -90,10 +91,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
             }
             let found = answer(instance, query, order).ray;
             points[k] = found.apparent;
+            if k == 2u && !radial { tangent = ring_tangent(found); }
             whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
         }
         // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.
-        error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4]), whole);
+        let slack = slack_of(instance, tangent, nearest, a.z);
+        error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4], slack), whole);
     }
     var level = level_for(error * strictness(instance) * closer, 1.0);
     level = min(level, most_segments(instance, a.xyz, b.xyz, pixel * length(from_apparent)));

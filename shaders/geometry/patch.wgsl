@@ -5,10 +5,10 @@
 #import lensrunner::chosen::held::held_momentum
 #import lensrunner::geometry::bindings::model_vertices
 #import lensrunner::geometry::clip::pixel_fineness
-#import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards}
+#import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{
-    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_OPEN, two_sided,
+    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE, SIDE_OPEN, two_sided,
 }
 #import lensrunner::instances::instance::shaped
 
@@ -195,10 +195,11 @@ fn limb_strictness(instance: Instance) -> f32 {
 }
 
 /// Factor for edges beside the axis: there the image of the order ends, and a chord that bulges farther than its distance from the ring
-/// shows surface beyond it. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there, both in r_s.
-fn ring_strictness(nearest: f32, pixel: f32, along: f32, order: u32) -> f32 {
+/// shows surface beyond it. What slim images are held closer anyway counts. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there, both in r_s.
+fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
-    return select(1.0, clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS), axis_matters(along, order));
+    let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);
+    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.ids.x));
 }
 
 /// If light leaves a triangle under a sine below this, it may be seen edge on somewhere: so far a ship may turn while light crosses it.
@@ -225,17 +226,57 @@ fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b:
 /// or, if that is more, four times the greatest angle between one of these points and the chord of its two neighbours. Halving an evenly
 /// bent curve divides the error by four. So the second term makes equal segments, which `level_for` counts, short enough for the part that
 /// bends most.
-fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>) -> f32 {
-    let whole = max(slant(middle, a + b), max(slant(quarter, a * 3.0 + b), slant(three_quarters, a + b * 3.0)));
-    let part = max(slant(middle, quarter + three_quarters), max(slant(quarter, a + middle), slant(three_quarters, middle + b)));
+///
+/// What rounding may displace (`Slack`) is no error: it does not become less by halving, and nobody sees it.
+fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
+    let whole = max(slant(middle, a + b, slack), max(slant(quarter, a * 3.0 + b, slack), slant(three_quarters, a + b * 3.0, slack)));
+    let part = max(slant(middle, quarter + three_quarters, slack), max(slant(quarter, a + middle, slack), slant(three_quarters, middle + b, slack)));
     return atan(max(sqrt(whole), 4.0 * sqrt(part)));
 }
 
-/// The square of the tangent of the angle between two directions; from a right angle on, as good as infinite.
-fn slant(a: vec3<f32>, b: vec3<f32>) -> f32 {
-    let across = cross(a, b);
-    let along = dot(a, b);
-    return select(1e12, min(dot(across, across) / (along * along), 1e12), along > 0.0);
+/// How far rounding may displace a point along its ring: a point beside the axis is seen at an azimuth that has the error of its place over
+/// its distance from the axis.
+struct Slack {
+    /// Unit vector along the ring, camera axes; 0 if the image does not end at the axis.
+    along: vec3<f32>,
+    /// Radians.
+    most: f32,
+}
+
+/// No slack.
+fn exact() -> Slack {
+    return Slack(vec3<f32>(0.0), 0.0);
+}
+
+/// How what is seen by `ray` moves for a turn about the axis: along its ring, by the ring's radius. Radians, camera axes.
+fn ring_tangent(ray: Sight) -> vec3<f32> {
+    let seen_at = -ray.arriving.xyz / ray.arriving.w;
+    // The light's null vector (seen_at, −1) and its change for a turn about the axis, both in camera axes.
+    let light = ray.apparent / ray.delay;
+    let turned = (frame.camera_from_rain * vec4<f32>(cross(frame.radial.xyz, seen_at), 0.0)).xyz;
+    return (turned - light * (dot(light, turned) / dot(light, light))) * inverseSqrt(dot(light, light));
+}
+
+/// The slack of an edge in whose middle the ring has this tangent. Its nearest end is `nearest` (r_s) from the axis, and `along` as in
+/// `axis_matters`.
+fn slack_of(instance: Instance, tangent: vec3<f32>, nearest: f32, along: f32) -> Slack {
+    let radius = length(tangent);
+    if !axis_matters(along, instance.ids.x) || !(radius > 1e-6) {
+        return exact();
+    }
+    // Two points may be displaced against each other by twice that.
+    return Slack(tangent / radius, 2.0 * radius * instance.axis.z / max(nearest, instance.axis.z));
+}
+
+/// The square of the tangent of the angle between two directions, less what is slack; from a right angle on, as good as infinite.
+fn slant(a: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
+    let cosine = dot(a, b);
+    let beside = cross(a, b);
+    let square = min(dot(beside, beside) / (cosine * cosine), 1e12);
+    let along = dot(a, slack.along) * dot(b, b) / cosine - dot(b, slack.along);
+    let length_along = abs(along) * inverseSqrt(dot(b, b));
+    let counted = max(length_along - slack.most, 0.0);
+    return select(1e12, max(square - length_along * length_along, 0.0) + counted * counted, cosine > 0.0);
 }
 
 /// The body point of barycentric coordinates in a model triangle. The fused products are written out, in this order: a driver that fuses as
@@ -252,6 +293,23 @@ fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) ->
 fn outward_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
     return plane_normal(instance, triangle, offset) * select(sign, 0.0, triangle.vertices.w == SIDE_OPEN || two_sided(instance));
+}
+
+/// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of
+/// light vary about as much as among them; this is for what a turning body and curvature add.
+const TURNED_AWAY: f32 = 0.05;
+/// Nearer to the horizon than this radius, in r_s, nothing is left out: static observers there see the body stretched without bound.
+const LEAST_RADIUS_TURNED: f32 = 1.05;
+
+/// Whether all light that a piece of a closed body's triangle sends to the camera leaves on its inner side, so that the body itself hides
+/// it. l0, l1, l2: the directions in which light leaves its corners, rest frame, w: their radii.
+fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l0: vec4<f32>, l1: vec4<f32>, l2: vec4<f32>) -> bool {
+    let n = outward_normal(instance, triangle, offset);
+    let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
+    let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
+    // The crack between two bodies that abut is a small part of a pixel in a slim image.
+    let closed = (triangle.vertices.w & SIDE_LONE) != 0u || slimness(instance) > 1.0;
+    return closed && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED && most < -(TURNED_AWAY + spread);
 }
 
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.

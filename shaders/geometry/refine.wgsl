@@ -6,9 +6,9 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
-    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, halfway, is_lost,
+    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, exact, halfway, is_lost,
     level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments, most_turn, MUST_SPLIT, part_between, plane_normal,
-    query_fan, ring_strictness, strictness, turn_along, uneven_sag,
+    query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along, turned_away, uneven_sag,
 }
 #import lensrunner::geometry::project::{answer, leaving_direction, query_body}
 #import lensrunner::gpu::bindings::frame
@@ -39,7 +39,9 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     } else if piece.what.z == PIECE_FAN {
         refine_fan(piece, instance);
     } else {
-        refine_triangle(piece, instance);
+        // Beside the axis light of one triangle leaves in all directions of a cone, and a part of the triangle may be turned away.
+        let away = turned_away(instance, triangle, instance.offset.xyz, leaving[0], leaving[1], leaving[2]);
+        if !away { refine_triangle(piece, instance); }
     }
     hand_over(1u - queue);
 }
@@ -49,6 +51,10 @@ var<private> points: array<vec3<f32>, 17>;
 var<private> by_axis: array<vec3<f32>, 12>;
 /// Sines of the angles to the triangle under which light leaves it at the corners.
 var<private> rising: vec3<f32>;
+/// `ring_tangent` in the middles of the sides opposite corners 0, 1, 2; of a fan only the first.
+var<private> tangents: array<vec3<f32>, 3>;
+/// Directions in which light leaves the corners, rest frame; w: their radii.
+var<private> leaving: array<vec4<f32>, 3>;
 /// Whether one of the points is not seen.
 var<private> unseen: bool;
 
@@ -81,13 +87,13 @@ fn side_of(piece: Piece, side: u32, instance: Instance) -> Side {
     let half = halfway(by_axis[i].xy, by_axis[j].xy);
     var result: Side;
     result.middle = corners[i] + (corners[j] - corners[i]) * half;
-    result.error = side_error(side);
     // Beside the axis a small part of an edge may have a large part of the image.
     let part = select(1.0, part_between(corners[i], corners[j]), half == 0.5);
     let nearest = min(length(by_axis[i].xy), length(by_axis[j].xy));
+    result.error = side_error(side, slack_of(instance, tangents[side], nearest, by_axis[i].z));
     let fineness = pixel_fineness(points[i], points[j]);
     let pixel = frame.size.z / fineness * length(points[i]);
-    let closer = ring_strictness(nearest, pixel, by_axis[i].z, instance.ids.x);
+    let closer = ring_strictness(instance, nearest, pixel, by_axis[i].z);
     // If light grazes a triangle, its image may fold inside it.
     let grazed = min(rising[i], rising[j]) < LIMB_SINE && max(rising[i], rising[j]) > -LIMB_SINE;
     result.level = level_between(corners[i], corners[j], result.error * fineness, closer, grazed, part);
@@ -149,7 +155,11 @@ fn measure(piece: Piece, instance: Instance, triangle: ModelTriangle) {
         points[k] = found.ray.apparent;
         unseen = unseen || !found.ray.valid;
         if k < 3u {
-            rising[k] = dot(normal, leaving_direction(found.ray.leaving, momentum_at(instance, found.position)));
+            leaving[k] = vec4<f32>(leaving_direction(found.ray.leaving, momentum_at(instance, found.position)), length(found.position));
+            rising[k] = dot(normal, leaving[k].xyz);
+        }
+        if k == 4u || k == 7u || k == 10u {
+            tangents[(k - 4u) / 3u] = ring_tangent(found.ray);
         }
         if k < 12u {
             by_axis[k] = found.by_axis;
@@ -163,9 +173,9 @@ fn quarter_point(a: vec3<f32>, b: vec3<f32>, k: u32) -> vec3<f32> {
 }
 
 /// Error of the edge opposite corner `side` of a measured triangle.
-fn side_error(side: u32) -> f32 {
+fn side_error(side: u32, slack: Slack) -> f32 {
     let k = 3u + 3u * side;
-    return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u]);
+    return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u], slack);
 }
 
 /// Hands a triangle with these numbers of segments to the mesh stage: as a grid, or as a strip if its image is narrow, which takes a third
@@ -366,9 +376,9 @@ fn refine_fan(piece: Piece, instance: Instance) {
         return;
     }
     let fineness = pixel_fineness(points[1], points[2]);
-    let side_1 = level_for(fineness * strict * chord_error(points[6], points[7], points[8], points[9], points[1]), 1.0);
-    let side_2 = level_for(fineness * strict * chord_error(points[10], points[11], points[12], points[13], points[2]), 1.0);
-    let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10]), 1.0);
+    let side_1 = level_for(fineness * strict * chord_error(points[6], points[7], points[8], points[9], points[1], exact()), 1.0);
+    let side_2 = level_for(fineness * strict * chord_error(points[10], points[11], points[12], points[13], points[2], exact()), 1.0);
+    let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10], exact()), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

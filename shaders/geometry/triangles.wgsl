@@ -7,9 +7,9 @@
 }
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::emit::{emit_piece, emit_whole, emit_work, hand_over, off_screen, pixels}
-#import lensrunner::geometry::patch::{BLOCK, is_lost, meets_axis, offset_of, outward_normal}
+#import lensrunner::geometry::patch::{BLOCK, is_lost, meets_axis, offset_of, turned_away}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{Chunk, Instance, ModelTriangle, Piece, PIECE_FAN, PIECE_TRIANGLE, SIDE_LONE}
+#import lensrunner::gpu::types::{Chunk, Instance, ModelTriangle, Piece, PIECE_FAN, PIECE_TRIANGLE}
 #import lensrunner::instances::instance::instance_at
 
 @compute @workgroup_size(64)
@@ -47,7 +47,7 @@ fn decide(chunk: Chunk, lane: u32) {
         }
         return;
     }
-    if turned_away(instance, triangle, slots, offset_of(o0.xyz)) {
+    if turned_away(instance, triangle, offset_of(o0.xyz), seen[slots.x].leaving, seen[slots.y].leaving, seen[slots.z].leaving) {
         return;
     }
     let corner_a = vec3<f32>(1.0, 0.0, 0.0);
@@ -109,25 +109,6 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_a, corner_b, corner_c);
-}
-
-/// If light leaves a triangle below its plane by more than this, as a sine, the body itself hides it. Between the corners the directions of
-/// light vary about as much as among them; this is for what a turning body and curvature add.
-const TURNED_AWAY: f32 = 0.05;
-/// Nearer to the horizon than this radius, in r_s, nothing is left out: static observers there see the body stretched without bound.
-const LEAST_RADIUS_TURNED: f32 = 1.05;
-
-/// Whether all light that a triangle of a closed body of one part sends to the camera leaves on its inner side, so that the body itself
-/// hides it.
-fn turned_away(instance: Instance, triangle: ModelTriangle, slots: vec3<u32>, offset: vec3<f32>) -> bool {
-    let l0 = seen[slots.x].leaving;
-    let l1 = seen[slots.y].leaving;
-    let l2 = seen[slots.z].leaving;
-    let n = outward_normal(instance, triangle, offset);
-    let most = max(dot(n, l0.xyz), max(dot(n, l1.xyz), dot(n, l2.xyz)));
-    let spread = max(distance(l0.xyz, l1.xyz), max(distance(l1.xyz, l2.xyz), distance(l2.xyz, l0.xyz)));
-    return (triangle.vertices.w & SIDE_LONE) != 0u && min(l0.w, min(l1.w, l2.w)) > LEAST_RADIUS_TURNED
-        && most < -(TURNED_AWAY + spread);
 }
 
 /// Yamashita 2012: a triangle larger than this times its size without the hole is not drawn.
