@@ -97,6 +97,18 @@ fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool
     return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
 }
 
+/// Whether three positions by the axis are so near to it that rounding decides on the last percents of a turn. A piece there is drawn by its
+/// corners alone, if it turns little, or left out: its part of the ring is a small part of a pixel wide, but a chord would be seen.
+fn is_blurred(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
+    let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
+    return farthest < BLURRED_ROUNDINGS * instance.axis.z && axis_matters(a.z, instance.ids.x);
+}
+
+/// Roundings from the axis within which positions are blurred.
+const BLURRED_ROUNDINGS: f32 = 128.0;
+/// The largest turn about the axis, in radians, of a blurred piece that is drawn. Its chord sags by 0.1²/8 of the ring's radius.
+const BLURRED_TURN: f32 = 0.1;
+
 /// An edge turns unevenly about the axis if one of its segments turns this many times as much as their mean. The quarters at which its error
 /// is measured then miss the part that bends most.
 const UNEVEN: f32 = 2.0;

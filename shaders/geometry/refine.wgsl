@@ -6,7 +6,7 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
-    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, exact, halfway, is_lost,
+    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, exact, halfway, is_blurred, is_lost,
     level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments, most_turn, MUST_SPLIT, part_between, plane_normal,
     query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along, turned_away, uneven_sag,
 }
@@ -299,6 +299,13 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     for (var k = 0u; k < 3u; k++) {
         sides[k] = side_of(piece, k, instance);
     }
+    let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
+    if is_blurred(instance, by_axis[0], by_axis[1], by_axis[2]) {
+        if turned < BLURRED_TURN {
+            emit_work(piece, vec4<u32>(1u), 1u, 1u);
+        }
+        return;
+    }
     if off_screen(points[0], points[1], points[2], max(sides[0].error, max(sides[1].error, sides[2].error))) {
         return;
     }
@@ -309,7 +316,6 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     let lengths = vec3<f32>(angle_between(points[1], points[2]), angle_between(points[2], points[0]), angle_between(points[0], points[1]));
     let longest = max(lengths.x, max(lengths.y, lengths.z));
     let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
-    let turned = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
     let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(instance);
     if most <= BLOCK || depth >= DEEPEST || sliver {
         if most > BLOCK && !sliver {
@@ -327,10 +333,9 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     var split_2 = levels.z > BLOCK;
     // Round the axis the image bends along the ring and hardly across it. Halving all sides would make as many parts as the square of what
     // the longest side needs. So only that side is halved, and the parts lie side by side.
-    let farthest = max(sides[0].turn, max(sides[1].turn, sides[2].turn));
-    if split_0 && split_1 && split_2 && farthest > SLICED {
-        split_0 = sides[0].turn == farthest;
-        split_1 = sides[1].turn == farthest && !split_0;
+    if split_0 && split_1 && split_2 && turned > SLICED {
+        split_0 = sides[0].turn == turned;
+        split_1 = sides[1].turn == turned && !split_0;
         split_2 = !split_0 && !split_1;
     }
     let m0 = sides[0].middle;
@@ -365,6 +370,9 @@ fn refine_fan(piece: Piece, instance: Instance) {
     let side = side_of(piece, 0u, instance);
     let outer = side.level;
     let depth = piece.what.w;
+    if side.turn > most_turn(instance) && is_blurred(instance, by_axis[1], by_axis[2], by_axis[2]) {
+        return;
+    }
     if outer > BLOCK && depth < DEEPEST {
         let m = side.middle;
         emit_piece(piece.what.x, piece.what.y, PIECE_FAN, depth + 1u, piece.corner_a.xyz, c1, m);
