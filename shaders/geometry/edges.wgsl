@@ -12,7 +12,7 @@
 }
 #import lensrunner::geometry::project::{answer, query_body}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{FLAG_INSIDE, is_thin}
+#import lensrunner::gpu::types::{FLAG_INSIDE, Instance, is_thin}
 #import lensrunner::instances::instance::instance_at
 
 @compute @workgroup_size(64)
@@ -28,7 +28,6 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         return;
     }
     let edge = model_edges[instance.vertices.z + local];
-    let order = instance.ids.x;
     let a = emitted[instance.ids.z + edge.x];
     let b = emitted[instance.ids.z + edge.y];
     let slot = instance.ids.w + local;
@@ -36,75 +35,129 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
         edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_UNSEEN), 0.0, 0.0);
         return;
     }
-
-    // Does the axis visibly cut the edge? By the foot of the axis on it, and the distance there.
-    let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
-    if plain {
-        let d = b.xy - a.xy;
-        let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
-        let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
-        if length(foot.xy) < axis_core(instance, seen[instance.ids.z + edge.x].apparent.xyz) && axis_matters(foot.z, order) {
-            edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), t, 0.0);
-            return;
-        }
+    let from_seen = seen[instance.ids.z + edge.x];
+    let to_seen = seen[instance.ids.z + edge.y];
+    let cut = cut_by_axis(instance, a, b, from_seen.apparent.xyz);
+    if cut >= 0.0 {
+        edge_states[slot] = vec4<f32>(bitcast<f32>(1u), bitcast<f32>(EDGE_CUT), cut, 0.0);
+        return;
     }
-
-    let from_apparent = seen[instance.ids.z + edge.x].apparent.xyz;
-    let to_apparent = seen[instance.ids.z + edge.y].apparent.xyz;
-    let leaving_a = seen[instance.ids.z + edge.x].leaving.xyz;
-    let leaving_b = seen[instance.ids.z + edge.y].leaving.xyz;
-    let p = model_vertices[instance.vertices.x + edge.x].position.xyz;
-    let q = model_vertices[instance.vertices.x + edge.y].position.xyz;
+    var ends: Ends;
+    ends.a = a;
+    ends.b = b;
+    ends.body_a = model_vertices[instance.vertices.x + edge.x].position.xyz;
+    ends.body_b = model_vertices[instance.vertices.x + edge.y].position.xyz;
+    ends.apparent_a = from_seen.apparent.xyz;
+    ends.apparent_b = to_seen.apparent.xyz;
+    ends.radius = from_seen.leaving.w;
     let alone = edge.z == ALONE;
-    let limb = is_rim(instance, alone, p, q) || (!alone && MAY_FOLD && on_limb(instance, edge, leaving_a, leaving_b, offset_of(a.xyz)));
-    let radial = a.w == VERTEX_ON_AXIS || b.w == VERTEX_ON_AXIS;
-    var error = 0.0;
-    var whole = true;
-    // A short edge is not measured. Away from the axis it bends for two reasons. Aberration and delay are not linear: they bend an edge
-    // seen under θ by θ²/8 at most. And light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its
-    // length. Both must be below a quarter of the budget (for an outline, of its smaller budget), the tide with another factor of 3 for the
-    // shear of images near the ring. Beside the axis an edge also runs along the ring; there it bends by at most an eighth of the square of
-    // its turn.
-    let seen_under = angle_between(from_apparent, to_apparent);
-    let edge_length = distance(a.xyz, b.xyz);
+    ends.limb = is_rim(instance, alone, ends.body_a, ends.body_b)
+        || (!alone && MAY_FOLD && on_limb(instance, edge, from_seen.leaving.xyz, to_seen.leaving.xyz, offset_of(a.xyz)));
+    let division = divide(instance, ends);
+    edge_states[slot] = vec4<f32>(bitcast<f32>(division.level), bitcast<f32>(select(0u, EDGE_LIMB, ends.limb)), 0.0, division.error);
+}
+
+/// An edge of a model, with what the stage of vertices found of its ends.
+struct Ends {
+    /// Positions by the axis; w: VERTEX_*.
+    a: vec4<f32>,
+    b: vec4<f32>,
+    /// On the body.
+    body_a: vec3<f32>,
+    body_b: vec3<f32>,
+    apparent_a: vec3<f32>,
+    apparent_b: vec3<f32>,
+    /// Of a, from the hole.
+    radius: f32,
+    /// Whether the edge may be an outline.
+    limb: bool,
+}
+
+/// Where the axis visibly cuts an edge, as a share of the way from a to b; −1 if it does not. By the foot of the axis on the edge, and the
+/// distance there.
+fn cut_by_axis(instance: Instance, a: vec4<f32>, b: vec4<f32>, apparent: vec3<f32>) -> f32 {
+    let d = b.xy - a.xy;
+    let t = clamp(-dot(a.xy, d) / max(dot(d, d), 1e-30), 0.0, 1.0);
+    let foot = mix(a.xyz, b.xyz, vec3<f32>(t));
+    let plain = a.w == VERTEX_PLAIN && b.w == VERTEX_PLAIN;
+    let cut = plain && length(foot.xy) < axis_core(instance, apparent) && axis_matters(foot.z, instance.ids.x);
+    return select(-1.0, t, cut);
+}
+
+struct Division {
+    /// Number of segments.
+    level: u32,
+    /// Of the chord of the whole edge, radians.
+    error: f32,
+}
+
+fn divide(instance: Instance, ends: Ends) -> Division {
+    let a = ends.a.xyz;
+    let b = ends.b.xyz;
+    let order = instance.ids.x;
     let nearest = min(length(a.xy), length(b.xy));
-    let fineness = pixel_fineness(from_apparent, to_apparent);
-    let pixel = frame.size.z / fineness;
-    let closer = fineness * max(select(1.0, limb_strictness(instance), limb), ring_strictness(instance, nearest, pixel * length(from_apparent), a.z));
-    let least_radius = min(frame.radial.w, seen[instance.ids.z + edge.x].leaving.w);
-    let tide = 4.5 * edge_length * edge_length * length(from_apparent) / (least_radius * least_radius * least_radius);
-    let quarter = 0.25 * frame.size.w / (closer * slimness(instance));
-    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(a.z, order) && !is_thin(instance));
-    let small = (!limb && seen_under < 8.0 * pixel * inverseSqrt(slimness(instance))) || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
-    let short = seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
-    if radial || !short {
-        // A radial side runs from the axis (with the azimuth of its other end) to the plain vertex.
-        let apex = select(b.z, a.z, a.w == VERTEX_ON_AXIS);
-        let outer = select(a.xyz, b.xyz, a.w == VERTEX_ON_AXIS);
-        var points = array<vec3<f32>, 5>(from_apparent, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), to_apparent);
-        var tangent = vec3<f32>(0.0);
-        for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
-            let t = f32(k) * 0.25;
-            var query = query_body(p + (q - p) * t);
-            if radial {
-                query = query_fan(apex, outer, t);
-            }
-            let found = answer(instance, query, order).ray;
-            points[k] = found.apparent;
-            if k == 2u && !radial { tangent = ring_tangent(found); }
-            whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
-        }
-        // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.
-        let slack = slack_of(instance, tangent, nearest, a.z);
-        error = select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4], slack), whole);
+    let fineness = pixel_fineness(ends.apparent_a, ends.apparent_b);
+    // Of a pixel at the edge, in r_s.
+    let pixel = frame.size.z / fineness * length(ends.apparent_a);
+    let closer = fineness * max(select(1.0, limb_strictness(instance), ends.limb), ring_strictness(instance, nearest, pixel, a.z));
+    let seen_under = angle_between(ends.apparent_a, ends.apparent_b);
+    let radial = ends.a.w == VERTEX_ON_AXIS || ends.b.w == VERTEX_ON_AXIS;
+    var error = 0.0;
+    if radial || !is_short(instance, ends, closer, seen_under) {
+        error = bend(instance, ends, radial);
     }
     var level = level_for(error * strictness(instance) * closer, 1.0);
-    level = min(level, most_segments(instance, a.xyz, b.xyz, pixel * length(from_apparent)));
-    let turn = turn_about_axis(a.xyz, b.xyz, order);
-    let sag = uneven_sag(a.xyz, b.xyz, level, turn, seen_under);
-    if plain && (turn > most_turn(instance) || level_for(sag * fineness * strictness(instance), 1.0) > 1u) {
-        error = MUST_SPLIT;
-        level = max(level, BLOCK + 1u);
+    level = min(level, most_segments(instance, a, b, pixel));
+    let turn = turn_about_axis(a, b, order);
+    let sag = uneven_sag(a, b, level, turn, seen_under);
+    if !radial && (turn > most_turn(instance) || level_for(sag * fineness * strictness(instance), 1.0) > 1u) {
+        return Division(max(level, BLOCK + 1u), MUST_SPLIT);
     }
-    edge_states[slot] = vec4<f32>(bitcast<f32>(level), bitcast<f32>(select(0u, EDGE_LIMB, limb)), 0.0, error);
+    return Division(level, error);
+}
+
+/// Whether an edge is so short that it is not measured.
+///
+/// Away from the axis it bends for two reasons. Aberration and delay are not linear: they bend an edge seen under θ by θ²/8 at most. And
+/// light bends differently along it, by the tide 3/2 c³ over the distance d times the square of its length. Both must be below a quarter of
+/// the budget (for an outline, of its smaller budget), the tide with another factor of 3 for the shear of images near the ring. Beside the
+/// axis an edge also runs along the ring; there it bends by at most an eighth of the square of its turn.
+fn is_short(instance: Instance, ends: Ends, closer: f32, seen_under: f32) -> bool {
+    let fineness = pixel_fineness(ends.apparent_a, ends.apparent_b);
+    let edge_length = distance(ends.a.xyz, ends.b.xyz);
+    let nearest = min(length(ends.a.xy), length(ends.b.xy));
+    let least_radius = min(frame.radial.w, ends.radius);
+    let tide = 4.5 * edge_length * edge_length * length(ends.apparent_a) / (least_radius * least_radius * least_radius);
+    let quarter = 0.25 * frame.size.w / (closer * slimness(instance));
+    let straight = select(0.0625, min(0.0625, 8.0 * quarter), axis_matters(ends.a.z, instance.ids.x) && !is_thin(instance));
+    let small = (!ends.limb && seen_under < 8.0 * frame.size.z / fineness * inverseSqrt(slimness(instance)))
+        || (seen_under * seen_under < 8.0 * quarter && tide < quarter);
+    return seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
+}
+
+/// The error of the chord of an edge (radians), from points at ¼, ½, ¾. A radial edge runs from the axis, with the azimuth of its other end,
+/// to the plain vertex; its ends are evaluated too.
+fn bend(instance: Instance, ends: Ends, radial: bool) -> f32 {
+    let a_on_axis = ends.a.w == VERTEX_ON_AXIS;
+    let apex = select(ends.b.z, ends.a.z, a_on_axis);
+    let outer = select(ends.a.xyz, ends.b.xyz, a_on_axis);
+    var points = array<vec3<f32>, 5>(ends.apparent_a, vec3<f32>(0.0), vec3<f32>(0.0), vec3<f32>(0.0), ends.apparent_b);
+    var tangent = vec3<f32>(0.0);
+    var whole = true;
+    for (var k = select(1u, 0u, radial); k < select(4u, 5u, radial); k++) {
+        let t = f32(k) * 0.25;
+        var query = query_body(ends.body_a + (ends.body_b - ends.body_a) * t);
+        if radial {
+            query = query_fan(apex, outer, t);
+        }
+        let found = answer(instance, query, instance.ids.x).ray;
+        points[k] = found.apparent;
+        if k == 2u && !radial {
+            tangent = ring_tangent(found);
+        }
+        whole = whole && (found.valid || (frame.switches.x & FLAG_INSIDE) == 0u);
+    }
+    let slack = slack_of(instance, tangent, min(length(ends.a.xy), length(ends.b.xy)), ends.a.z);
+    // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.
+    return select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4], slack), whole);
 }

@@ -273,6 +273,15 @@ fn reaches_out(farthest: f32) -> bool {
     return farthest > AXIS_SHARE * frame.size.z / pixel_fineness(points[1], points[2]) * length(points[1]);
 }
 
+/// Whether a measured triangle is a sliver along a side that needs no splitting. It would be split for its other two sides for ever: they
+/// come nearer to that side and get no shorter.
+fn is_sliver(levels: vec3<u32>) -> bool {
+    let lengths = vec3<f32>(angle_between(points[1], points[2]), angle_between(points[2], points[0]), angle_between(points[0], points[1]));
+    let longest = max(lengths.x, max(lengths.y, lengths.z));
+    let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
+    return KEEPS_SLIVERS && base <= BLOCK;
+}
+
 fn refine_triangle(piece: Piece, instance: Instance) {
     let c0 = piece.corner_a.xyz;
     let c1 = piece.corner_b.xyz;
@@ -311,12 +320,7 @@ fn refine_triangle(piece: Piece, instance: Instance) {
     }
     let levels = vec3<u32>(sides[0].level, sides[1].level, sides[2].level);
     let most = max(levels.x, max(levels.y, levels.z));
-    // A sliver along a side that needs no splitting would be split for its other two sides for ever: they come nearer to that side and get
-    // no shorter.
-    let lengths = vec3<f32>(angle_between(points[1], points[2]), angle_between(points[2], points[0]), angle_between(points[0], points[1]));
-    let longest = max(lengths.x, max(lengths.y, lengths.z));
-    let base = select(select(levels.z, levels.y, lengths.y == longest), levels.x, lengths.x == longest);
-    let sliver = KEEPS_SLIVERS && depth >= SLIVER_DEPTH && base <= BLOCK && turned <= most_turn(instance);
+    let sliver = depth >= SLIVER_DEPTH && is_sliver(levels) && turned <= most_turn(instance);
     if most <= BLOCK || depth >= DEEPEST || sliver {
         if most > BLOCK && !sliver {
             let far = reaches_out(max(length(by_axis[0].xy), max(length(by_axis[1].xy), length(by_axis[2].xy))));
@@ -328,9 +332,17 @@ fn refine_triangle(piece: Piece, instance: Instance) {
         emit_leaf(piece, min(levels, vec3<u32>(BLOCK)), instance);
         return;
     }
-    var split_0 = levels.x > BLOCK;
-    var split_1 = levels.y > BLOCK;
-    var split_2 = levels.z > BLOCK;
+    emit_parts(piece, sides, turned);
+}
+
+/// Halves those sides of a triangle that need more than eight segments, and hands on the parts. `turned` is the largest turn of a side.
+fn emit_parts(piece: Piece, sides: array<Side, 3>, turned: f32) {
+    let c0 = piece.corner_a.xyz;
+    let c1 = piece.corner_b.xyz;
+    let c2 = piece.corner_c.xyz;
+    var split_0 = sides[0].level > BLOCK;
+    var split_1 = sides[1].level > BLOCK;
+    var split_2 = sides[2].level > BLOCK;
     // Round the axis the image bends along the ring and hardly across it. Halving all sides would make as many parts as the square of what
     // the longest side needs. So only that side is halved, and the parts lie side by side.
     if split_0 && split_1 && split_2 && turned > SLICED {
@@ -357,7 +369,7 @@ fn refine_triangle(piece: Piece, instance: Instance) {
         parts = array<vec3<f32>, 12>(a, b, m, a, m, c, c0, c0, c0, c0, c0, c0);
     }
     for (var k = 0u; k <= count; k++) {
-        emit_piece(piece.what.x, piece.what.y, PIECE_TRIANGLE, depth + 1u, parts[3u * k], parts[3u * k + 1u], parts[3u * k + 2u]);
+        emit_piece(piece.what.x, piece.what.y, PIECE_TRIANGLE, piece.what.w + 1u, parts[3u * k], parts[3u * k + 1u], parts[3u * k + 2u]);
     }
 }
 

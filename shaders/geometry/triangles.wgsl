@@ -29,7 +29,6 @@ fn decide(chunk: Chunk, lane: u32) {
     let instance = instance_at(chunk.instance);
     let number = instance.triangles.x + chunk.first + lane;
     let triangle = model_triangles[number];
-    let order = instance.ids.x;
     let base = instance.ids.z;
     let slots = vec3<u32>(base) + triangle.vertices.xyz;
     let o0 = emitted[slots.x];
@@ -54,40 +53,15 @@ fn decide(chunk: Chunk, lane: u32) {
     let corner_b = vec3<f32>(0.0, 1.0, 0.0);
     let corner_c = vec3<f32>(0.0, 0.0, 1.0);
 
-    // Where the axis meets the triangle, its image opens into an arc. It is cut there into fans, from `apex` over those of its edges that
-    // are in `fans`.
-    var apex = vec3<f32>(0.0);
-    var fans = vec3<bool>(false);
-    let on_axis = vec3<bool>(o0.w == VERTEX_ON_AXIS, o1.w == VERTEX_ON_AXIS, o2.w == VERTEX_ON_AXIS);
-    let cuts = vec3<bool>((bitcast<u32>(e0.y) & EDGE_CUT) != 0u, (bitcast<u32>(e1.y) & EDGE_CUT) != 0u, (bitcast<u32>(e2.y) & EDGE_CUT) != 0u);
-    if any(on_axis) {
-        apex = select(vec3<f32>(0.0), vec3<f32>(1.0), on_axis);
-        // Of an edge on the axis no surface is visible.
-        if dot(apex, vec3<f32>(1.0)) > 1.0 || any(cuts) {
-            return;
-        }
-        fans = on_axis;
-    } else if any(cuts) {
-        // The fraction counts from the lower vertex of the edge.
-        apex = vec3<f32>(1.0 - e2.z, e2.z, 0.0);
-        apex = select(apex, vec3<f32>(1.0 - e1.z, 0.0, e1.z), cuts.y);
-        apex = select(apex, vec3<f32>(0.0, 1.0 - e0.z, e0.z), cuts.x);
-        fans = !cuts;
-    } else {
-        if is_lost(instance, o0.xyz, o1.xyz, o2.xyz) {
-            return;
-        }
-        let at = meets_axis(o0.xyz, o1.xyz, o2.xyz, order);
-        if at.x >= 0.0 {
-            apex = at;
-            fans = vec3<bool>(true);
-        }
+    let cut = cut_at_axis(instance, array<vec4<f32>, 3>(o0, o1, o2), array<vec4<f32>, 3>(e0, e1, e2));
+    if cut.hidden {
+        return;
     }
-    if any(fans) {
+    if any(cut.fans) {
         atomicAdd(&counters.cut, 1u);
-        if fans.x { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_b, corner_c); }
-        if fans.y { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_c, corner_a); }
-        if fans.z { emit_piece(chunk.instance, number, PIECE_FAN, 0u, apex, corner_a, corner_b); }
+        if cut.fans.x { emit_piece(chunk.instance, number, PIECE_FAN, 0u, cut.apex, corner_b, corner_c); }
+        if cut.fans.y { emit_piece(chunk.instance, number, PIECE_FAN, 0u, cut.apex, corner_c, corner_a); }
+        if cut.fans.z { emit_piece(chunk.instance, number, PIECE_FAN, 0u, cut.apex, corner_a, corner_b); }
         return;
     }
 
@@ -109,6 +83,43 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     emit_piece(chunk.instance, number, PIECE_TRIANGLE, 0u, corner_a, corner_b, corner_c);
+}
+
+/// Where the axis meets a triangle, its image opens into an arc. It is cut there into fans.
+struct Cut {
+    /// Where the axis is, barycentric.
+    apex: vec3<f32>,
+    /// Which of the edges have a fan from there, by their opposite corners.
+    fans: vec3<bool>,
+    /// Whether nothing of the triangle is visible.
+    hidden: bool,
+}
+
+/// The cut of a triangle, by its corners (by the axis, w: VERTEX_*) and the states of its edges.
+fn cut_at_axis(instance: Instance, corners: array<vec4<f32>, 3>, edges: array<vec4<f32>, 3>) -> Cut {
+    let on_axis = vec3<bool>(corners[0].w == VERTEX_ON_AXIS, corners[1].w == VERTEX_ON_AXIS, corners[2].w == VERTEX_ON_AXIS);
+    let cuts = vec3<bool>(is_cut(edges[0]), is_cut(edges[1]), is_cut(edges[2]));
+    if any(on_axis) {
+        let apex = select(vec3<f32>(0.0), vec3<f32>(1.0), on_axis);
+        // Of an edge on the axis no surface is visible.
+        return Cut(apex, on_axis, dot(apex, vec3<f32>(1.0)) > 1.0 || any(cuts));
+    }
+    if any(cuts) {
+        // The fraction counts from the lower vertex of the edge.
+        var apex = vec3<f32>(1.0 - edges[2].z, edges[2].z, 0.0);
+        apex = select(apex, vec3<f32>(1.0 - edges[1].z, 0.0, edges[1].z), cuts.y);
+        apex = select(apex, vec3<f32>(0.0, 1.0 - edges[0].z, edges[0].z), cuts.x);
+        return Cut(apex, !cuts, false);
+    }
+    if is_lost(instance, corners[0].xyz, corners[1].xyz, corners[2].xyz) {
+        return Cut(vec3<f32>(0.0), vec3<bool>(false), true);
+    }
+    let at = meets_axis(corners[0].xyz, corners[1].xyz, corners[2].xyz, instance.ids.x);
+    return Cut(at, vec3<bool>(at.x >= 0.0), false);
+}
+
+fn is_cut(edge: vec4<f32>) -> bool {
+    return (bitcast<u32>(edge.y) & EDGE_CUT) != 0u;
 }
 
 /// Yamashita 2012: a triangle larger than this times its size without the hole is not drawn.
