@@ -130,7 +130,7 @@ fn uneven_sag(a: vec3<f32>, b: vec3<f32>, level: u32, turn: f32, seen_under: f32
 /// position (src/render/instances/mod.rs). So what was put on the axis is counted on it: at four roundings azimuths have one digit.
 const CORE_ROUNDINGS: f32 = 8.0;
 
-/// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it. The larger of the rounding error and a
+/// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it: the larger of the rounding error and a
 /// tenth of a pixel over the picture's width. It is the same for all triangles of the vertex or the edge, so the surface stays closed. A
 /// point moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as
 /// wide as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
