@@ -153,7 +153,7 @@ struct Streak {
 
 /// Distance between two streaks over the least standard deviation at which a row of Gaussians shows no ripple (2 exp(−2π²/1.6²) is 1/1000).
 const SMOOTH: f32 = 1.6;
-/// One streak in so many is red; as in src/render/aurora/animation/mod.rs.
+/// One streak in so many is red; as in src/render/aurora/animation/streaks.rs.
 const TURN: u32 = 5u;
 /// Steps of a sequence that is even in two dimensions: one over the plastic number, and its square (Roberts 2018).
 const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);

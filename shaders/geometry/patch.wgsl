@@ -130,10 +130,10 @@ fn uneven_sag(a: vec3<f32>, b: vec3<f32>, level: u32, turn: f32, seen_under: f32
 /// position (src/render/instances/mod.rs). So what was put on the axis is counted on it: at four roundings azimuths have one digit.
 const CORE_ROUNDINGS: f32 = 8.0;
 
-/// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it: as far as rounding may have moved it, and
-/// so far that nobody sees the difference. It is the same for all triangles of the vertex or the edge, so the surface stays closed. A point
-/// moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as wide
-/// as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
+/// Distance from the axis, in r_s, within which a vertex or an edge of a model counts as on it: the larger of the rounding error and a
+/// tenth of a pixel over the picture's width. It is the same for all triangles of the vertex or the edge, so the surface stays closed. A
+/// point moved onto the axis is seen elsewhere on the ring: from a tenth of a pixel beside the axis, half a pixel off at most, on a ring as
+/// wide as the screen. In a thin image areas count, and the object may be a small part of a pixel: there only rounding counts.
 fn axis_core(instance: Instance, apparent: vec3<f32>) -> f32 {
     let pixel = frame.size.z / pixel_fineness(apparent, apparent) * length(apparent);
     return select(max(CORE_ROUNDINGS * instance.axis.z, 0.1 * pixel / frame.size.x), instance.axis.z, is_thin(instance));
@@ -207,7 +207,8 @@ fn limb_strictness(instance: Instance) -> f32 {
 }
 
 /// Factor for edges beside the axis: there the image of the order ends, and a chord that bulges farther than its distance from the ring
-/// shows surface beyond it. What slim images are held closer anyway counts. `nearest` is the distance of the edge's ends from the axis, `pixel` what a pixel spans there, both in r_s.
+/// shows surface beyond it. The strictness of slim images is divided out. `nearest` is the distance of the edge's ends from the axis,
+/// `pixel` what a pixel spans there, both in r_s.
 fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
     let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);

@@ -23,8 +23,8 @@ pub struct Settings {
     pub thin_below: f64,
     /// Images narrower than this show the coarse model, in pixels: at six its cells (a sixth of the object) are a pixel wide.
     pub coarse_below: f64,
-    /// Images of order 2 and 3 narrower than this are not drawn, in pixels. A line of which they cover a twentieth is lost among the stars
-    /// at the edge of the shadow, and the geometry would take longer for it than for the ship itself.
+    /// Images of order 2 and 3 narrower than this are not drawn, in pixels. At 0.05 px they cover 5 % of a line of pixels. They are
+    /// invisible among the stars at the edge of the shadow, yet cost more geometry than the ship itself.
     pub least_width: f64,
     /// Light changes its colour with g.
     pub doppler: bool,

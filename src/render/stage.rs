@@ -120,8 +120,7 @@ impl Stage {
         (stage, upload)
     }
 
-    /// The same, watched as it goes: the aurora never takes much longer for one frame than for another, and is not the same whatever came
-    /// before.
+    /// Limits the aurora's simulation per frame, for scenes that are watched as they run. Its state then depends on earlier frames.
     pub fn watched(self) -> Stage {
         let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
         *show = show.take().map(AuroraAnimation::watched);

@@ -350,7 +350,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
         let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
-        assert_eq!(placed.len(), 2, "paper 1 has two orders");
+        assert_eq!(placed.len(), 2, "Yamashita 2012 has two orders");
         let points = bench.points();
         let seen = bench.seen(camera, 0.0, placed, settings);
         for order in [1u8, 2] {
@@ -379,7 +379,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     };
     let (holed, drawn) = count(&mut bench, paper1);
     let (whole, _) = count(&mut bench, Method::Table);
-    println!("{holed} pixels by paper 1 ({drawn} triangles), {whole} by the table");
+    println!("{holed} pixels by Yamashita 2012 ({drawn} triangles), {whole} by the table");
     assert!(drawn < 2 * 200 && drawn > 200, "{drawn} triangles of two orders of 200");
     assert!(holed < whole);
 }

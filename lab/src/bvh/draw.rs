@@ -19,7 +19,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
     let kinds = [("Embree", "scattered", 1), ("tree of eight", "scattered", 1), ("ours", "shadow", 32), ("ours", "mirrored", 32)];
     panels.extend(against_obvhs(sheet, &scenes, "Secondary rays, in obvhs' speed", &kinds));
     Figure {
-        title: "Straight rays: paper 4 reproduced and beaten".into(),
+        title: "Straight rays: the packets of Sei 2008, hull packets, Embree and obvhs".into(),
         subtitle: "One thread, 1024 × 768 rays, closest hit, all in one process, processor time, medians of interleaved runs; ray set-up and planes are in the time.\n\
                    Bars to beat: obvhs single rays (1); 20 / 45 / 45 Mrays/s for balls4A / tree10 / bunny where obvhs makes 7.2 / 14.5 / 12.0, that is 2.8 / 3.1 / 3.75."
             .into(),

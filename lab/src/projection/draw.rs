@@ -148,8 +148,8 @@ fn verdict(entries: &[Entry]) -> Option<[String; 2]> {
     Some([
         format!("Use \"table\": never off by more than {} of a pixel, in {:.0} ns", pixels(table), table.nanoseconds),
         format!(
-            "{:.0} MB of memory; eight points at once (\"table-batch\") it takes {:.0} ns a point. The best table of paper 1 takes {:.0} ns and {:.0} MB, is\n\
-             off by up to {} pixels and leaves {:.0} % of the points unanswered.\n",
+            "{:.0} MB of memory; eight points at once (\"table-batch\") it takes {:.0} ns a point. The best table of Yamashita 2012 takes {:.0} ns and\n\
+             {:.0} MB, is off by up to {} pixels and leaves {:.0} % of the points unanswered.\n",
             table.bytes / 1e6,
             batch.nanoseconds,
             paper.nanoseconds,
@@ -192,7 +192,7 @@ pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
         subtitle: why
             + "Each mark is the worst error of a method that finds where a point near a black hole is seen, on points chosen to be hard. The black\n\
                line joins what nothing beats. Red crosses fail: off by more than half a pixel, or without an answer for some points (so many\n\
-               per cent: camera inside, higher orders). Crosses without a name: smaller tables of paper 1.",
+               per cent: camera inside, higher orders). Crosses without a name: smaller tables of Yamashita 2012.",
         size: [1000, 230 + 540 * panels.len() as u32],
         columns: 1,
         panels,

@@ -70,7 +70,7 @@ pub fn measure(request: &ProjectionRequest) -> Sheet {
     for (scheme, nodes, order, inside, printed) in PRINTED {
         let (name, mesh) =
             if scheme == Scheme::Paper { (format!("paper1-{nodes}"), "optimised") } else { (format!("paper1-uniform-{nodes}"), "uniform") };
-        eprintln!("table {} of paper 1: {name}, order {order}", if scheme == Scheme::Paper { 3 } else { 2 });
+        eprintln!("table {} of Yamashita 2012: {name}, order {order}", if scheme == Scheme::Paper { 3 } else { 2 });
         let (Some(method), Some(order)) = (methods::named(&name), Order::new(order)) else { continue };
         for (sampling, sampling_name) in SAMPLINGS.iter().enumerate() {
             let spread = errors(method.as_ref(), scheme, request, order, inside, sampling);

@@ -96,7 +96,8 @@ pub fn names() -> String {
 pub fn help() -> String {
     let lines = CATALOGUE.map(|(name, about)| format!("{name:12} {about}"));
     format!(
-        "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (paper 1's from 1.01), and leave fields empty beyond.",
+        "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (those of Yamashita 2012 from 1.01), and \
+         leave fields empty beyond.",
         lines.join("\n  ")
     )
 }

@@ -8,7 +8,7 @@ use crate::scene::model::{Material, Model, Vertex};
 
 use super::radial::Radial;
 
-/// Sectors for every ring of a polygon disk: 960 triangles, as many as paper 2 has, are 10 rings of 48.
+/// Sectors for every ring of a polygon disk: 960 triangles, as many as in Yamashita 2025, are 10 rings of 48.
 const SECTORS_PER_RING: f64 = 4.8;
 
 /// A ring of the disk that turns as a whole, in the plane z = 0.

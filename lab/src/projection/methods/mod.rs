@@ -84,7 +84,7 @@ pub struct Entry {
 }
 
 /// The families of methods, as the chart colours them.
-pub const FAMILIES: [&str; 5] = ["residual tables (ours)", "paper 1", "closed approximations", "integration", "exact"];
+pub const FAMILIES: [&str; 5] = ["residual tables (ours)", "Yamashita 2012", "closed approximations", "integration", "exact"];
 
 const fn entry(name: &'static str, family: usize) -> Entry {
     Entry { name, family }
