@@ -4,15 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// Floors from the ground up, each with the floors that it may import.
-const FLOORS: [(&str, &[&str]); 7] = [
+const FLOORS: [(&str, &[&str]); 8] = [
+    ("picture_file", &[]),
     ("spacetime", &[]),
     ("lensing", &["spacetime"]),
     ("scene", &["spacetime"]),
     ("sim", &["spacetime", "scene"]),
     // The judge may look neither at the tables nor at the closed form of light.
-    ("judge", &["spacetime::metric", "spacetime::matter", "spacetime::frames", "spacetime::observer", "scene"]),
-    ("render", &["spacetime", "lensing", "scene", "sim"]),
-    ("play", &["spacetime", "lensing", "scene", "sim", "render"]),
+    ("judge", &["spacetime::metric", "spacetime::matter", "spacetime::frames", "spacetime::observer", "scene", "picture_file"]),
+    ("render", &["spacetime", "lensing", "scene", "sim", "picture_file"]),
+    ("play", &["spacetime", "lensing", "scene", "sim", "render", "picture_file"]),
 ];
 
 /// The one file of the judge that reads a simulated scene, and what it may import more.
@@ -143,7 +144,8 @@ fn module_of(path: &[String], modules: &BTreeMap<Module, PathBuf>) -> Module {
     (0..=path.len()).rev().map(|k| path[..k].to_vec()).find(|module| modules.contains_key(module)).unwrap_or_default()
 }
 
-/// For each module of a crate the paths that it names, from the root; what a module only hands on belongs to the file that defines it.
+/// For each module of a crate the paths that it names, from the root; what a module only hands on within its floor belongs to the file that
+/// defines it.
 fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
     let modules = modules(root);
     let mut handed_on: BTreeMap<Vec<String>, Vec<String>> = BTreeMap::new();
@@ -153,8 +155,9 @@ fn imports(root: &Path) -> BTreeMap<Module, BTreeSet<Vec<String>>> {
             let Some(target) = absolute(module, &path, &modules) else { continue };
             if exported {
                 let name = target.last().cloned().unwrap_or_default();
-                handed_on.insert([&module[..], &[name]].concat(), target);
-            } else {
+                handed_on.insert([&module[..], &[name]].concat(), target.clone());
+            }
+            if !exported || target.first() != module.first() {
                 all.entry(module.clone()).or_default().insert(target);
             }
         }

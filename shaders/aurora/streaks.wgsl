@@ -31,7 +31,7 @@ const AURORA_BOTH_POLES: u32 = 2u;
 
 /// A part of a curtain between two nodes.
 struct Segment {
-    /// x: its first streak, y: its first node, z: its streaks (a multiple of TURN for each pole), w: nodes from there to its last.
+    /// x: its first streak, y: its first node, z: its streaks (a multiple of RED_EVERY for each pole), w: nodes from there to its last.
     range: vec4<u32>,
     /// x: collisions of 35 eV in it (kR km²), y: width and z: length in km, w unused.
     light: vec4<f32>,
@@ -154,7 +154,7 @@ struct Streak {
 /// Distance between two streaks over the least standard deviation at which a row of Gaussians shows no ripple (2 exp(−2π²/1.6²) is 1/1000).
 const SMOOTH: f32 = 1.6;
 /// One streak in so many is red; as in src/render/aurora/animation/streaks.rs.
-const TURN: u32 = 5u;
+const RED_EVERY: u32 = 5u;
 /// Steps of a sequence that is even in two dimensions: one over the plastic number, and its square (Roberts 2018).
 const EVEN: vec2<f32> = vec2<f32>(0.7548777, 0.5698403);
 
@@ -175,13 +175,13 @@ fn streak_of(index: u32) -> Streak {
     var streak: Streak;
     streak.segment = low;
     // One in five is red, which is faint and blurred by its delay.
-    let turn = number % TURN;
-    let many = TURN - 1u;
+    let turn = number % RED_EVERY;
+    let many = RED_EVERY - 1u;
     streak.kind = select(GREEN, RED, turn == many);
     let both = (aurora.history.w & AURORA_BOTH_POLES) != 0u;
-    streak.south = both & (((number / TURN) & 1u) == 1u);
+    streak.south = both & (((number / RED_EVERY) & 1u) == 1u);
     // Its number among those of its kind and pole, and their number.
-    let turns = TURN * select(1u, 2u, both);
+    let turns = RED_EVERY * select(1u, 2u, both);
     let own = select(many * (number / turns) + turn, number / turns, turn == many);
     let all = select(many, 1u, turn == many) * max(range.z / turns, 1u);
     streak.share = select(1.0, 0.5, both) / f32(all);

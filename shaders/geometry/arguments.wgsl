@@ -24,6 +24,7 @@ fn next_pieces() {
     counters.turn = filled;
     let count = min(atomicLoad(&counters.pieces[filled]), frame.capacity.z);
     atomicStore(&counters.pieces[1u - filled], 0u);
+    counters.split += count;
     arguments.refine = vec4<u32>((count + 63u) / 64u, 1u, 1u, 0u);
 }
 

@@ -1,6 +1,6 @@
 #define_import_path lensrunner::geometry::bindings
 
-#import lensrunner::gpu::types::{Chunk, ModelTriangle, ModelVertex, Piece, SeenVertex, WorkItem}
+#import lensrunner::gpu::types::{Chunk, ModelTriangle, ModelVertex, Piece, SeenVertex, ThinVertex, WorkItem}
 
 @group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
 /// The two vertices of an edge, and those opposite to it in its two triangles, or `ALONE`.
@@ -19,13 +19,6 @@
 @group(1) @binding(10) var<storage, read_write> indices: array<u32>;
 @group(1) @binding(11) var<storage, read_write> thin: array<ThinVertex>;
 @group(1) @binding(12) var<storage, read_write> counters: Counters;
-
-struct ThinVertex {
-    /// Clip position, widened to at least a pixel.
-    position: vec4<f32>,
-    /// x: seen vertex (bits of a u32), y: coverage, the share of the drawn area that is covered.
-    data: vec4<f32>,
-}
 
 struct Counters {
     vertices: atomic<u32>,
@@ -47,6 +40,8 @@ struct Counters {
     lost: atomic<u32>,
     /// Triangles outside of where their object's image can be, left out.
     outside: atomic<u32>,
+    /// Pieces split so far.
+    split: u32,
 }
 
 const NO_INSTANCE: u32 = 0xffffffffu;

@@ -2,11 +2,11 @@
 
 // How a stage hands pieces on: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is kept inside its buffer.
 
-#import lensrunner::geometry::bindings::{counters, indices, model_triangles, pieces, seen, thin, ThinVertex, work}
+#import lensrunner::geometry::bindings::{counters, indices, model_triangles, pieces, seen, thin, work}
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, WorkItem}
+#import lensrunner::gpu::types::{Instance, is_thin, Piece, PIECE_FAN, PIECE_STRIP, PIECE_TRIANGLE, ThinVertex, WorkItem}
 #import lensrunner::instances::bounds::leaves_bounds
 #import lensrunner::instances::instance::{in_body_axes, instance_at}
 #import lensrunner::models::hiding::seen_part
@@ -233,6 +233,10 @@ fn emit_whole(instance: u32, triangle: u32) {
     hand(Piece(vec4<u32>(instance, triangle, PIECE_TRIANGLE, 0u), none, none, none), vec4<u32>(1u), 1u, 1u, HANDED_TRIANGLE);
 }
 
+/// So many times the room for work items, pieces may be split in a frame: halving makes as many pieces as there are parts in the end, and
+/// more parts have no room. It bounds the time of a frame where splitting does not end, as for a ship at the horizon.
+const MOST_SPLIT: u32 = 2u;
+
 /// Hands over what was collected; pieces go to `queue`. A fifth of the buffers is kept back. If the rest is full, a piece is drawn without
 /// subdivision; if that fifth is used up too, the triangle of the model is drawn in its place.
 fn hand_over(queue: u32) {
@@ -243,7 +247,7 @@ fn hand_over(queue: u32) {
         var done = false;
         if kind == HANDED_PIECE {
             let slot = atomicAdd(&counters.pieces[queue], 1u);
-            if slot < frame.capacity.z {
+            if slot < frame.capacity.z && counters.split < MOST_SPLIT * frame.capacity.z {
                 pieces[queue * frame.capacity.z + slot] = piece;
                 done = true;
             } else {

@@ -232,3 +232,12 @@ struct SkyCorner {
     faint: vec4<f32>,
     bright: vec4<f32>,
 }
+
+/// A vertex of a triangle of a thin image.
+struct ThinVertex {
+    /// Clip position, widened to at least a pixel.
+    position: vec4<f32>,
+    /// x: seen vertex (bits of a u32), y: coverage, the share of the drawn area that is covered, z: image order, w: the share whose light
+    /// crosses the disk's plane as often as the order says, and not once less.
+    data: vec4<f32>,
+}

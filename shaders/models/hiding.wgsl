@@ -9,7 +9,10 @@ const CUBE: f32 = 0.57735026;
 const DODECA_SHORT: f32 = 0.35682209;
 const DODECA_LONG: f32 = 0.93417236;
 
-/// Direction k of 32, evenly over the sphere: the corners of a cube, then of rectangles across each pair of axes.
+/// Directions from which a triangle may be hidden.
+const DIRECTIONS: u32 = 32u;
+
+/// Direction k of `DIRECTIONS`, evenly over the sphere: the corners of a cube, then of rectangles across each pair of axes.
 fn direction_of(k: u32) -> vec3<f32> {
     let sign = vec3<f32>(select(1.0, -1.0, (k & 1u) != 0u), select(1.0, -1.0, (k & 2u) != 0u), select(1.0, -1.0, (k & 4u) != 0u));
     if k < 8u {
@@ -32,7 +35,7 @@ fn direction_of(k: u32) -> vec3<f32> {
 fn seen_part(seen_from: u32, outward: vec3<f32>, direction: vec3<f32>) -> f32 {
     var sum = 0.0;
     var all = 0.0;
-    for (var k = 0u; k < 32u; k++) {
+    for (var k = 0u; k < DIRECTIONS; k++) {
         let from_there = direction_of(k);
         let c = max(dot(direction, from_there), 0.0);
         let squared = c * c;

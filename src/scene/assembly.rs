@@ -6,8 +6,8 @@ use glam::{DQuat, DVec3};
 
 use super::config::GameConfig;
 use super::load::Scene;
-use super::model::Model;
 use super::model::import::load_or_placeholder;
+use super::model::{Model, SHIP_MODELS};
 use super::prop::Shape;
 use super::ship::{Ai, ShipSpec};
 
@@ -85,7 +85,8 @@ impl Scene {
 
 /// The quarry's model for a ship that flees, the hunter's for every other.
 fn default_model(ship: &ShipSpec) -> &'static str {
-    if ship.ai == Ai::Flee { "quarry.glb" } else { "hunter.glb" }
+    let [hunter, quarry] = SHIP_MODELS;
+    if ship.ai == Ai::Flee { quarry } else { hunter }
 }
 
 impl Assembly {

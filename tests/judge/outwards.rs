@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use glam::{DQuat, DVec3};
 use lensrunner::judge::case::Case;
 use lensrunner::judge::picture::{Motion, Pose, Quality, Seen, Sway, Thing, World, Worldline};
-use lensrunner::scene::lighting::Surroundings;
+use lensrunner::scene::lighting::Illumination;
 use lensrunner::scene::{GameConfig, Material, Model, Scene, Vertex};
 
 /// A worldline that counts how often it is asked anything.
@@ -110,7 +110,7 @@ fn rays_that_are_given_up_are_counted() {
     };
     let models = [model];
     let look = |bodies: usize| {
-        let thing = Thing { model: 0, scale: 1.0, motion: Motion::Flying(&Restless), light: Surroundings::default(), id: 1 };
+        let thing = Thing { model: 0, scale: 1.0, motion: Motion::Flying(&Restless), light: Illumination::default(), id: 1 };
         let world = World::new(&models, vec![thing; bodies], 0.0, true);
         let seen = world.look(DVec3::X * 20.0, DVec3::new(-1.0, 0.001, 0.0), 1e-12);
         assert!(!matches!(seen, Seen::Hit(_)));

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Thing, World, Worldline};
 use lensrunner::judge::trace::PixelCamera;
-use lensrunner::scene::lighting::Surroundings;
+use lensrunner::scene::lighting::Illumination;
 use lensrunner::scene::{Material, Model, Vertex};
 use lensrunner::spacetime::Observer;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
@@ -27,7 +27,7 @@ fn model(corners: &[DVec3], triangles: &[[u32; 3]]) -> Model {
 }
 
 fn thing<'a>(model: usize, motion: Motion<'a>) -> Thing<'a> {
-    Thing { model, scale: 1.0, motion, light: Surroundings::default(), id: model as u32 + 1 }
+    Thing { model, scale: 1.0, motion, light: Illumination::default(), id: model as u32 + 1 }
 }
 
 fn held() -> Motion<'static> {

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::{DQuat, DVec3};
 use lensrunner::judge::picture::{Motion, Pose, Seen, Sway, Thing, World, Worldline};
 use lensrunner::judge::{Branch, shoot};
-use lensrunner::scene::lighting::Surroundings;
+use lensrunner::scene::lighting::Illumination;
 use lensrunner::scene::model::{Material, Model, Vertex};
 
 const TOLERANCE: f64 = 1e-12;
@@ -29,7 +29,7 @@ fn square(half: f64) -> Model {
 }
 
 fn thing<'a>(model: usize, motion: Motion<'a>) -> Thing<'a> {
-    Thing { model, scale: 1.0, motion, light: Surroundings::default(), id: model as u32 + 1 }
+    Thing { model, scale: 1.0, motion, light: Illumination::default(), id: model as u32 + 1 }
 }
 
 /// Along the x axis at this rate of x, whatever the hole does to others.

@@ -10,7 +10,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Motion, Object, Placed, Surroundings as Light, View, instances_of};
+use lensrunner::render::instances::{Illumination as Light, Motion, Object, Placed, View, instances_of};
 use lensrunner::render::method::Method;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;

@@ -5,7 +5,7 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::{self, Picture};
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Motion, Object, Surroundings as Light, View, instances_of};
+use lensrunner::render::instances::{Illumination as Light, Motion, Object, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::{self, Body, GameConfig};

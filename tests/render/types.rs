@@ -4,8 +4,10 @@ use std::mem::size_of;
 use std::sync::{LazyLock, Mutex, PoisonError};
 
 use lensrunner::render::aurora::ground::GroundLight;
-use lensrunner::render::aurora::rooms::CORNERS;
-use lensrunner::render::aurora::{AuroraSettings, BOTH_POLES, Colours, LINEAR, PYRAMID, SHIFTS, Segment};
+use lensrunner::render::aurora::rooms::{CORNERS, LIT_TILES};
+use lensrunner::render::aurora::{
+    AuroraSettings, BOTH_POLES, Colours, DEPTH_TILES, LEAST_DEPTH_TILE, LINEAR, PYRAMID, RED_EVERY, SHIFTS, SMOOTH, Segment,
+};
 use lensrunner::render::disk::circles::AZIMUTHS;
 use lensrunner::render::disk::types::{self as disk, Circle, DiskCounters, DiskFrame, DiskVertex};
 use lensrunner::render::disk::view::THIN_SAMPLES;
@@ -19,7 +21,9 @@ use lensrunner::render::gpu::types::{
 use lensrunner::render::gpu::types::{flags, placed};
 use lensrunner::render::method::Method;
 use lensrunner::render::models::ALONE;
+use lensrunner::render::models::hiding::DIRECTIONS;
 use lensrunner::render::models::outside;
+use lensrunner::render::post_process::TILE;
 use wgpu::naga::{Expression, Literal, Module};
 
 use crate::layout::{fields, fields_of, struct_of};
@@ -63,7 +67,7 @@ fn structs_have_one_layout_in_both_languages() {
         ("gpu::types::SeenVertex", fields!(SeenVertex: apparent, normal, leaving, surface, fan)),
         (
             "geometry::bindings::Counters",
-            fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside),
+            fields!(Counters: vertices, indices, work, thin, pieces, turn, coarse, cut, caught, model_vertices, lost, outside, split),
         ),
         ("gpu::types::Material", fields!(Material: base, emissive, surface)),
         ("shading::aurora_light::GroundLight", fields!(GroundLight: dipole ["dipole_x", "dipole_y", "dipole_z"], colour, map, planet)),
@@ -90,7 +94,7 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
     let cases = [
         ("gpu::types::Piece", types::PIECE_BYTES),
         ("gpu::types::WorkItem", types::WORK_BYTES),
-        ("geometry::bindings::ThinVertex", types::THIN_BYTES),
+        ("gpu::types::ThinVertex", types::THIN_BYTES),
         ("geometry::arguments::Arguments", types::ARGUMENTS_BYTES),
         ("gpu::types::SkyCorner", types::SKY_CORNER_BYTES),
         ("disk::arcs::arguments::DiskArguments", disk::ARGUMENTS_BYTES),
@@ -103,14 +107,30 @@ fn structs_that_only_shaders_know_have_the_sizes_that_rust_reserves() {
 
 /// The value of a constant of the shader, as f64.
 fn constant(path: &str) -> f64 {
-    let module = composed(&format!("const VALUE = lensrunner::{path};"));
-    let found = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some("VALUE"));
+    named_constant(&composed(&format!("const VALUE = lensrunner::{path};")), "VALUE", path)
+}
+
+/// The value of a constant of a module, by its name there.
+fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
+    let found = module.constants.iter().find(|(_, constant)| constant.name.as_deref() == Some(name));
     let (_, constant) = found.unwrap_or_else(|| panic!("no constant {path}"));
     match module.global_expressions[constant.init] {
         Expression::Literal(Literal::U32(value)) => f64::from(value),
         Expression::Literal(Literal::I32(value)) => f64::from(value),
         Expression::Literal(Literal::F32(value)) => f64::from(value),
         ref other => panic!("{path} is {other:?}"),
+    }
+}
+
+#[test]
+fn constants_of_passes_have_one_value_in_both_languages() {
+    let cases = [
+        (Pass::Smooth, "TILE", f64::from(TILE)),
+        (Pass::AuroraWalk, "DEPTH_TILES", f64::from(DEPTH_TILES)),
+        (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE)),
+    ];
+    for (pass, name, value) in cases {
+        assert_eq!(named_constant(&pass.module(), name, name), value, "{name}");
     }
 }
 
@@ -142,6 +162,11 @@ fn constants_have_one_value_in_both_languages() {
         ("aurora::streaks::AURORA_LINEAR", whole(LINEAR)),
         ("aurora::streaks::AURORA_BOTH_POLES", whole(BOTH_POLES)),
         ("aurora::levels::lit_tiles::PYRAMID", whole(PYRAMID)),
+        ("aurora::levels::lit_tiles::LIT_TILE_COLUMNS", whole(LIT_TILES[0])),
+        ("aurora::levels::lit_tiles::LIT_TILE_ROWS", whole(LIT_TILES[1])),
+        ("aurora::streaks::RED_EVERY", whole(RED_EVERY)),
+        ("aurora::streaks::SMOOTH", f64::from(SMOOTH as f32)),
+        ("models::hiding::DIRECTIONS", whole(DIRECTIONS)),
         ("aurora::stroke::CORNERS", whole(CORNERS)),
         ("aurora::levels::lit_corners::SHIFTS", SHIFTS as f64),
     ];

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use glam::{DVec3, Vec3};
+use lensrunner::scene::model::SHIP_MODELS;
 use lensrunner::scene::model::import::{ModelError, load_model, load_or_placeholder};
 use lensrunner::scene::model::shapes::{Anchor, icosphere, square, uv_sphere};
 use lensrunner::scene::model::texture;
@@ -74,7 +75,7 @@ fn a_square_has_edge_one_and_faces_plus_z() {
 
 #[test]
 fn the_ships_are_sound() {
-    for name in ["hunter.glb", "quarry.glb"] {
+    for name in SHIP_MODELS {
         let path = assets_folder().join("models").join(name);
         assert!(std::fs::metadata(&path).unwrap().len() < 600_000);
         let model = load_model(&path).unwrap();

@@ -6,7 +6,7 @@ use super::texture::Pyramid;
 use super::world::worldline::Motion;
 use super::world::{Thing, World};
 use crate::judge::trace::Hit;
-use crate::scene::lighting::Surroundings;
+use crate::scene::lighting::Illumination;
 use crate::scene::model::Material;
 use crate::spacetime::matter::gamma;
 use crate::spacetime::metric::river_speed;
@@ -110,13 +110,13 @@ pub fn texel(pyramid: Option<&Pyramid>, uv: Vec2, detail: f32) -> Option<Vec3> {
 }
 
 /// Light that falls on a surface of normal n: ambient and first harmonic of what shines around the object.
-fn irradiance(light: &Surroundings, n: Vec3) -> Vec3 {
+fn irradiance(light: &Illumination, n: Vec3) -> Vec3 {
     let channel = |c: usize| light.ambient[c] + Vec3::from(light.directed[c]).dot(n);
     Vec3::new(channel(0), channel(1), channel(2)).max(Vec3::ZERO)
 }
 
 /// A highlight towards the main light, narrower on smooth surfaces.
-fn gloss(light: &Surroundings, direction: Vec3, roughness: f32) -> f32 {
+fn gloss(light: &Illumination, direction: Vec3, roughness: f32) -> f32 {
     let main: Vec3 = light.directed.iter().map(|&d| Vec3::from(d)).sum();
     let strength = main.length();
     if strength < 1e-9 {

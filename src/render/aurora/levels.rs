@@ -89,9 +89,10 @@ fn place(size: [u32; 2], level: u32) -> [f32; 4] {
     [scale[0], scale[1], offset[0], offset[1]]
 }
 
-/// Number of sizes of depth tiles, for which the least and greatest depth are known; below it the least size, in pixels. As in walk.wgsl.
-const DEPTH_TILES: u32 = 6;
-const LEAST_DEPTH_TILE: u32 = 8;
+/// Number of sizes of depth tiles, for which the least and greatest depth are known; as in walk.wgsl.
+pub const DEPTH_TILES: u32 = 6;
+/// The least size of a depth tile, in pixels; as in walk.wgsl.
+pub const LEAST_DEPTH_TILE: u32 = 8;
 
 /// The least and the greatest depth of what is drawn, by depth tiles.
 #[derive(Debug)]

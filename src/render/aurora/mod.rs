@@ -17,9 +17,10 @@ pub mod sight;
 pub mod veil;
 
 pub use animation::planet_view::planet_history;
+pub use animation::streaks::{RED_EVERY, SMOOTH};
 pub use animation::{AuroraAnimation, AuroraFrame, RAYS_PERIOD};
 pub use colours::Colours;
-pub use levels::PYRAMID;
+pub use levels::{DEPTH_TILES, LEAST_DEPTH_TILE, PYRAMID};
 pub use pass::Aurora;
 pub use shift::SHIFTS;
 

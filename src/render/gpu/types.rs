@@ -175,6 +175,7 @@ pub struct Counters {
     pub model_vertices: u32,
     pub lost: u32,
     pub outside: u32,
+    pub split: u32,
 }
 
 impl Counters {

@@ -18,7 +18,7 @@ use crate::render::instances::swing::Swing;
 use crate::render::instances::view::MARGIN;
 use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
-pub use crate::scene::lighting::Surroundings;
+pub use crate::scene::lighting::Illumination;
 use crate::sim::History;
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
@@ -59,7 +59,7 @@ pub struct Object<'a> {
     /// A number for the layers of a picture, from 1.
     pub id: u32,
     /// What shines on it.
-    pub light: Surroundings,
+    pub light: Illumination,
 }
 
 impl Object<'_> {
@@ -185,7 +185,7 @@ fn columns_and(m: DMat3, v: DVec3) -> [[f32; 4]; 3] {
     [row(m.x_axis, v.x), row(m.y_axis, v.y), row(m.z_axis, v.z)]
 }
 
-fn light_rows(light: &Surroundings) -> [[f32; 4]; 3] {
+fn light_rows(light: &Illumination) -> [[f32; 4]; 3] {
     std::array::from_fn(|c| {
         let [x, y, z] = light.directed[c];
         [x, y, z, light.ambient[c]]

@@ -11,7 +11,7 @@ use crate::render::gpu::targets::{Targets, target};
 use crate::render::passes::{Recording, colour};
 
 /// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
-const TILE: u32 = 16;
+pub const TILE: u32 = 16;
 
 /// The passes after the picture is drawn.
 #[derive(Debug)]

@@ -8,6 +8,9 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 
+/// The ships of the game, in `assets/models/`: the hunter's and the quarry's.
+pub const SHIP_MODELS: [&str; 2] = ["hunter.glb", "quarry.glb"];
+
 /// A corner of a triangle, in the model's own axes (+y up, −z forward), lengths in units of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 #[repr(C)]

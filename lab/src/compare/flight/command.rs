@@ -194,15 +194,22 @@ impl Flight<'_> {
 
     /// What is wrong with the frame from which an image jumps to the next; None if it is right, so that things really move so fast.
     fn jump(&self, earlier: &Still, still: &Still, jump: &Jump) -> Option<Fault> {
-        let judged = judge(&earlier.case, &self.request.terms, self.contestant).ok()?;
-        let fault = main_fault(&judged.faults)?;
+        let judged = judge(&earlier.case, &self.request.terms, self.contestant);
+        let (excess, at_first) = match &judged {
+            Ok(judged) => {
+                let fault = main_fault(&judged.faults)?;
+                (fault.excess, format!("{}: {fault}", fault.kind))
+            }
+            // What nobody has judged does not count as right.
+            Err(gave_up) => (1.0, gave_up.to_string()),
+        };
         let name = self.scene_object(&earlier.case, jump.object);
         let ([a, b], order) = (jump.areas, jump.order);
         let text = format!(
-            "{name} order {order} goes from {a:.1} to {b:.1} px between T = {} and {}; at the first: {}: {fault}",
-            earlier.case.time, still.case.time, fault.kind
+            "{name} order {order} goes from {a:.1} to {b:.1} px between T = {} and {}; at the first: {at_first}",
+            earlier.case.time, still.case.time
         );
-        Some(Fault { kind: Kind::Jump, excess: fault.excess, text })
+        Some(Fault { kind: Kind::Jump, excess, text })
     }
 
     fn scene_object(&self, case: &Case, number: u32) -> String {

@@ -10,6 +10,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::place;
 use super::text::{Text, rounded};
+use lensrunner::scene::model::SHIP_MODELS;
 use lensrunner::scene::{GameConfig, Scene};
 
 /// A case: a scene, when it is looked at, and how large the picture is.
@@ -156,7 +157,7 @@ impl Things<'_> {
             self.text.vector("momentum", momentum);
         }
         self.attitude();
-        let model = *place::pick(self.chance, &["hunter.glb", "quarry.glb"]);
+        let model = *place::pick(self.chance, &SHIP_MODELS);
         self.text.word("model", model);
         if self.chance.random_bool(0.15) {
             let acceleration = place::direction(self.chance) * self.chance.random_range(0.02..0.3);
@@ -186,7 +187,7 @@ impl Things<'_> {
         let size = self.size(0.3..3.0);
         let position = place::thing(self.chance, self.corner, self.eye, size, true);
         self.begin("[[prop]]", "model", position);
-        let model = *place::pick(self.chance, &["hunter.glb", "quarry.glb"]);
+        let model = *place::pick(self.chance, &SHIP_MODELS);
         self.text.word("model", model);
         self.text.vector("position", position);
         self.text.number("size", size);

@@ -15,7 +15,7 @@ use std::time::Instant;
 
 use glam::{DMat3, DVec3};
 
-use crate::scene::lighting::Surroundings;
+use crate::scene::lighting::Illumination;
 use crate::scene::model::Model;
 use span::{CLINGING, Scope};
 use sweep::Sweep;
@@ -32,7 +32,7 @@ pub struct Thing<'a> {
     /// How it moves.
     pub motion: Motion<'a>,
     /// What shines on it.
-    pub light: Surroundings,
+    pub light: Illumination,
     /// Its number in the layers of a picture, from 1.
     pub id: u32,
 }

@@ -3,7 +3,7 @@
 
 mod chords;
 pub(super) mod planet_view;
-mod streaks;
+pub(super) mod streaks;
 
 use std::sync::Arc;
 
@@ -25,7 +25,7 @@ use crate::scene::aurora::lines::kilorayleigh_xyz;
 use crate::scene::aurora::motion::{Motion, Plan, STEP, length};
 use crate::scene::aurora::quantiles::{HEIGHTS, KINDS, PARTS, Quantiles};
 use crate::scene::config::AuroraConfig;
-use crate::scene::lighting::Surroundings;
+use crate::scene::lighting::Illumination;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::spacetime::light::Order;
 use chords::Bend;
@@ -204,7 +204,7 @@ impl AuroraAnimation {
             reach: self.planet.radius * REACH,
             scale: self.planet.radius / PLANET_RADIUS,
             id: 0,
-            light: Surroundings::default(),
+            light: Illumination::default(),
         };
         let mut frame = AuroraFrame::default();
         let mut widest: f64 = 0.0;

@@ -21,9 +21,9 @@ const NEAREST: f64 = 100.0;
 const PER_PIXEL: f64 = 1.5;
 const FULL_PIXELS: f64 = 300.0;
 /// Distance between two streaks over their standard deviation along the curtain, at most; as in streaks.wgsl.
-const SMOOTH: f64 = 1.6;
+pub const SMOOTH: f64 = 1.6;
 /// One streak in so many is red; the others have all other lines. As in streaks.wgsl.
-const TURN: u32 = 5;
+pub const RED_EVERY: u32 = 5;
 /// Streaks with a standard deviation above this, in pixels, overlap more and more. They become fewer as they become wider: always 1.8 per
 /// standard deviation of the curtain's length. So the number of pixels that are filled is bounded by the picture's size.
 const WIDE: f64 = 1.2;
@@ -92,7 +92,7 @@ impl Curtains<'_> {
         let per_pixel = PER_PIXEL * (globe.pixels / FULL_PIXELS).clamp(0.25, 1.0);
         let wanted = (per_pixel * total * globe.magnification()).min(f64::from(self.config.streaks)) * self.ration;
         // Where few streaks are wanted, several pairs of nodes make one part.
-        let least = self.poles() * TURN;
+        let least = self.poles() * RED_EVERY;
         let nodes = self.row.len();
         let stride =
             ((f64::from(least) * nodes as f64 / wanted.max(1.0)).ceil() as usize).max(nodes.div_ceil(MOST_SEGMENTS)).clamp(1, MOST_PAIRS);
@@ -144,6 +144,6 @@ impl Curtains<'_> {
 /// of the two, for the red streaks, which stand farthest apart. As in streaks.wgsl.
 fn spread(segment: &Segment, poles: u32) -> f64 {
     let [_, width, length, _] = segment.light.map(f64::from);
-    let apart = length * f64::from(TURN * poles) / f64::from(segment.range[2].max(1));
+    let apart = length * f64::from(RED_EVERY * poles) / f64::from(segment.range[2].max(1));
     (width / 12f64.sqrt()).max(apart / SMOOTH)
 }
