@@ -28,7 +28,7 @@ struct Staged(Stage);
 
 fn load(mut commands: Commands, table: Res<LensingTable>, mut drawn: ResMut<SceneToDraw>) {
     let config = GameConfig::default();
-    let scene = scene::load("examples/lensed_model.toml").expect("the example is started in the project's folder");
+    let scene = scene::load(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/lensed_model.toml")).expect("the example's scene is beside it");
     let (stage, upload) = Stage::prepare(&table.0, &scene, scene.assemble(&config), &config, None);
     drawn.0 = Some(Arc::new(upload));
     commands.insert_resource(Staged(stage));

@@ -1,7 +1,7 @@
 #define_import_path lensrunner::gpu::types
 
-// The types that every pass shares. Each has a Rust mirror of the same name in src/render/gpu/types.rs; tests/render/types.rs holds sizes,
-// offsets and constants equal.
+// The types that every pass shares. Each has a Rust mirror of the same name in src/render/gpu/types.rs; tests/render/gpu/types.rs holds
+// sizes, offsets and constants equal.
 //
 // Frames: "rain" axes are the flat axes of the slice T = const carried by observers who fall from rest at infinity; "camera" axes are
 // (right, up, back) in the rest frame of the camera. Lengths in r_s, times in r_s/c.

@@ -13,7 +13,7 @@ use crate::spacetime::matter::gamma;
 
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
-use crate::play::input::{Bindings, Hands, MouseTurn};
+use crate::play::input::{Bindings, MouseTurn, PlayerInput};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
@@ -61,7 +61,7 @@ fn begin(world: &mut World, screen: Screen) {
 
 /// Keys that switch something.
 fn read_keys(
-    hands: Hands,
+    hands: PlayerInput,
     typing: Option<Res<EguiWantsInput>>,
     screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
@@ -177,7 +177,7 @@ type ByHand = (With<Player>, With<Manual>);
 
 /// The player's hands become the ship's controls.
 fn fly_by_hand(
-    hands: Hands,
+    hands: PlayerInput,
     clock: Res<Clock>,
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,

@@ -63,7 +63,7 @@ impl Plugin for RelativisticRenderPlugin {
             .insert_resource(LensingTable(self.surroundings.table.clone()));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
-            .insert_resource(Ingredients(self.surroundings.clone()))
+            .insert_resource(RendererInputs(self.surroundings.clone()))
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .add_systems(RenderStartup, make_renderer)
@@ -98,14 +98,14 @@ struct OwnedRenderer(SyncCell<Renderer>);
 
 /// Render world: what the renderer is made of.
 #[derive(Resource, Debug)]
-struct Ingredients(Arc<Surroundings>);
+struct RendererInputs(Arc<Surroundings>);
 
 /// Compiles all passes. The size and the format are the window's from the first frame on.
 fn make_renderer(
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     info: Res<RenderAdapterInfo>,
-    ingredients: Res<Ingredients>,
+    ingredients: Res<RendererInputs>,
     mut commands: Commands,
 ) {
     if missing_limits(&device.limits()).is_some() {
@@ -159,7 +159,7 @@ fn draw(view: ViewQuery<&ViewTarget>, frame: Res<FrameToDraw>, mut renderer: Res
     renderer.set_output_format(target.main_texture_format());
     renderer.resize([size.width, size.height]);
     if input.camera.radius() < NEAR_THE_HORIZON {
-        renderer.foresee_the_inside();
+        renderer.precompile_the_inside();
     }
     if renderer.prepare(input) {
         renderer.encode(context.command_encoder(), target.main_texture_view());

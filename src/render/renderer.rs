@@ -197,8 +197,8 @@ impl Renderer {
     }
 
     /// The camera is near the horizon and may fall through it: what is needed inside is compiled meanwhile.
-    pub fn foresee_the_inside(&mut self) {
-        self.geometry.foresee(self.sliced.1, true);
+    pub fn precompile_the_inside(&mut self) {
+        self.geometry.precompile(self.sliced.1, true);
     }
 
     /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.

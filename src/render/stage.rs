@@ -31,7 +31,7 @@ use crate::render::settings::Settings;
 /// A scene's objects, ready to be placed.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    objects: Vec<(scene::Object, Fineness)>,
+    objects: Vec<(scene::Object, LevelsOfDetail)>,
     /// Farthest vertex of each object from its centre, in r_s.
     reaches: Vec<f64>,
     table: Arc<Table>,
@@ -44,12 +44,12 @@ pub struct Stage {
     /// Inner and outer radius of the disk.
     disk: Option<[f64; 2]>,
     /// Shared, because a stage is only read when it makes a frame.
-    show: Arc<Mutex<Option<AuroraAnimation>>>,
+    animation: Arc<Mutex<Option<AuroraAnimation>>>,
 }
 
 /// A model; its stand-in for images a few pixels wide; its stand-ins for wider images, each up to a width in pixels, the coarsest first.
 #[derive(Clone, Debug)]
-struct Fineness {
+struct LevelsOfDetail {
     model: ModelRange,
     coarse: ModelRange,
     stand_ins: Vec<(f64, ModelRange)>,
@@ -84,11 +84,11 @@ impl Stage {
             Some(mark) => models.add(&mark(model)),
             None => models.add(model),
         };
-        let mut ranges: Vec<Fineness> = Vec::new();
+        let mut ranges: Vec<LevelsOfDetail> = Vec::new();
         for model in &assembly.models {
             let fine = add(model);
             let coarse = coarse(model).map_or(fine, |model| add(&model));
-            ranges.push(Fineness { model: fine, coarse, stand_ins: Vec::new() });
+            ranges.push(LevelsOfDetail { model: fine, coarse, stand_ins: Vec::new() });
         }
         // A smaller globe needs fewer triangles.
         let globes = assembly.objects.iter().filter(|object| object.body == Body::Planet);
@@ -115,31 +115,32 @@ impl Stage {
             engines: scene.ships.iter().map(|ship| (ship.ai == Ai::Flee && !ship.player, ship.max_thrust)).collect(),
             planet: scene.planet,
             disk,
-            show: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)))),
+            animation: Arc::new(Mutex::new(scene.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, disk, &config.aurora)))),
         };
         (stage, upload)
     }
 
     /// Limits the aurora's simulation per frame, for scenes that are watched as they run. Its state then depends on earlier frames.
     pub fn watched(self) -> Stage {
-        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-        *show = show.take().map(AuroraAnimation::watched);
-        drop(show);
+        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
+        *animation = animation.take().map(AuroraAnimation::watched);
+        drop(animation);
         self
     }
 
     /// Gives the aurora other settings; nothing else is made anew. For a stage in real time.
     pub fn change_aurora(&self, config: &AuroraConfig) {
-        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-        if show.as_mut().is_none_or(|show| !show.change(config)) {
-            *show = self.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, self.disk, config)).map(AuroraAnimation::watched);
+        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
+        if animation.as_mut().is_none_or(|animation| !animation.change(config)) {
+            *animation =
+                self.planet.as_ref().and_then(|planet| AuroraAnimation::new(planet, self.disk, config)).map(AuroraAnimation::watched);
         }
     }
 
     /// Lets the aurora follow the times (ms) of all passes of an earlier frame: it takes no more than `aurora.share` of them.
     pub fn ration_aurora(&self, passes: &[(&str, f32)]) {
-        if let Some(show) = self.show.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-            show.ration(passes);
+        if let Some(animation) = self.animation.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            animation.ration(passes);
         }
     }
 
@@ -213,8 +214,8 @@ impl Stage {
     /// The planet's aurora at T = `time`, if it has one and that is seen; light comes from `back` r_s/c before at most.
     fn aurora(&self, view: &View, time: f64, back: f64) -> Option<AuroraFrame> {
         self.planet.as_ref()?;
-        let mut show = self.show.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut aurora = show.as_mut()?.frame(view, time, back, view.settings.orders)?;
+        let mut animation = self.animation.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut aurora = animation.as_mut()?.frame(view, time, back, view.settings.orders)?;
         // Only the planet is lit by it.
         let globe = self.objects.iter().position(|(object, _)| object.body == Body::Planet);
         if let (Some(ground), Some(number)) = (aurora.ground.as_mut(), globe) {

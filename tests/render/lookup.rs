@@ -133,7 +133,7 @@ fn a_camera_inside_sees_what_is_inside_twice() {
 fn what_was_foreseen_is_seen_inside() {
     // Of its own: that for all has been inside.
     let mut foreseeing = Bench::new([64, 36]);
-    foreseeing.renderer.foresee_the_inside();
+    foreseeing.renderer.precompile_the_inside();
     let mut bench = bench();
     let outside = falling(DVec3::new(0.0, 0.05, 1.6), DVec3::ZERO);
     // Another method before the first crossing: what was foreseen for the one before is kept, and this one is foreseen as well.
@@ -141,7 +141,7 @@ fn what_was_foreseen_is_seen_inside() {
         let settings = Settings { method, ..Settings::default() };
         let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), aurora: None, settings };
         foreseeing.renderer.picture(&frame, false).unwrap();
-        foreseeing.renderer.foresee_the_inside();
+        foreseeing.renderer.precompile_the_inside();
     }
     let settings = Settings::default();
     for radius in [0.45, 1.6, 0.45, 1.4] {

@@ -158,7 +158,7 @@ const KEYS: [KeyCode; 92] = {
 
 /// The state of all buttons, through the bindings.
 #[derive(SystemParam)]
-pub struct Hands<'w> {
+pub struct PlayerInput<'w> {
     /// Which does what.
     pub bindings: Res<'w, Bindings>,
     /// The keyboard.
@@ -167,7 +167,7 @@ pub struct Hands<'w> {
     pub mouse: Res<'w, ButtonInput<MouseButton>>,
 }
 
-impl Hands<'_> {
+impl PlayerInput<'_> {
     /// Whether the button for `action` is held.
     pub fn holds(&self, action: Action) -> bool {
         match self.bindings.find(action) {
@@ -243,7 +243,7 @@ mod tests {
         config: &GameConfig,
         keys: &[KeyCode],
         mouse: &[MouseButton],
-        ask: impl Fn(&Hands) -> T + Send + Sync + 'static,
+        ask: impl Fn(&PlayerInput) -> T + Send + Sync + 'static,
     ) -> T {
         let mut world = World::new();
         world.insert_resource(Bindings::of(config));
@@ -252,7 +252,7 @@ mod tests {
         mouse.iter().for_each(|&button| clicked.press(button));
         world.insert_resource(held);
         world.insert_resource(clicked);
-        world.run_system_cached_with(move |_: In<()>, hands: Hands| ask(&hands), ()).expect("all resources are there")
+        world.run_system_cached_with(move |_: In<()>, hands: PlayerInput| ask(&hands), ()).expect("all resources are there")
     }
 
     #[test]

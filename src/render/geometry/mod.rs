@@ -10,7 +10,7 @@ use crate::render::gpu::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
 
 use ground::Ground;
-use stages::{Makings, Shelf};
+use stages::{PipelineCache, PipelineInputs};
 
 use crate::render::Gpu;
 use crate::render::aurora::ground::GroundFrame;
@@ -44,7 +44,7 @@ fn room(budget: u32, vertices: u32, triangles: u32, most: u64) -> Capacity {
 pub struct Geometry {
     group_layout: wgpu::BindGroupLayout,
     draw_layout: wgpu::BindGroupLayout,
-    stages: Shelf,
+    stages: PipelineCache,
     draws: Draws,
     instances: TableTexture,
     chunks: [Growing; 3],
@@ -144,14 +144,14 @@ impl Geometry {
             ShaderStages::VERTEX_FRAGMENT,
             &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read, Slot::Uniform, Slot::Texture],
         );
-        let makings = Makings {
+        let inputs = PipelineInputs {
             device: device.clone(),
             frame: frame_layout.clone(),
             geometry: group_layout.clone(),
             arguments: arguments_layout.clone(),
             worldlines,
         };
-        let stages = Shelf::new(makings, (Method::default(), false));
+        let stages = PipelineCache::new(inputs, (Method::default(), false));
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
         let arguments_group = bind(device, "arguments", &arguments_layout, &[arguments.as_entire_binding()]);
@@ -187,8 +187,8 @@ impl Geometry {
     }
 
     /// The camera may soon be on the other side of the horizon: compiles its stages in the background.
-    pub fn foresee(&mut self, method: Method, inside: bool) {
-        self.stages.foresee((method, inside));
+    pub fn precompile(&mut self, method: Method, inside: bool) {
+        self.stages.precompile((method, inside));
     }
 
     /// Whether nothing is placed in the prepared frame: there is nothing to do or to draw.

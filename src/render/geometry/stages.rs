@@ -29,7 +29,7 @@ pub(super) struct Stages {
 
 /// What stages are compiled with.
 #[derive(Clone, Debug)]
-pub(super) struct Makings {
+pub(super) struct PipelineInputs {
     pub device: wgpu::Device,
     /// Layouts of groups 0 to 2.
     pub frame: wgpu::BindGroupLayout,
@@ -38,7 +38,7 @@ pub(super) struct Makings {
     pub worldlines: Worldlines,
 }
 
-impl Makings {
+impl PipelineInputs {
     fn stages(&self, (method, inside): Side) -> Stages {
         let device = &self.device;
         let groups = [Some(&self.frame), Some(&self.geometry)];
@@ -62,8 +62,8 @@ impl Makings {
 
 /// All that have been compiled.
 #[derive(Debug)]
-pub(super) struct Shelf {
-    makings: Makings,
+pub(super) struct PipelineCache {
+    inputs: PipelineInputs,
     now: Arc<Stages>,
     side: Side,
     kept: Vec<(Side, Arc<Stages>)>,
@@ -71,11 +71,11 @@ pub(super) struct Shelf {
     ahead: Option<(Side, JoinHandle<Stages>)>,
 }
 
-impl Shelf {
+impl PipelineCache {
     /// With the stages of one side.
-    pub fn new(makings: Makings, side: Side) -> Shelf {
-        let now = Arc::new(makings.stages(side));
-        Shelf { makings, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
+    pub fn new(inputs: PipelineInputs, side: Side) -> PipelineCache {
+        let now = Arc::new(inputs.stages(side));
+        PipelineCache { inputs, now: now.clone(), side, kept: vec![(side, now)], ahead: None }
     }
 
     /// The stages in use.
@@ -92,14 +92,14 @@ impl Shelf {
         let kept = self.kept.iter().find(|kept| kept.0 == side).map(|kept| kept.1.clone());
         self.now = kept.unwrap_or_else(|| {
             let ahead = self.ahead.take_if(|ahead| ahead.0 == side).and_then(|(_, thread)| thread.join().ok());
-            let stages = Arc::new(ahead.unwrap_or_else(|| self.makings.stages(side)));
+            let stages = Arc::new(ahead.unwrap_or_else(|| self.inputs.stages(side)));
             self.kept.push((side, stages.clone()));
             stages
         });
     }
 
     /// This side will be needed: compiles it in the background, unless it is there or another is being compiled.
-    pub fn foresee(&mut self, side: Side) {
+    pub fn precompile(&mut self, side: Side) {
         // What was compiled in advance and not used is kept as well.
         if let Some((other, thread)) = self.ahead.take_if(|ahead| ahead.1.is_finished())
             && let Ok(stages) = thread.join()
@@ -107,15 +107,15 @@ impl Shelf {
             self.kept.push((other, Arc::new(stages)));
         }
         if self.ahead.is_none() && self.kept.iter().all(|kept| kept.0 != side) {
-            let makings = self.makings.clone();
+            let inputs = self.inputs.clone();
             // Without a thread it is compiled when it is needed.
-            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || makings.stages(side));
+            let thread = std::thread::Builder::new().name("stages".to_owned()).spawn(move || inputs.stages(side));
             self.ahead = thread.ok().map(|thread| (side, thread));
         }
     }
 }
 
-impl Drop for Shelf {
+impl Drop for PipelineCache {
     fn drop(&mut self) {
         // The device must stay alive while a driver compiles.
         if let Some((_, thread)) = self.ahead.take() {

@@ -1,5 +1,5 @@
-//! The types that Rust and WGSL share, `shaders/gpu/types.wgsl` being the other half. tests/render/types.rs holds sizes, offsets and constants
-//! equal.
+//! The types that Rust and WGSL share, `shaders/gpu/types.wgsl` being the other half. tests/render/gpu/types.rs holds sizes, offsets and
+//! constants equal.
 
 use bytemuck::{Pod, Zeroable};
 

@@ -4,4 +4,6 @@ mod chords;
 mod ground;
 mod history;
 mod pictures;
+mod ration;
+mod shift;
 mod sight;

@@ -1,4 +1,5 @@
 //! Tests of `src/render/disk/`.
 
 mod arcs;
+mod fragments;
 mod rings;

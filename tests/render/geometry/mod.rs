@@ -1,0 +1,3 @@
+//! Tests of `src/render/geometry/`.
+
+mod chords;

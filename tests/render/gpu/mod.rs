@@ -1,0 +1,6 @@
+//! Tests of `src/render/gpu/`.
+
+mod branches;
+mod fallbacks;
+mod shaders;
+mod types;

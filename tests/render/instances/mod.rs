@@ -1,0 +1,4 @@
+//! Tests of `src/render/instances/`.
+
+mod bounds;
+mod swing;

@@ -1,0 +1,3 @@
+//! Tests of `src/render/models/`.
+
+mod outside;
