@@ -6,9 +6,10 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
-    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST, edge_point, exact, halfway, is_blurred, is_lost,
-    level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments, most_turn, MUST_SPLIT, part_between, plane_normal,
-    query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along, turned_away, uneven_sag,
+    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST,
+    edge_point, exact, halfway, is_blurred, is_lost, level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments,
+    most_turn, MUST_SPLIT, part_between, plane_normal, query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along,
+    turned_away, uneven_sag,
 }
 #import lensrunner::geometry::project::{answer, leaving_direction, query_body}
 #import lensrunner::gpu::bindings::frame
@@ -267,8 +268,8 @@ fn met(piece: Piece, order: u32) -> vec3<f32> {
     return result;
 }
 
-/// At the deepest splitting a piece may still turn too much about the axis: near it rounding decides on azimuths. Its chords would run across
-/// the ring, so it is left out. This is whether that may be seen: `farthest` is the largest distance of its corners from the axis, in r_s.
+/// At the deepest splitting a piece may still turn too much about the axis, where rounding decides on azimuths. Its chords would run across
+/// the ring, so it is left out. This is whether that may be seen. `farthest` is the largest distance of its corners from the axis, in r_s.
 fn reaches_out(farthest: f32) -> bool {
     return farthest > AXIS_SHARE * frame.size.z / pixel_fineness(points[1], points[2]) * length(points[1]);
 }

@@ -9,7 +9,7 @@
 #import lensrunner::geometry::emit::{emit_piece, emit_whole, emit_work, hand_over, off_screen, pixels}
 #import lensrunner::geometry::patch::{BLOCK, is_lost, meets_axis, offset_of, turned_away}
 #import lensrunner::gpu::bindings::frame
-#import lensrunner::gpu::types::{Chunk, Instance, ModelTriangle, Piece, PIECE_FAN, PIECE_TRIANGLE}
+#import lensrunner::gpu::types::{Chunk, Instance, Piece, PIECE_FAN, PIECE_TRIANGLE}
 #import lensrunner::instances::instance::instance_at
 
 @compute @workgroup_size(64)
