@@ -283,8 +283,8 @@ fn run_project(args: &ProjectArgs) -> ExitCode {
     let request = project::ProjectRequest {
         order,
         frame: match args.frame {
-            FrameArg::Static => project::Frame::Static,
-            FrameArg::Rain => project::Frame::Rain,
+            FrameArg::Static => project::AngleFrame::Static,
+            FrameArg::Rain => project::AngleFrame::Rain,
         },
         branch: match args.branch {
             BranchArg::Plus => Branch::Plus,

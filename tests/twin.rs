@@ -5,9 +5,9 @@ use lensrunner::render::gpu::{layout, readback};
 
 use crate::gpu::GPU;
 
-/// Runs `body` behind the shipped file of `pass`: one thread per row of `input`. In `body`, `row` is that row and `twin_out` takes `outputs`
-/// rows from each thread; lines of `#import` come first, for names that the file itself does not import. `tables`: the lens slice and the sky slice; of an empty one the shader must not speak, of another
-/// it must.
+/// Runs `body` behind the shipped file of `pass`: one thread per row of `input`. In `body`, `row` is that row and `twin_out` takes
+/// `outputs` rows from each thread; lines of `#import` come first, for names that the file itself does not import. `tables`: the lens slice
+/// and the sky slice; of an empty one the shader must not speak, of another it must.
 pub fn run(pass: Pass, body: &str, tables: [&[[f32; 4]]; 2], input: &[[f32; 4]], outputs: usize) -> Vec<[f32; 4]> {
     run_with(pass, body, tables, &[], input, outputs)
 }

@@ -348,7 +348,8 @@ fn draw_stroke(order: u32, line: Line, seen: Seen, photons: vec4<f32>) -> bool {
     let half = shape.half * 2.0 / frame.size.xy;
     let side = shape.side * 2.0 / frame.size.xy;
     let halves = array<u32, 2>(pack2x16float(light.xy), pack2x16float(light.zw));
-    strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth, shape.stretch / (2.0 * shape.blurred), halves);
+    strokes[room / CORNERS] = Stroke(array(middle.x, middle.y), array(half.x, half.y), array(side.x, side.y), depth,
+        shape.stretch / (2.0 * shape.blurred), halves);
     return true;
 }
 

@@ -50,7 +50,8 @@ fn gas_at(position: vec4<f32>, turns: f32, height: f32, path: f32, depth: f32, l
     let young = vec4<f32>(place, age, shares.x);
     let old = vec4<f32>(place - disk.offset.zw, age + disk.renewal.z, shares.y);
     let is_even = fract(0.5 * number) < 0.25;
-    return Gas(position, select(old, young, is_even), select(young, old, is_even), vec4<f32>(log2(max(light.rgb, vec3<f32>(LEAST_LIGHT))), depth),
+    return Gas(position, select(old, young, is_even), select(young, old, is_even),
+        vec4<f32>(log2(max(light.rgb, vec3<f32>(LEAST_LIGHT))), depth),
         vec4<f32>(light.slope, exp2(4.0 * height)), vec4<f32>(thin, path, cosine));
 }
 

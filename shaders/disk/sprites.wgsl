@@ -124,7 +124,8 @@ fn seen_sprite(sprite: Sprite, order: u32) -> SeenSprite {
     let cooling = two_looks(covered(there, gas.b.z, width, long));
     let colour = gas_colour(there.light.rgb, there.slope.xyz, there.light.w, cooling);
     let beyond = round((image.end - r) / image.ring_width - 0.5);
-    return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0), vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
+    return SeenSprite(vec4<f32>(seen, spread), vec4<f32>(across, beyond), vec4<f32>(along, 0.0),
+        vec4<f32>(colour.rgb / max(colour.a, 1e-6), colour.a));
 }
 
 /// Where in the pattern the gas `there` is, `height` up, and how much of it a spot covers that has these sides where it is not sheared.

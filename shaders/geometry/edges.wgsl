@@ -135,8 +135,8 @@ fn is_short(instance: Instance, ends: Ends, closer: f32, seen_under: f32) -> boo
     return seen_under < 2.0 * frame.size.w / fineness || (small && edge_length * edge_length < straight * nearest * nearest);
 }
 
-/// The error of the chord of an edge (radians), from points at ¼, ½, ¾. A radial edge runs from the axis, with the azimuth of its other end,
-/// to the plain vertex; its ends are evaluated too.
+/// The error of the chord of an edge (radians), from points at ¼, ½, ¾. A radial edge runs from the axis, with the azimuth of its other
+/// end, to the plain vertex; its ends are evaluated too.
 fn bend(instance: Instance, ends: Ends, radial: bool) -> f32 {
     let a_on_axis = ends.a.w == VERTEX_ON_AXIS;
     let apex = select(ends.b.z, ends.a.z, a_on_axis);

@@ -109,7 +109,8 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let sense = select(1.0, sign(turned) * facing.turn * towards_eye, facing.turn != 0.0);
     let stretch = stretched(along, height);
     // The share of the drawn area that it covers, times its share that no other part of the model hides.
-    let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye), in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
+    let part = seen_part(seen_from, in_body_axes(instance, facing.normal * towards_eye),
+        in_body_axes(instance, leaving / max(length(leaving), 1e-20)));
     let coverage = sense * part / (stretch.x * stretch.y);
     if coverage == 0.0 {
         return true;
@@ -123,9 +124,12 @@ fn emit_thin(i0: u32, i1: u32, i2: u32, instance: Instance, facing: Facing, seen
     let order = f32(instance.ids.x);
     let share = share_across(instance, vec3<f32>(seen[i0].fan.w, seen[i1].fan.w, seen[i2].fan.w));
     let scale = 2.0 / frame.size.xy;
-    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw), vec4<f32>(bitcast<f32>(i0), coverage, order, share));
-    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw), vec4<f32>(bitcast<f32>(i1), coverage, order, share));
-    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw), vec4<f32>(bitcast<f32>(i2), coverage, order, share));
+    thin[slot] = ThinVertex(vec4<f32>(grown(p0, centre, direction, stretch) * scale * c0.w, c0.zw),
+        vec4<f32>(bitcast<f32>(i0), coverage, order, share));
+    thin[slot + 1u] = ThinVertex(vec4<f32>(grown(p1, centre, direction, stretch) * scale * c1.w, c1.zw),
+        vec4<f32>(bitcast<f32>(i1), coverage, order, share));
+    thin[slot + 2u] = ThinVertex(vec4<f32>(grown(p2, centre, direction, stretch) * scale * c2.w, c2.zw),
+        vec4<f32>(bitcast<f32>(i2), coverage, order, share));
     return true;
 }
 
@@ -180,7 +184,8 @@ fn emit_blocks(piece: Piece, levels: vec4<u32>, rows: u32, columns: u32, most: v
                 }
                 return false;
             }
-            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column), vec4<u32>(first_vertex, first_index, vertex_count, index_count / 3u));
+            work[slot] = WorkItem(piece, levels, vec4<u32>(rows, columns, row, column),
+                vec4<u32>(first_vertex, first_index, vertex_count, index_count / 3u));
             // A thread of the mesh stage finds the item of its vertex by this.
             for (var i = 0u; i < vertex_count; i++) {
                 seen[first_vertex + i].surface.x = bitcast<f32>(slot);

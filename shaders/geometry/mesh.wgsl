@@ -47,7 +47,8 @@ fn past_axis(instance: Instance, query: Query, apparent: vec3<f32>) -> f32 {
 /// One thread per new vertex: evaluates the projection. Threads are not bound to work items, whose vertices are often few: a group that
 /// served one item would leave most of its lanes idle.
 @compute @workgroup_size(64)
-fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
     let index = counters.model_vertices + (group.y * groups.x + group.x) * 64u + lane;
     if index >= min(atomicLoad(&counters.vertices), frame.capacity.x) {
         return;
@@ -80,7 +81,8 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
 
 /// One group per work item: joins its vertices to triangles.
 @compute @workgroup_size(32)
-fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>, @builtin(local_invocation_index) lane: u32) {
+fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
+    @builtin(local_invocation_index) lane: u32) {
     let index = group.y * groups.x + group.x;
     if index >= min(atomicLoad(&counters.work), frame.capacity.z) {
         return;

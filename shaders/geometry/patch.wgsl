@@ -8,7 +8,8 @@
 #import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{
-    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE, SIDE_OPEN, two_sided,
+    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE, SIDE_OPEN,
+    two_sided,
 }
 #import lensrunner::instances::instance::shaped
 
@@ -97,8 +98,8 @@ fn is_lost(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool
     return farthest < 8.0 * instance.axis.z && axis_matters(a.z, instance.ids.x);
 }
 
-/// Whether three positions by the axis are so near to it that rounding decides on the last percents of a turn. A piece there is drawn by its
-/// corners alone, if it turns little, or left out: its part of the ring is a small part of a pixel wide, but a chord would be seen.
+/// Whether three positions by the axis are so near to it that rounding decides on the last percents of a turn. A piece there is drawn by
+/// its corners alone, if it turns little, or left out: its part of the ring is a small part of a pixel wide, but a chord would be seen.
 fn is_blurred(instance: Instance, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>) -> bool {
     let farthest = max(length(a.xy), max(length(b.xy), length(c.xy)));
     return farthest < BLURRED_ROUNDINGS * instance.axis.z && axis_matters(a.z, instance.ids.x);
@@ -109,8 +110,8 @@ const BLURRED_ROUNDINGS: f32 = 128.0;
 /// The largest turn about the axis, in radians, of a blurred piece that is drawn. Its chord sags by 0.1²/8 of the ring's radius.
 const BLURRED_TURN: f32 = 0.1;
 
-/// An edge turns unevenly about the axis if one of its segments turns this many times as much as their mean. The quarters at which its error
-/// is measured then miss the part that bends most.
+/// An edge turns unevenly about the axis if one of its segments turns this many times as much as their mean. The quarters at which its
+/// error is measured then miss the part that bends most.
 const UNEVEN: f32 = 2.0;
 
 /// The sag of that segment of an edge which turns most about the axis, in radians; 0 if all turn about equally. The edge has `level` equal
@@ -243,7 +244,8 @@ fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b:
 /// What rounding may displace (`Slack`) is no error: it does not become less by halving, and nobody sees it.
 fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
     let whole = max(slant(middle, a + b, slack), max(slant(quarter, a * 3.0 + b, slack), slant(three_quarters, a + b * 3.0, slack)));
-    let part = max(slant(middle, quarter + three_quarters, slack), max(slant(quarter, a + middle, slack), slant(three_quarters, middle + b, slack)));
+    let part = max(slant(middle, quarter + three_quarters, slack),
+        max(slant(quarter, a + middle, slack), slant(three_quarters, middle + b, slack)));
     return atan(max(sqrt(whole), 4.0 * sqrt(part)));
 }
 
@@ -349,7 +351,8 @@ fn facing_of(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> 
     let sign = select(1.0, -1.0, (triangle.vertices.w & SIDE_AGAINST) != 0u);
     let mirrored = select(1.0, -1.0, instance.ids.x == 2u);
     let both = two_sided(instance);
-    return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both), triangle.vertices.w != SIDE_OPEN && !both);
+    return Facing(plane_normal(instance, triangle, offset) * sign, select(sign * mirrored, 0.0, both),
+        triangle.vertices.w != SIDE_OPEN && !both);
 }
 
 /// The unit normal of a plane on the slice, transformed to the rest frame of what is at `offset` from the camera: along the motion lengths

@@ -223,7 +223,8 @@ fn is_narrow(turn: u32, levels: vec3<u32>, order: u32) -> bool {
         let other = point_of_side(side, 1.0 - t);
         let here = 3u + 3u * turn + k - 1u;
         widest = max(widest, angle_between(mix(points[other.start], points[other.end], vec3<f32>(other.t)), points[here]));
-        let distances = vec2<f32>(length(by_axis[here].xy), length(mix(by_axis[other.start].xy, by_axis[other.end].xy, vec2<f32>(other.t))));
+        let distances = vec2<f32>(length(by_axis[here].xy),
+            length(mix(by_axis[other.start].xy, by_axis[other.end].xy, vec2<f32>(other.t))));
         shear = max(shear, abs(distances.x - distances.y) / max(min(distances.x, distances.y), 1e-20));
     }
     let cell = angle_between(points[(turn + 1u) % 3u], points[(turn + 2u) % 3u]) / columns;
@@ -399,7 +400,8 @@ fn refine_fan(piece: Piece, instance: Instance) {
     let fineness = pixel_fineness(points[1], points[2]);
     let side_1 = level_for(fineness * strict * chord_error(points[6], points[7], points[8], points[9], points[1], exact()), 1.0);
     let side_2 = level_for(fineness * strict * chord_error(points[10], points[11], points[12], points[13], points[2], exact()), 1.0);
-    let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE * chord_error(points[6], points[14], points[15], points[16], points[10], exact()), 1.0);
+    let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE
+        * chord_error(points[6], points[14], points[15], points[16], points[10], exact()), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

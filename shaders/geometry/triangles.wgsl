@@ -78,7 +78,8 @@ fn decide(chunk: Chunk, lane: u32) {
         return;
     }
     if most <= BLOCK {
-        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_a, 0.0), vec4<f32>(corner_b, 0.0), vec4<f32>(corner_c, 0.0));
+        let piece = Piece(vec4<u32>(chunk.instance, number, PIECE_TRIANGLE, 0u), vec4<f32>(corner_a, 0.0), vec4<f32>(corner_b, 0.0),
+            vec4<f32>(corner_c, 0.0));
         emit_work(piece, vec4<u32>(levels, 1u), most, 1u);
         return;
     }

@@ -14,7 +14,8 @@ fn leaves_bounds(instance: Instance, i0: u32, i1: u32, i2: u32) -> bool {
     let a = normalize(seen[i0].apparent.xyz);
     let b = normalize(seen[i1].apparent.xyz);
     let c = normalize(seen[i2].apparent.xyz);
-    let leaves = leaves_cap(instance.bound_high, a, b, c) || leaves_cap(instance.bound_low, a, b, c) || leaves_cap(instance.bound_look, a, b, c);
+    let leaves = leaves_cap(instance.bound_high, a, b, c) || leaves_cap(instance.bound_low, a, b, c)
+        || leaves_cap(instance.bound_look, a, b, c);
     if leaves {
         atomicAdd(&counters.outside, 1u);
     }

@@ -1,8 +1,8 @@
 #define_import_path lensrunner::instances::ring
 
 // Worldlines of the points of a ring that turns round the hole in the plane z = 0 (Yamashita 2025, section 2.1); used in place of
-// instances/swing.wgsl. In its instance `spin` is x, y: radii of those rims of the disk that are this ring's, or −1; z: dφ/dT; w: azimuth at
-// T₀ of what has azimuth 0 in the model.
+// instances/swing.wgsl. In its instance `spin` is x, y: radii of those rims of the disk that are this ring's, or −1; z: dφ/dT; w: azimuth
+// at T₀ of what has azimuth 0 in the model.
 
 #import lensrunner::gpu::types::Instance
 

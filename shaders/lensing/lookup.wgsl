@@ -1,6 +1,7 @@
 #define_import_path lensrunner::lensing::lookup
 
-// The lookup: from a point's place to the direction in which it is seen and the time its light takes. The twin of src/lensing/lookup/mod.rs,
+// The lookup: from a point's place to the direction in which it is seen and the time its light takes. The twin of
+// src/lensing/lookup/mod.rs,
 // function for function.
 
 #import lensrunner::lensing::closed_form::{

@@ -1,8 +1,8 @@
 #define_import_path lensrunner::lensing::orbit
 
-// u(Φ) in closed form in single precision: the addition theorem of src/spacetime/light/orbit.rs. The pole orbit of the curve p′² = p²(4p + 1) + d
-// at Φ, by its Laurent series at Φ/2ⁿ and n duplications, then carried to the camera's ray (Whittaker & Watson 20.2 to 20.6). u = 1/r,
-// w = du/dΦ, d = (e² − 4/27)/16. Lengths in r_s, angles in radians.
+// u(Φ) in closed form in single precision: the addition theorem of src/spacetime/light/orbit.rs. The pole orbit of the curve p′² = p²(4p +
+// 1) + d at Φ, by its Laurent series at Φ/2ⁿ and n duplications, then carried to the camera's ray (Whittaker & Watson 20.2 to 20.6). u =
+// 1/r, w = du/dΦ, d = (e² − 4/27)/16. Lengths in r_s, angles in radians.
 
 /// e² of the ray that winds around the photon sphere, 1/r_s².
 const CRITICAL_SQUARE: f32 = 4.0 / 27.0;
@@ -43,7 +43,8 @@ fn laurent(z: f32, t: f32, d: f32) -> Pole {
     let c8_3 = 360.0 / 7293.0 * C2 * c3;
     let c9_3 = (29.0 * C2 * C2 * C2 + 33.0 * c3 * c3) / 2717.0;
     let value = C2 + t * (c3 + t * (c4 + t * (c5 + t * (c6 + t * (c7 + t * (c8 + t * c9))))));
-    let slope = 2.0 * C2 + t * (4.0 * c3 + t * (6.0 * c4 + t * (8.0 * c5 + t * (10.0 * c6 + t * (12.0 * c7 + t * (14.0 * c8 + t * 16.0 * c9))))));
+    let slope = 2.0 * C2 + t * (4.0 * c3 + t * (6.0 * c4
+        + t * (8.0 * c5 + t * (10.0 * c6 + t * (12.0 * c7 + t * (14.0 * c8 + t * 16.0 * c9))))));
     let value_3 = t * (1.0 + t * t * (c5_3 + t * (c6_3 + t * (c7_3 + t * (c8_3 + t * c9_3)))));
     let slope_3 = t * (4.0 + t * t * (8.0 * c5_3 + t * (10.0 * c6_3 + t * (12.0 * c7_3 + t * (14.0 * c8_3 + t * 16.0 * c9_3)))));
     let inverse = 1.0 / t;
@@ -71,7 +72,8 @@ fn doubled(pole: Pole, d: f32) -> Pole {
     let slope_top_d = (p2 * p2 * (24.0 * p + 10.0) + d * (60.0 * p2 + 10.0 * p + 0.5)) * p_d + inner - 4.0 * d;
     let over_y = 1.0 / y;
     let new_y = 0.5 * slope_top * over_y * over_square;
-    return Pole(new_p, new_y, (top_d - new_p * square_d) * over_square, 0.5 * slope_top_d * over_y * over_square - new_y * (y_d * over_y + square_d * over_square), !(new_p > p && new_p > 1e6));
+    return Pole(new_p, new_y, (top_d - new_p * square_d) * over_square,
+        0.5 * slope_top_d * over_y * over_square - new_y * (y_d * over_y + square_d * over_square), !(new_p > p && new_p > 1e6));
 }
 
 /// The pole orbit at `phi` > 0 for the parameter `d`.

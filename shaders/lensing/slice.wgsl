@@ -43,7 +43,8 @@ fn residuals(cam: LensCamera, x: f32, y: f32) -> vec3<f32> {
     let rows = min(cam.ny, 4u);
     for (var b = 0u; b < rows; b++) {
         let at = HEADER + (j + b) * (cam.nx + 2u) + i;
-        let row = wx.x * lens_texel(at).xyz + wx.y * lens_texel(at + 1u).xyz + wx.z * lens_texel(at + 2u).xyz + wx.w * lens_texel(at + 3u).xyz;
+        let row = wx.x * lens_texel(at).xyz + wx.y * lens_texel(at + 1u).xyz + wx.z * lens_texel(at + 2u).xyz
+            + wx.w * lens_texel(at + 3u).xyz;
         sum += wy[b] * row;
     }
     return sum;

@@ -24,7 +24,8 @@ fn smooth_vertex(@builtin(vertex_index) i: u32) -> Smooth {
     let corner = corners[i];
     let level = panorama_level(corner.place.z, textureDimensions(milky_way).y);
     // At the far end of the reversed depth.
-    return Smooth(vec4<f32>(corner.faint.w, corner.bright.w, 0.0, 1.0), vec3<f32>(corner.place.xy, level), corner.faint.rgb, corner.bright.rgb);
+    return Smooth(vec4<f32>(corner.faint.w, corner.bright.w, 0.0, 1.0), vec3<f32>(corner.place.xy, level), corner.faint.rgb,
+        corner.bright.rgb);
 }
 
 @fragment
@@ -53,6 +54,7 @@ fn exact_fragment(in: Exact) -> @location(0) vec4<f32> {
     let level = panorama_level(view.size, textureDimensions(milky_way).y);
     let root = textureSampleLevel(milky_way, milky_way_sampler, view.uv, level).r;
     let flags = frame.switches.x;
-    let colour = shifted_colour(panorama_light(root, PANORAMA_FAINT, PANORAMA_BRIGHT), view.g, (flags & FLAG_DOPPLER) != 0u, (flags & FLAG_BEAMING) != 0u);
+    let colour = shifted_colour(panorama_light(root, PANORAMA_FAINT, PANORAMA_BRIGHT), view.g, (flags & FLAG_DOPPLER) != 0u,
+        (flags & FLAG_BEAMING) != 0u);
     return vec4<f32>(min(colour * frame.light.z, vec3<f32>(6e4)), 1.0);
 }

@@ -89,6 +89,7 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
             atomicSub(&star_draw.vertices, 3u);
             break;
         }
-        seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * exposure < 0.1), 0.0), vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
+        seen_stars[slot] = SeenStar(vec4<f32>(ndc, frame.sky_y.w * select(3.6, 2.2, luminance(colour) * exposure < 0.1), 0.0),
+            vec4<f32>(min(colour, vec3<f32>(6e4)), 1.0));
     }
 }

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::judge::picture::post_process::{PostProcess, post_process};
 use crate::judge::picture::shade::Shift;
 use crate::judge::picture::sky::{Background, stars};
-use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Setting, Sway, Thing, World, Worldline, picture};
+use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Surroundings, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
 use crate::scene::camera::viewpoint::CameraEnded;
@@ -17,7 +17,7 @@ use crate::scene::disk::Gas;
 use crate::scene::lighting::Lights;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError};
-use crate::sim::history::Bounds;
+use crate::sim::history::MotionBounds;
 use crate::sim::{History, Moment};
 use crate::spacetime::orbit::orbital_frequency;
 
@@ -164,7 +164,7 @@ impl Worldline for History {
     }
 
     fn sway(&self, from: f64, to: f64) -> Option<Sway> {
-        let Bounds { velocity, acceleration, momentum, force, surge, turning, jumps } = self.bounds(from, to)?;
+        let MotionBounds { velocity, acceleration, momentum, force, surge, turning, jumps } = self.bounds(from, to)?;
         Some(Sway { velocity, acceleration, momentum, force, surge, turning, jumps })
     }
 }
@@ -311,7 +311,7 @@ impl Case {
         } else {
             Vec::new()
         };
-        let setting = Setting { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
+        let setting = Surroundings { background: &background, stars: &spots, disk: disk.as_ref(), shift: self.shift() };
         let mut world = self.world(ships);
         if let Some(deadline) = deadline {
             world.stop_at(deadline);

@@ -94,7 +94,7 @@ impl Ray {
 
     /// The same in the plane of the orbit: the camera at (`radius`, 0), `look` in the rain frame with look.y ≥ 0.
     pub fn trace_in_plane(radius: f64, look: DVec2, tolerance: f64, stop: &Stop) -> Ray {
-        let mut follower = Follower::new(radius, look, tolerance, *stop);
+        let mut follower = RayFollower::new(radius, look, tolerance, *stop);
         let mut ray = Ray { axes: [DVec3::X, DVec3::Y], segments: Vec::with_capacity(32), swept: vec![0.0], end: End::Steps };
         while let Some(segment) = follower.step() {
             ray.segments.push(segment);
@@ -175,7 +175,7 @@ pub(super) fn orbit_plane(position: DVec3, look: DVec3) -> ([DVec3; 2], DVec2) {
 
 /// A ray on its way, one step at a time: who finds what he looks for need not follow it to its end.
 #[derive(Clone, Debug)]
-pub struct Follower {
+pub struct RayFollower {
     state: State,
     delay: f64,
     /// Φ swept up to now, radians.
@@ -189,11 +189,11 @@ pub struct Follower {
     pub end: Option<End>,
 }
 
-impl Follower {
+impl RayFollower {
     /// A ray from a camera at (`radius`, 0) in the plane of its orbit, seen in direction `look` (rain frame, look.y ≥ 0).
-    pub fn new(radius: f64, look: DVec2, tolerance: f64, stop: Stop) -> Follower {
+    pub fn new(radius: f64, look: DVec2, tolerance: f64, stop: Stop) -> RayFollower {
         let state = State { position: DVec2::new(radius, 0.0), momentum: -look };
-        Follower { state, delay: 0.0, swept: 0.0, tolerance, stop, doomed: state.energy() <= 0.0, steps: 0, end: None }
+        RayFollower { state, delay: 0.0, swept: 0.0, tolerance, stop, doomed: state.energy() <= 0.0, steps: 0, end: None }
     }
 
     /// The next step of the ray; None once it has ended.

@@ -33,7 +33,7 @@ pub struct Sighting {
 }
 
 /// What a shot found, seen from the target radius.
-enum Shot {
+enum Found {
     /// At the swept angle the ray is above the target.
     Above,
     /// At the swept angle the ray is below the target, or was captured before.
@@ -59,14 +59,14 @@ pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, branch: Branch, toleranc
     search(camera, branch, |cotangent| {
         let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.end {
-            End::Escaped => return Shot::Above,
+            End::Escaped => return Found::Above,
             // Seen from below, what clings to r = 1 is above every target there.
-            End::Captured if r <= 1.0 => return Shot::Above,
-            End::Captured | End::Steps => return Shot::Below,
+            End::Captured if r <= 1.0 => return Found::Above,
+            End::Captured | End::Steps => return Found::Below,
             End::Limit => {}
         }
         let Some((i, elapsed)) = ray.find_swept(swept) else {
-            return Shot::Below;
+            return Found::Below;
         };
         let state = ray.segments[i].at(elapsed);
         let here = state.position.length();
@@ -76,7 +76,7 @@ pub fn shoot(r: f64, phi: f64, camera: f64, order: u32, branch: Branch, toleranc
         // The last digits of r, lost to the instability of the photon sphere, to first order: E dT = p·dx on the past light cone.
         seen.delay -= emission.x * (r - here) / seen.energy;
         // In 1/r, which is nearly linear in the cotangent of ψ.
-        Shot::Arrived((here - r) / (here * r), seen)
+        Found::Arrived((here - r) / (here * r), seen)
     })
 }
 
@@ -95,8 +95,8 @@ pub fn shoot_sky(phi: f64, camera: f64, order: u32, tolerance: f64) -> Option<Si
     search(camera, Branch::Plus, |cotangent| {
         let ray = Ray::trace_in_plane(camera, look(cotangent), tolerance, &stop);
         match ray.sky_swept() {
-            Some(found) => Shot::Arrived(swept - found, seen(cotangent)),
-            None => Shot::Below,
+            Some(found) => Found::Arrived(swept - found, seen(cotangent)),
+            None => Found::Below,
         }
     })
 }
@@ -140,7 +140,7 @@ fn radial(r: f64, camera: f64, branch: Branch, tolerance: f64) -> Option<Sightin
 }
 
 /// Finds the shot that hits: secants in cot ψ, kept inside a bracket; bisection in ln tan(ψ/2) while secants do not converge.
-fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Sighting> {
+fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Found) -> Option<Sighting> {
     // e^-50: closer to the radial direction than any point whose φ is not zero to rounding.
     const END: f64 = 50.0;
     // E = 0 where cos ψ = −√L: the sign of E changes there.
@@ -153,8 +153,8 @@ fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Si
     // Below the horizon the orbit of E = 0 is the limit of both branches: what lies beneath it is not seen.
     if camera < 1.0 {
         match shoot(turn.sinh()) {
-            Shot::Above => return None,
-            Shot::Arrived(mismatch, _) if mismatch > 0.0 => return None,
+            Found::Above => return None,
+            Found::Arrived(mismatch, _) if mismatch > 0.0 => return None,
             _ => {}
         }
     }
@@ -167,9 +167,9 @@ fn search(camera: f64, branch: Branch, shoot: impl Fn(f64) -> Shot) -> Option<Si
         let cotangent = x.sinh();
         let mut secant = None;
         let above = match shoot(cotangent) {
-            Shot::Above => true,
-            Shot::Below => false,
-            Shot::Arrived(mismatch, sighting) => {
+            Found::Above => true,
+            Found::Below => false,
+            Found::Arrived(mismatch, sighting) => {
                 if best.is_none_or(|(smallest, _)| mismatch.abs() <= smallest) {
                     best = Some((mismatch.abs(), sighting));
                 }

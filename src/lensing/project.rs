@@ -22,7 +22,7 @@ const DIGITS: usize = 12;
 
 /// The frame in which ψ is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frame {
+pub enum AngleFrame {
     /// Hovering at the camera's place; exists only at L > 1.
     Static,
     /// Falling from rest at infinity.
@@ -96,7 +96,7 @@ pub struct ProjectRequest {
     /// Which image.
     pub order: Order,
     /// The frame of ψ.
-    pub frame: Frame,
+    pub frame: AngleFrame,
     /// The sign of the photon's energy.
     pub branch: Branch,
 }
@@ -115,9 +115,9 @@ pub fn run(input: &mut dyn Read, output: &mut dyn Write, method: &dyn Projector,
 
 /// Projects every row of the CSV text `input` and returns the CSV output.
 ///
-/// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `Frame::Static` with L ≤ 1), delay
-/// in r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three are
-/// empty where no ray joins the two. The input is checked as a whole before anything is returned.
+/// The fields r, phi and L are repeated as they were written. psi is in the frame asked for (empty for `AngleFrame::Static` with L ≤ 1),
+/// delay in r_s/c, redshift = ν_observed/ν_emitted between static observers whatever the frame (empty unless both are outside); all three
+/// are empty where no ray joins the two. The input is checked as a whole before anything is returned.
 pub fn project(input: &str, method: &dyn Projector, request: ProjectRequest) -> Result<String, ProjectError> {
     let rows = parse(input)?;
     let lines: Vec<String> = rows.par_iter().map(|row| row.answer(method, request)).collect();
@@ -130,19 +130,19 @@ pub fn project(input: &str, method: &dyn Projector, request: ProjectRequest) -> 
 }
 
 /// A row of the input: its fields as written and as numbers.
-struct Row<'a> {
+struct InputRow<'a> {
     texts: [&'a str; 3],
     query: Query,
 }
 
-impl Row<'_> {
+impl InputRow<'_> {
     fn answer(&self, method: &dyn Projector, request: ProjectRequest) -> String {
         let mut line = self.texts.join(",");
         // Integration with too few steps may end anywhere; light that would arrive before it left is none.
         let sight = method.project(self.query, request.order, request.branch).filter(|sight| sight.delay > 0.0);
         let psi = sight.and_then(|sight| match request.frame {
-            Frame::Rain => Some(sight.psi_rain),
-            Frame::Static => sight.psi_static,
+            AngleFrame::Rain => Some(sight.psi_rain),
+            AngleFrame::Static => sight.psi_static,
         });
         let delay = sight.map(|sight| sight.delay);
         let redshift = sight.and_then(|_| light::static_redshift(1.0 / self.query.r, 1.0 / self.query.camera));
@@ -156,7 +156,7 @@ impl Row<'_> {
     }
 }
 
-fn parse(input: &str) -> Result<Vec<Row<'_>>, ProjectError> {
+fn parse(input: &str) -> Result<Vec<InputRow<'_>>, ProjectError> {
     let input = input.strip_prefix('\u{feff}').unwrap_or(input);
     // Only the end of the file may be blank.
     let mut lines = input.trim_end().lines();
@@ -167,7 +167,7 @@ fn parse(input: &str) -> Result<Vec<Row<'_>>, ProjectError> {
     lines.enumerate().map(|(index, text)| parse_row(text, index + 2)).collect()
 }
 
-fn parse_row(text: &str, line: usize) -> Result<Row<'_>, ProjectError> {
+fn parse_row(text: &str, line: usize) -> Result<InputRow<'_>, ProjectError> {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let &[r, phi, camera] = fields.as_slice() else {
         return Err(ProjectError::Columns { line, found: if text.trim().is_empty() { 0 } else { fields.len() } });
@@ -184,7 +184,7 @@ fn parse_row(text: &str, line: usize) -> Result<Row<'_>, ProjectError> {
             .clamp(AXIS_CLEARANCE, PI - AXIS_CLEARANCE),
         camera: number("L", camera, "a finite radius greater than 0", radius)?,
     };
-    Ok(Row { texts: [r, phi, camera], query })
+    Ok(InputRow { texts: [r, phi, camera], query })
 }
 
 /// A number with twelve significant digits, in plain notation where that is short; empty if it is not finite.

@@ -110,10 +110,10 @@ pub fn score(table: &Table, points: Points, count: usize, seed: u64) -> Vec<Scor
 }
 
 /// r, φ, L, and the errors: angle in degrees, delay in r_s/c, the delay itself, emission in degrees.
-type Row = ([f64; 3], [f64; 4]);
+type ScoredRow = ([f64; 3], [f64; 4]);
 
 fn score_order(table: &Table, points: Points, count: usize, seed: u64, order: Order) -> Score {
-    let rows: Vec<Row> = (0..count)
+    let rows: Vec<ScoredRow> = (0..count)
         .into_par_iter()
         .filter_map(|i| {
             let mut rng = SmallRng::seed_from_u64(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ ((order.number() as u64) << 40 | i as u64));
@@ -134,7 +134,7 @@ fn score_order(table: &Table, points: Points, count: usize, seed: u64, order: Or
             Some((row, [angle.to_degrees(), (seen.delay as f64 - exact.delay).abs(), exact.delay, emission.to_degrees()]))
         })
         .collect();
-    let pick = |f: &dyn Fn(&Row) -> Option<f64>| spread(rows.iter().filter_map(|x| Some((f(x)?, x.0))).collect());
+    let pick = |f: &dyn Fn(&ScoredRow) -> Option<f64>| spread(rows.iter().filter_map(|x| Some((f(x)?, x.0))).collect());
     Score {
         angle: pick(&|x| Some(x.1[0])),
         delay: pick(&|x| (x.0[0] >= 1.05).then_some(x.1[1])),

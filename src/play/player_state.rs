@@ -1,6 +1,6 @@
 //! The player at the controls.
 
-use crate::play::camera::{Follower, View};
+use crate::play::camera::{CameraView, Follower};
 use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
 use bevy::prelude::*;
@@ -11,7 +11,7 @@ pub struct PlayerState {
     /// The autopilot flies.
     pub autopilot: bool,
     /// From where one looks.
-    pub view: View,
+    pub view: CameraView,
     /// The HUD is off.
     pub hud_off: bool,
     /// The dev overlay is on.

@@ -70,8 +70,12 @@ pub struct Settings {
     pub near: f32,
 }
 
-impl Default for Settings {
-    fn default() -> Self {
+/// Light that any middle grey may have: the own ship is drawn as it is lit.
+pub const ANY_FILL: [f32; 2] = [0.0, f32::MAX];
+
+impl Settings {
+    /// All that can be drawn, at its finest, as it shines: what tests measure. The game draws by [`super::stage::settings`].
+    pub fn finest() -> Self {
         Settings {
             pixel_error: 0.25,
             orders: 3,
@@ -99,7 +103,7 @@ impl Default for Settings {
             hold_exposure: false,
             own_ship: None,
             engines: None,
-            fill: [0.0, f32::MAX],
+            fill: ANY_FILL,
             unmetered: [0.0; 3],
             smooth: true,
             near: 1e-3,

@@ -21,7 +21,7 @@ use crate::render::aurora::{AuroraAnimation, AuroraFrame, planet_history};
 use crate::render::disk::Disk;
 use crate::render::frame::FrameInput;
 use crate::render::gpu::types::placed::OWN;
-use crate::render::instances::{Motion, Object, Placed, View, instances_of};
+use crate::render::instances::{DrawnObject, Motion, Placed, View, instances_of};
 use crate::render::method::Method;
 use crate::render::models::coarse::coarse;
 use crate::render::models::{ModelRange, ModelSet};
@@ -185,7 +185,7 @@ impl Stage {
                 continue;
             }
             let Some((motion, position)) = motion(&object.body, time, histories, globe.as_ref()) else { continue };
-            let object = Object {
+            let object = DrawnObject {
                 model: model.model,
                 coarse: model.coarse,
                 stand_ins: &model.stand_ins,
@@ -292,6 +292,7 @@ pub fn settings(config: &GameConfig) -> Settings {
     Settings {
         pixel_error: render.pixel_error_budget as f32,
         orders: render.orders,
+        // The reader of `game.toml` lets only names of methods in.
         method: if render.lensing { Method::named(&render.method).unwrap_or_default() } else { Method::Flat },
         light_delay: render.light_delay,
         halvings: render.tessellation_max_level,
@@ -311,7 +312,7 @@ pub fn settings(config: &GameConfig) -> Settings {
         faintest_star: 10f64.powf(-0.4 * config.sky.faintest_magnitude) as f32,
         fill: [render.fill_least, render.fill_most].map(|light| light as f32),
         exposure_range: [render.exposure_min, render.exposure_max].map(|stops| stops.exp2() as f32),
-        ..Settings::default()
+        ..Settings::finest()
     }
 }
 

@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::assets::assets_folder;
 use super::camera::{CameraEntry, SceneCamera, check_camera};
-use super::config::{self, GameConfig, RulesConfig};
+use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
 use super::document::fault::Fault;
 use super::document::{complain_all, one, parse, syntax};
@@ -86,17 +86,6 @@ impl Scene {
         let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
         Ok(Scene { name, disk, ..scene })
-    }
-}
-
-impl From<&RulesConfig> for Rules {
-    fn from(config: &RulesConfig) -> Self {
-        Rules {
-            capture_radius: config.capture_radius,
-            hold_time: config.hold_time,
-            time_limit: config.time_limit,
-            arena_radius: config.arena_radius,
-        }
     }
 }
 

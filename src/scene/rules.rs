@@ -11,7 +11,8 @@
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::document::fault::{Fault, in_range};
+use super::config::{self, Allowed, RulesConfig};
+use super::document::fault::{Fault, fault, in_range};
 
 /// What ends the chase.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +29,18 @@ pub struct Rules {
 
 impl Default for Rules {
     fn default() -> Self {
-        Rules { capture_radius: 0.5, hold_time: 2.0, time_limit: 400.0, arena_radius: 20.0 }
+        Rules::from(&RulesConfig::default())
+    }
+}
+
+impl From<&RulesConfig> for Rules {
+    fn from(config: &RulesConfig) -> Self {
+        Rules {
+            capture_radius: config.capture_radius,
+            hold_time: config.hold_time,
+            time_limit: config.time_limit,
+            arena_radius: config.arena_radius,
+        }
     }
 }
 
@@ -45,15 +57,20 @@ pub struct RulesEntry {
 impl RulesEntry {
     /// The rules, each value checked against its range, the missing ones from `base`.
     pub fn check(&self, base: Rules) -> Result<Rules, Fault> {
-        let or = |value: &Option<Spanned<f64>>, key, low, high, unit, base| match value {
-            Some(value) => in_range(value, key, low..=high, unit),
-            None => Ok(base),
-        };
+        let or = |value: &Option<Spanned<f64>>, key, base| value.as_ref().map_or(Ok(base), |value| ranged(value, key));
         Ok(Rules {
-            capture_radius: or(&self.capture_radius, "capture_radius", 0.01, 100.0, "r_s", base.capture_radius)?,
-            hold_time: or(&self.hold_time, "hold_time", 0.0, 1000.0, "r_s/c", base.hold_time)?,
-            time_limit: or(&self.time_limit, "time_limit", 1.0, 1e9, "r_s/c", base.time_limit)?,
-            arena_radius: or(&self.arena_radius, "arena_radius", 5.0, 1e6, "r_s", base.arena_radius)?,
+            capture_radius: or(&self.capture_radius, "capture_radius", base.capture_radius)?,
+            hold_time: or(&self.hold_time, "hold_time", base.hold_time)?,
+            time_limit: or(&self.time_limit, "time_limit", base.time_limit)?,
+            arena_radius: or(&self.arena_radius, "arena_radius", base.arena_radius)?,
         })
+    }
+}
+
+/// A value inside the range that `game.toml` allows for `rules.KEY`.
+fn ranged(value: &Spanned<f64>, key: &str) -> Result<f64, Fault> {
+    match config::setting(&format!("rules.{key}")).map(|setting| (setting.allowed, setting.unit)) {
+        Some((Allowed::Number { min, max }, unit)) => in_range(value, key, min..=max, unit),
+        _ => fault(value, format!("{key} is no rule")),
     }
 }

@@ -87,7 +87,7 @@ impl Node {
 
 /// Bounds on how a ship moves over a while, in r_s, c and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Bounds {
+pub struct MotionBounds {
     /// |dx/dT|.
     pub velocity: f64,
     /// |d²x/dT²|.
@@ -104,7 +104,7 @@ pub struct Bounds {
     pub jumps: [f64; 2],
 }
 
-impl Bounds {
+impl MotionBounds {
     /// Widens them by what lies between two nodes. A cubic and its derivatives stay among their Bézier points.
     fn take(&mut self, earlier: &Node, later: &Node, turn: DVec3) {
         let span = later.time - earlier.time;
@@ -252,11 +252,11 @@ impl History {
 
     /// Bounds on how the ship moves from T = `from` to `to`, from the nodes; None beyond the first and the last of them, but where it is
     /// held in place.
-    pub fn bounds(&self, from: f64, to: f64) -> Option<Bounds> {
+    pub fn bounds(&self, from: f64, to: f64) -> Option<MotionBounds> {
         let oldest = self.oldest();
         if from < oldest.time && oldest.held {
             let p = oldest.state.momentum.length();
-            let held = Bounds { momentum: [p, p], ..Bounds::default() };
+            let held = MotionBounds { momentum: [p, p], ..MotionBounds::default() };
             if to <= oldest.time {
                 return Some(held);
             }
@@ -281,7 +281,7 @@ impl History {
         } else {
             &[]
         };
-        let mut bounds = Bounds { momentum: [f64::INFINITY, 0.0], ..Bounds::default() };
+        let mut bounds = MotionBounds { momentum: [f64::INFINITY, 0.0], ..MotionBounds::default() };
         let mut before: Option<(&Node, DVec3)> = None;
         let mut nodes = past.iter().rev().chain(since);
         let mut earlier = nodes.next()?;

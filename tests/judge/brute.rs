@@ -1,5 +1,5 @@
-//! What a pixel shows: the dense ray against triangles, the curve itself intersected. Brute force over triangles at rest, their planes looked
-//! for by dense samples: what `judge::picture` is held against.
+//! What a pixel shows: the dense ray against triangles, the curve itself intersected. Brute force over triangles at rest, their planes
+//! looked for by dense samples: what `judge::picture` is held against.
 
 use glam::{DVec2, DVec3};
 use lensrunner::judge::geodesic::Segment;

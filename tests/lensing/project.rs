@@ -1,11 +1,11 @@
 //! The `project` table: its numbers, its form, and what it says about wrong input.
 
-use lensrunner::lensing::project::{Frame, ProjectRequest, method, project, significant};
+use lensrunner::lensing::project::{AngleFrame, ProjectRequest, method, project, significant};
 use lensrunner::spacetime::light::{Branch, Order};
 use std::io::Write;
 use std::process::{Command, Output, Stdio};
 
-const PRIMARY: ProjectRequest = ProjectRequest { order: Order::ALL[0], frame: Frame::Static, branch: Branch::Plus };
+const PRIMARY: ProjectRequest = ProjectRequest { order: Order::ALL[0], frame: AngleFrame::Static, branch: Branch::Plus };
 
 /// The answer's rows, split into fields.
 fn rows(input: &str, request: ProjectRequest) -> Vec<Vec<String>> {
@@ -49,7 +49,7 @@ fn a_byte_order_mark_is_passed_over() {
 #[test]
 fn fields_that_do_not_exist_are_empty() {
     let at = |line: &str, request| rows(&format!("r,phi,L\n{line}"), request).remove(0)[3..].to_vec();
-    let rain = ProjectRequest { frame: Frame::Rain, ..PRIMARY };
+    let rain = ProjectRequest { frame: AngleFrame::Rain, ..PRIMARY };
     let filled = |fields: &[String]| fields.iter().map(|field| !field.is_empty()).collect::<Vec<_>>();
     assert_eq!(filled(&at("0.5,1,5", PRIMARY)), [false, false, false], "inside from outside");
     assert_eq!(filled(&at("0.3,1,0.5", rain)), [false, false, false], "deeper than the camera");
@@ -152,9 +152,11 @@ fn every_method_is_named_where_it_is_asked_for() {
     let wrong = run(&["project", "--method", "exakt"]);
     assert_eq!(wrong.status.code(), Some(2));
     let complaint = String::from_utf8(wrong.stderr).unwrap();
-    for (name, _) in CATALOGUE {
+    for (name, ..) in CATALOGUE {
         assert!(help.contains(name) && complaint.contains(name), "{name} is not named");
     }
+    // `game.toml` has the same names, and the renderer the same methods.
+    assert_eq!(CATALOGUE.map(|(name, ..)| name).as_slice(), lensrunner::scene::METHODS);
     // Those without a table of their own are made at once.
     for name in ["exact", "table", "flat"] {
         assert!(methods::named(name).is_some(), "{name}");

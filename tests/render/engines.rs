@@ -27,7 +27,7 @@ fn light(share: f64, until: f64, follows: bool) -> f64 {
     let engines = follows.then_some([config.ship.thrust, config.enemy.thrust]);
     // Straight from behind, nozzles fill a good part of the picture.
     let camera = third_person(&state, DVec3::Z * (2.0 * config.ship.size), DQuat::IDENTITY, 0.6);
-    let settings = Settings { engines, orders: 1, stars: false, milky_way: false, ..Settings::default() };
+    let settings = Settings { engines, orders: 1, stars: false, milky_way: false, ..Settings::finest() };
     let histories: Vec<&History> = scene.ships.iter().map(|_| &history).collect();
     let other = scene.ships.iter().position(|ship| !ship.player);
     let picture = renderer.picture(&stage.frame(camera, size, 2.0, &histories, other, &settings), true).unwrap();

@@ -10,7 +10,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Illumination as Light, Motion, Object, Placed, View, instances_of};
+use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, Placed, View, instances_of};
 use lensrunner::render::method::Method;
 use lensrunner::render::renderer::Surroundings;
 use lensrunner::render::settings::Settings;
@@ -50,13 +50,13 @@ impl Bench {
         Bench { renderer, ball, model }
     }
 
-    pub fn object<'a>(&self, motion: Motion<'a>, scale: f64, id: u32) -> Object<'a> {
+    pub fn object<'a>(&self, motion: Motion<'a>, scale: f64, id: u32) -> DrawnObject<'a> {
         let light = Light { ambient: [1.0; 3], ..Light::default() };
         let (model, coarse) = (self.model, self.model);
-        Object { model, coarse, stand_ins: &[], motion, reach: scale, scale, id, light }
+        DrawnObject { model, coarse, stand_ins: &[], motion, reach: scale, scale, id, light }
     }
 
-    pub fn place(&self, camera: &Observer, time: f64, object: &Object, settings: &Settings) -> Vec<Placed> {
+    pub fn place(&self, camera: &Observer, time: f64, object: &DrawnObject, settings: &Settings) -> Vec<Placed> {
         let slice = Slice::new(self.renderer.table(), camera.radius());
         instances_of(&View { camera, slice: &slice, pixel: 1e-9, aspect: None, settings }, time, object, settings.orders)
     }
@@ -107,7 +107,7 @@ fn falling(position: DVec3, momentum: DVec3) -> Observer {
 fn a_camera_inside_sees_what_is_inside_twice() {
     let mut bench = bench();
     let camera = falling(DVec3::new(0.0, 0.05, 0.45), DVec3::new(0.1, -0.2, 0.05));
-    let settings = Settings::default();
+    let settings = Settings::finest();
     for position in [DVec3::new(0.05, 0.1, 0.7), DVec3::new(-0.3, 0.2, 0.62), DVec3::new(0.0, -0.06, 0.9)] {
         let motion = Motion::Held { position, attitude: DQuat::IDENTITY };
         let placed = bench.place(&camera, 0.0, &bench.object(motion, 0.05, 1), &settings);
@@ -138,12 +138,12 @@ fn what_was_foreseen_is_seen_inside() {
     let outside = falling(DVec3::new(0.0, 0.05, 1.6), DVec3::ZERO);
     // Another method before the first crossing: what was foreseen for the one before is kept, and this one is foreseen as well.
     for method in [Method::Flat, Method::Table] {
-        let settings = Settings { method, ..Settings::default() };
+        let settings = Settings { method, ..Settings::finest() };
         let frame = FrameInput { camera: outside, time: 0.0, placed: Vec::new(), aurora: None, settings };
         foreseeing.renderer.picture(&frame, false).unwrap();
         foreseeing.renderer.precompile_the_inside();
     }
-    let settings = Settings::default();
+    let settings = Settings::finest();
     for radius in [0.45, 1.6, 0.45, 1.4] {
         let camera = falling(DVec3::new(0.0, 0.05, radius), DVec3::new(0.1, -0.2, 0.05));
         let motion = Motion::Held { position: DVec3::new(0.05, 0.1, radius + 0.25), attitude: DQuat::IDENTITY };
@@ -201,7 +201,7 @@ fn emission(camera: &Observer, time: f64, history: &History, body: DVec3, order:
 /// Every vertex of a ship in flight is where the judge sees the place that it had at its own emission time.
 fn check_flight(camera: Observer, time: f64, history: &History, size: f64, orders: u32, most: f64) -> [usize; 2] {
     let mut bench = bench();
-    let settings = Settings { orders, ..Settings::default() };
+    let settings = Settings { orders, ..Settings::finest() };
     let placed = bench.place(&camera, time, &bench.object(Motion::Flying(history), size, 1), &settings);
     assert_eq!(placed.len(), orders as usize, "not every order is seen");
     let points = bench.points();
@@ -274,7 +274,7 @@ fn a_ship_ahead_is_seen_by_light_of_negative_energy() {
 fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
     let mut bench = bench();
     let camera = static_camera(DVec3::new(0.0, 3000.0, 4000.0), DVec3::new(0.0, -3.0, -4.0), DVec3::X, 1.0);
-    let settings = Settings { orders: 2, ..Settings::default() };
+    let settings = Settings { orders: 2, ..Settings::finest() };
     // A ball just over the horizon: its lowest vertices lie at r = 1.0005.
     for direction in [DVec3::new(0.3, 0.5, 0.6), DVec3::new(0.9, -0.1, -0.2)] {
         let (size, position) = (0.003, direction.normalize() * 1.0035);
@@ -298,7 +298,7 @@ fn a_far_camera_sees_what_is_near_the_horizon_on_time() {
 #[test]
 fn flat_space_projects_straight() {
     let mut bench = bench();
-    let settings = Settings { method: Method::Flat, ..Settings::default() };
+    let settings = Settings { method: Method::Flat, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 7.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     let position = DVec3::new(0.5, -1.0, -5.0);
     let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
@@ -312,7 +312,7 @@ fn flat_space_projects_straight() {
         assert!((vertex.normal[3] - 1.0).abs() < 1e-5, "g = {} between things at rest", vertex.normal[3]);
     }
     // And back again: pipelines are made anew.
-    let settings = Settings::default();
+    let settings = Settings::finest();
     let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);
     let seen = bench.seen(camera, 0.0, placed, settings);
     let (want, _) = judged(&camera, position + points[0] * 0.5, 1, Branch::Plus).unwrap();
@@ -323,7 +323,7 @@ fn flat_space_projects_straight() {
 #[test]
 fn without_light_delay_things_are_seen_where_they_are_now() {
     let mut bench = bench();
-    let settings = Settings { light_delay: false, orders: 1, ..Settings::default() };
+    let settings = Settings { light_delay: false, orders: 1, ..Settings::finest() };
     let state = ship(DVec3::new(3.0, 0.5, -2.0), DVec3::new(-0.3, 0.1, 0.6));
     let history = flight(state, Command::default(), 30.0);
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.0, -0.2, -1.0), DVec3::Y, 1.0);
@@ -346,7 +346,7 @@ fn paper_one_projects_by_its_tables_and_drops_triangles() {
     let table = Arc::new(bake(Scheme::Paper, 24, |_| ()));
     bench.renderer.tables().set_paper(table.clone());
     let paper1 = Method::Paper1;
-    let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::default() };
+    let settings = Settings { method: paper1, orders: 3, stars: false, milky_way: false, ..Settings::finest() };
     let camera = static_camera(DVec3::new(1.0, 2.0, 11.0), DVec3::new(0.1, -0.2, -1.0), DVec3::Y, 1.0);
     for position in [DVec3::new(3.0, -1.0, -5.0), DVec3::new(-2.0, 3.0, 25.0)] {
         let placed = bench.place(&camera, 0.0, &bench.object(Motion::Held { position, attitude: DQuat::IDENTITY }, 0.5, 1), &settings);

@@ -5,7 +5,7 @@ use lensrunner::lensing::Slice;
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::{self, Picture};
 use lensrunner::render::gpu::types::SeenVertex;
-use lensrunner::render::instances::{Illumination as Light, Motion, Object, View, instances_of};
+use lensrunner::render::instances::{DrawnObject, Illumination as Light, Motion, View, instances_of};
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::static_camera;
 use lensrunner::scene::{self, Body, GameConfig};
@@ -48,7 +48,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
     let camera = static_camera(DVec3::new(9.0, 7.0, 30.0), DVec3::new(-9.0, -7.0, -30.0), DVec3::Y, 60f64.to_radians());
     let slice = Slice::new(renderer.table(), camera.radius());
     // Pixels so small that no image is left out as too thin.
-    let settings = Settings::default();
+    let settings = Settings::finest();
     let view = View { camera: &camera, slice: &slice, pixel: 1e-9, aspect: None, settings: &settings };
     let model = renderer.add_model(&assembly.models[0]);
     let prepared = lensrunner::render::models::Prepared::new(&assembly.models[0]);
@@ -56,7 +56,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
     let mut points = Vec::new();
     for object in &assembly.objects {
         let Body::Held { position, attitude } = object.body else { panic!("the parade does not move") };
-        let held = Object {
+        let held = DrawnObject {
             model,
             coarse: model,
             stand_ins: &[],
@@ -74,7 +74,7 @@ fn vertices_of_the_parade_land_where_they_are_seen() {
             }));
         }
     }
-    let frame = FrameInput { camera, time: 0.0, placed, aurora: None, settings: Settings::default() };
+    let frame = FrameInput { camera, time: 0.0, placed, aurora: None, settings: Settings::finest() };
     renderer.picture(&frame, false).unwrap();
     let bytes = readback::buffer(&GPU, renderer.geometry().seen()).unwrap();
     let seen: &[SeenVertex] = bytemuck::cast_slice(&bytes);
@@ -234,7 +234,7 @@ fn with_the_back_to_the_disk_stars_are_exposed_as_without_one() {
     let mut light = |ahead: DVec3, with: bool| {
         renderer.set_disk(with.then(disk));
         let camera = static_camera(DVec3::new(0.0, -16.0, 1.0), ahead, DVec3::Z, 1.0);
-        let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings: Settings::default() };
+        let frame = FrameInput { camera, time: 0.0, placed: Vec::new(), aurora: None, settings: Settings::finest() };
         renderer.picture(&frame, false).unwrap().display.iter().map(|&byte| f64::from(byte)).sum::<f64>()
     };
     let [away, alone] = [true, false].map(|with| light(DVec3::NEG_Y, with));

@@ -31,7 +31,7 @@ fn linear(encoded: u8) -> f64 {
 fn pictures_are_finished_as_in_rust() {
     let size = [250, 139];
     for bloom in [0.0, 0.25, 1.0] {
-        let settings = Settings { bloom, smooth: false, ..Settings::default() };
+        let settings = Settings { bloom, smooth: false, ..Settings::finest() };
         let drawn = picture("ring", size, &settings);
         let light: Vec<[f32; 3]> = drawn.linear.iter().map(|p| [p[0], p[1], p[2]]).collect();
         let how = PostProcess { bloom, key: settings.exposure_key, exposure_range: settings.exposure_range };
@@ -50,7 +50,7 @@ fn pictures_are_finished_as_in_rust() {
 #[test]
 fn the_lens_spreads_light_and_makes_none() {
     let mean = |bloom| {
-        let settings = Settings { bloom, smooth: false, exposure_range: [0.02, 0.02], ..Settings::default() };
+        let settings = Settings { bloom, smooth: false, exposure_range: [0.02, 0.02], ..Settings::finest() };
         let drawn = picture("ring", [320, 180], &settings);
         drawn.display.chunks_exact(4).map(|p| linear(p[1])).sum::<f64>() / (320.0 * 180.0)
     };
@@ -62,7 +62,7 @@ fn the_lens_spreads_light_and_makes_none() {
 #[test]
 fn outlines_of_bodies_are_smooth() {
     let size = [320, 180];
-    let settings = |smooth| Settings { bloom: 0.0, smooth, exposure_range: [1.0, 1.0], min_width: 0.0, orders: 1, ..Settings::default() };
+    let settings = |smooth| Settings { bloom: 0.0, smooth, exposure_range: [1.0, 1.0], min_width: 0.0, orders: 1, ..Settings::finest() };
     let finer = picture("ring", size.map(|side| 4 * side), &settings(false));
     let [plain, smooth] = [false, true].map(|on| picture("ring", size, &settings(on)));
     let at = |picture: &Picture, column: u32, row: u32| linear(picture.display[4 * (row * picture.size[0] + column) as usize + 1]);

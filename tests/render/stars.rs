@@ -43,7 +43,7 @@ fn stars_are_metered_alike_in_pictures_of_any_size() {
             star(DVec3::new((1.0 - z * z).sqrt() * cosine, (1.0 - z * z).sqrt() * sine, z), 0.1)
         })
         .collect();
-    let settings = Settings { bloom: 0.0, exposure_range: [1e-9, 1e9], sky_brightness: 1.0, star_brightness: 1.0, ..Settings::default() };
+    let settings = Settings { bloom: 0.0, exposure_range: [1e-9, 1e9], sky_brightness: 1.0, star_brightness: 1.0, ..Settings::finest() };
     let haze = |size: [u32; 2]| -> f64 {
         let picture = picture(&stars, 0.05, far_camera(DVec3::ZERO), size, settings);
         let mut green: Vec<u8> = picture.display.chunks_exact(4).map(|pixel| pixel[1]).collect();

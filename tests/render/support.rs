@@ -45,7 +45,7 @@ pub fn a_disk() -> Disk {
 
 /// Without a sky and without what blurs.
 pub fn settings() -> Settings {
-    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
+    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::finest() }
 }
 
 /// The aurora alone: no planet, no sky.

@@ -28,7 +28,7 @@ fn frame(placed: Vec<Placed>, settings: Settings) -> FrameInput {
 }
 
 fn quiet() -> Settings {
-    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::default() }
+    Settings { stars: false, milky_way: false, bloom: 0.0, ..Settings::finest() }
 }
 
 /// A device that is lost: an error in words, then and afterwards, and no panic.
@@ -206,8 +206,8 @@ fn rings_of_orders_two_and_three_are_unbroken() {
             });
             gaps += usize::from(!near);
         }
-        // The third image is thinner than f32 tells beside the axis: it is broken in places (docs/lab/verdict.md). Measured 33 to 41 of 720:
-        // the order in which threads draw its triangles differs from run to run.
+        // The third image is thinner than f32 tells beside the axis: it is broken in places (docs/lab/verdict.md). Measured 33 to 41 of
+        // 720: the order in which threads draw its triangles differs from run to run.
         let allowed = if order == 3 { 60 } else { 0 };
         assert!(gaps <= allowed, "the ring at Φ = {order}π has {gaps} gaps of 720");
     }

@@ -44,8 +44,8 @@ fn rows(l: f64, random: &mut StdRng) -> Vec<[f32; 4]> {
         .collect()
 }
 
-/// Directions within a quarter of a pixel, delays and frequencies within a thousandth and two hundredths for all rows but few: another order
-/// of sums gives another answer where single precision ends.
+/// Directions within a quarter of a pixel, delays and frequencies within a thousandth and two hundredths for all rows but few: another
+/// order of sums gives another answer where single precision ends.
 #[test]
 fn the_table_is_the_same_in_both_languages() {
     let mut race = Race::new(&GPU, shared_table());

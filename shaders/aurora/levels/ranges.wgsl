@@ -24,7 +24,8 @@ fn first(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         least = min(least, four);
         greatest = max(greatest, four);
     }
-    return vec4<f32>(min(min(least.x, least.y), min(least.z, least.w)), max(max(greatest.x, greatest.y), max(greatest.z, greatest.w)), 0.0, 0.0);
+    return vec4<f32>(min(min(least.x, least.y), min(least.z, least.w)), max(max(greatest.x, greatest.y), max(greatest.z, greatest.w)), 0.0,
+        0.0);
 }
 
 /// Tiles of twice the side from four.

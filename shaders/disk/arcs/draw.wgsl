@@ -36,7 +36,8 @@ struct AcrossRing {
 fn vertex(@builtin(vertex_index) index: u32) -> ArcGas {
     let seen = disk_vertices[index];
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
-    let gas = gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw, seen.more.y);
+    let gas = gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw,
+        seen.more.y);
     let bend = seen.bend.xyz * vec3<f32>(1.0, 1.44269504, 1.0);
     return ArcGas(gas.position, gas.even, gas.odd, gas.light, vec4<f32>(gas.slope.xyz, seen.gas.y), gas.seen, seen.bend.w, bend);
 }

@@ -88,7 +88,8 @@ fn among_azimuths(azimuth: f32) -> vec2<f32> {
 /// rain-frame momentum at the camera, `frequency` its frequency there, `observed` that in the camera's frame. The image has the circles
 /// from `first` on, for all azimuths; of those at `azimuth` (rad from the camera's) `count` are used. The transmission of the second image
 /// as it is drawn (`before`, see [`second_before`]) is corrected to the exact one.
-fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32, before: vec2<f32>) -> vec3<f32> {
+fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency: f32, observed: f32, share: f32,
+    before: vec2<f32>) -> vec3<f32> {
     let n = frame.radial.xyz;
     let energy = frequency - frame.side_b.w * dot(n, arriving);
     let angular = cross(n * frame.radial.w, arriving);
@@ -121,7 +122,8 @@ fn mean_gas(first: u32, count: u32, azimuth: f32, arriving: vec3<f32>, frequency
         // In the second image gas has `share` of the area.
         let passed = 1.0 - share * (1.0 - (4.0 * exp(-through) + exp(-through * denser) + exp(-through / denser)) / 6.0);
         let drawn = 1.0 - before.x - before.y * (1.0 - passed);
-        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v)) * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
+        let shown = (1.0 - exp(-depth * exp(4.0 * brightest(x, v)))) * exp(mean_light(x, v))
+            * (max(passed, LEAST_PASSED) / max(drawn, LEAST_PASSED));
         light += shown;
         shifted += shown * log(ratio);
         stopped += 1.0 - exp(-depth);
@@ -184,7 +186,8 @@ struct Rays {
     /// That of its circle; and that of the circle if the gap beside it is closed.
     ray: LensRay,
     in_gap: LensRay,
-    /// Viewing angles. Order 1: of the circle, across its gap, a little aside. Else: of the circle, and where the whole disk begins and ends.
+    /// Viewing angles. Order 1: of the circle, across its gap, a little aside. Else: of the circle, and where the whole disk begins and
+    /// ends.
     psi: vec3<f32>,
     /// Where the second image begins and ends beside the third: the same ray crosses the plane on the other side of the hole.
     second: vec2<f32>,
@@ -217,8 +220,10 @@ fn rays_of(row: u32, at: Bearing, plane: HalfPlane) -> Rays {
         let there = circles[which];
         let r = select(there.gas.x, there.place.y, beside);
         let ahead = select(at.cosine, -at.cosine, opposite) * disk.sideways.w;
-        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w * select(plane.halves.x, plane.halves.y, opposite);
-        let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach), select(order, 2u, opposite));
+        let along = there.place.x + (r - there.gas.x) * disk.sideways.w - 2.0 * r * disk.sideways.w
+            * select(plane.halves.x, plane.halves.y, opposite);
+        let found = lens_lookup_at(along - r * aside * reach, r * (reach + aside * ahead), r * (ahead - aside * reach),
+            select(order, 2u, opposite));
         let seen = found.valid && found.delay > 0.0;
         rays.valid = rays.valid && (seen || opposite);
         rays.behind_second = rays.behind_second && (seen || !opposite);
@@ -285,7 +290,8 @@ fn apparition_of(order: u32, plane: HalfPlane, rays: Rays, turn: f32, share: f32
     let moved = middle + d * pixel;
     let seen_turn = sine_cosine(moved);
     let all_turn = sine_cosine(middle);
-    return Apparition(n * seen_turn.y + side * (turn * seen_turn.x), n * all_turn.y + side * (turn * all_turn.x), vec2<f32>(d, half), nearer);
+    return Apparition(n * seen_turn.y + side * (turn * seen_turn.x), n * all_turn.y + side * (turn * all_turn.x), vec2<f32>(d, half),
+        nearer);
 }
 
 /// The seen gas of a vertex.
@@ -306,9 +312,11 @@ fn seen_gas(row: u32, own: SeenGas, slant: f32, azimuth: f32, rays: Rays, seen: 
     // Software drivers skip a loop without steps, but run through every branch.
     let is_behind = rays.behind_second && own_share(seen.nearer.y) < 1.0;
     let second_first = circle.rows.w - select(0u, THIN_SAMPLES * THIN_AZIMUTHS, circle.rows.x == 3u);
-    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, rays.ray.frequency, seen_as, share, vec2<f32>(0.0, 1.0)).y;
+    let hiding = mean_gas(second_first, select(0u, THIN_SAMPLES, is_behind), HALF_TURN - azimuth, coming, rays.ray.frequency, seen_as,
+        share, vec2<f32>(0.0, 1.0)).y;
     let before = select(vec2<f32>(0.0, 1.0), second_before(seen.nearer.x, seen.nearer.y, hiding) * vec2<f32>(share, 1.0), is_behind);
-    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own_part == 1.0), azimuth, coming, rays.ray.frequency, seen_as, share, before);
+    let mean = mean_gas(circle.rows.w, select(THIN_SAMPLES, 0u, own_part == 1.0), azimuth, coming, rays.ray.frequency, seen_as, share,
+        before);
     var gas = own;
     if own_part < 1.0 {
         let along = between(vec2<f32>(mean.x + select(mean.z, 0.0, shifts), mean.y), vec2<f32>(own.shown.x, own.shown.y * slant), own_part);

@@ -34,7 +34,7 @@ use sky::{Background, SPOT_SIGMA, Spot};
 use texture::Pyramid;
 
 /// The parts of a scene that are not bodies.
-pub struct Setting<'a> {
+pub struct Surroundings<'a> {
     /// The Milky Way.
     pub background: &'a Background,
     /// The stars' spots on this picture.
@@ -115,7 +115,7 @@ const BAND: u32 = 8;
 
 /// One ray: what it shows at its end, through the disk.
 #[derive(Clone, Copy)]
-struct Sample {
+struct RaySample {
     end: Ending,
     /// The light of the disk in front.
     veil: Vec3,
@@ -132,7 +132,7 @@ enum Ending {
 }
 
 /// Traces the picture that `camera` sees. `done` is told how many pixels have been finished, again and again.
-pub fn picture(world: &World, setting: &Setting, camera: &PixelCamera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
+pub fn picture(world: &World, setting: &Surroundings, camera: &PixelCamera, quality: &Quality, done: &(dyn Fn(u64) + Sync)) -> Picture {
     let [width, height] = camera.size;
     let given_up = world.given_up();
     let painter = Painter { world, setting, camera, quality, pyramids: pyramids(world) };
@@ -202,7 +202,7 @@ fn pyramids(world: &World) -> HashMap<usize, Pyramid> {
 
 struct Painter<'a> {
     world: &'a World<'a>,
-    setting: &'a Setting<'a>,
+    setting: &'a Surroundings<'a>,
     camera: &'a PixelCamera,
     quality: &'a Quality,
     pyramids: HashMap<usize, Pyramid>,
@@ -304,12 +304,12 @@ impl Painter<'_> {
     }
 
     /// The rays of a band, `place` giving the place of each on the screen.
-    fn samples(&self, columns: usize, rows: usize, place: &dyn Fn(usize) -> [f64; 2]) -> Vec<Sample> {
+    fn samples(&self, columns: usize, rows: usize, place: &dyn Fn(usize) -> [f64; 2]) -> Vec<RaySample> {
         let packet = self.quality.packet as usize;
         if packet <= 1 {
             return (0..columns * rows).map(place).map(|[x, y]| self.sample(x, y)).collect();
         }
-        let blank = Sample { end: Ending::Dark, veil: Vec3::ZERO, through: 1.0 };
+        let blank = RaySample { end: Ending::Dark, veil: Vec3::ZERO, through: 1.0 };
         let mut samples = vec![blank; columns * rows];
         let (order, starts) = squares([columns, rows], packet);
         for tile in starts.windows(2).map(|ends| &order[ends[0]..ends[1]]) {
@@ -326,7 +326,7 @@ impl Painter<'_> {
         samples
     }
 
-    fn sample(&self, x: f64, y: f64) -> Sample {
+    fn sample(&self, x: f64, y: f64) -> RaySample {
         let (look, blue) = self.camera.look(x, y);
         let mut veil = (Vec3::ZERO, 1.0);
         let seen = self.world.look_through(self.camera.observer.position, look, self.quality.tolerance, &mut |crossing| {
@@ -344,13 +344,13 @@ impl Painter<'_> {
         }
     }
 
-    fn ended(&self, seen: Seen, (veil, through): (Vec3, f32), blue: f64) -> Sample {
+    fn ended(&self, seen: Seen, (veil, through): (Vec3, f32), blue: f64) -> RaySample {
         let end = match seen {
             Seen::Captured => Ending::Dark,
             Seen::Sky { direction, energy, .. } => Ending::Sky { direction, g: blue / energy },
             Seen::Hit(hit) => Ending::Surface { hit, surface: self.world.surface(&hit, blue) },
         };
-        Sample { end, veil, through }
+        RaySample { end, veil, through }
     }
 
     /// The light of what a ray ends at.
@@ -380,7 +380,7 @@ impl Painter<'_> {
         }
     }
 
-    fn layer(&self, sample: &Sample) -> Layer {
+    fn layer(&self, sample: &RaySample) -> Layer {
         let Ending::Surface { hit, surface } = &sample.end else { return Layer::default() };
         Layer {
             object: self.world.things[hit.object].id,
@@ -397,20 +397,20 @@ impl Painter<'_> {
 
 /// Samples of a band, row by row.
 struct Grid<'a> {
-    samples: &'a [Sample],
+    samples: &'a [RaySample],
     columns: usize,
     rows: usize,
 }
 
 impl Grid<'_> {
-    fn at(&self, row: usize, column: usize) -> &Sample {
+    fn at(&self, row: usize, column: usize) -> &RaySample {
         &self.samples[row * self.columns + column]
     }
 
     /// How much something changes from a sample to its neighbour, across and down: the lesser of the changes to the two sides, as one of
     /// them may lie beyond an edge; 0 where `measure` finds no likeness on either.
-    fn change(&self, row: usize, column: usize, measure: impl Fn(&Sample) -> Option<f64>) -> [f64; 2] {
-        let least = |sides: [Option<&Sample>; 2]| {
+    fn change(&self, row: usize, column: usize, measure: impl Fn(&RaySample) -> Option<f64>) -> [f64; 2] {
+        let least = |sides: [Option<&RaySample>; 2]| {
             let least = sides.into_iter().flatten().filter_map(&measure).fold(f64::INFINITY, f64::min);
             if least.is_finite() { least } else { 0.0 }
         };

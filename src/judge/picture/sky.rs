@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::shade::{Shift, shifted_colour};
 use super::texture::{Level, Pyramid};
-use crate::judge::ray::{Follower, Stop, sky_radius};
+use crate::judge::ray::{RayFollower, Stop, sky_radius};
 use crate::judge::trace::PixelCamera;
 use crate::scene::blackbody;
 use crate::scene::sky::milky_way::{self, MilkyWay};
@@ -89,7 +89,7 @@ impl Sweep {
                 return psi;
             }
             let stop = Stop { radius: sky_radius(radius), horizon_gap: 0.5, ..Stop::default() };
-            let mut follower = Follower::new(radius, DVec2::new(psi.cos(), psi.abs().sin()), tolerance, stop);
+            let mut follower = RayFollower::new(radius, DVec2::new(psi.cos(), psi.abs().sin()), tolerance, stop);
             while follower.step().is_some() {}
             follower.sky_swept().map_or(f64::INFINITY, |swept| swept.copysign(psi))
         };

@@ -79,38 +79,39 @@ pub fn rain_from_static(psi: f64, l: f64) -> f64 {
     2.0 * ((0.5 * psi).sin() * ((1.0 + beta) / (1.0 - beta)).sqrt()).atan2((0.5 * psi).cos())
 }
 
-/// Every method: its name, and what it does in a few words.
-pub const CATALOGUE: [(&str, &str); 4] = [
-    ("table", "what the game draws with: the residual table, sliced at the camera's radius for a frame, cubic, f32"),
-    ("exact", "the ray in closed form (elliptic functions), f64, solved for each point"),
-    ("paper1-128", "the tables of Yamashita 2012, ψ(r, φ, L) on its optimised meshes, trilinear, 128 nodes an axis"),
-    ("flat", "straight lines"),
+/// A method: its name, what it does in a few words, and how it is made.
+pub type Entry = (&'static str, &'static str, fn() -> Box<dyn Projector>);
+
+/// Every method. Tables that are not there yet are baked as the method is made, which stderr is told of, and kept beside the committed one.
+pub const CATALOGUE: [Entry; 4] = [
+    ("table", "what the game draws with: the residual table, sliced at the camera's radius for a frame, cubic, f32", || {
+        Box::new(Table(lensing::default_table()))
+    }),
+    ("exact", "the ray in closed form (elliptic functions), f64, solved for each point", || Box::new(Exact)),
+    ("paper1-128", "the tables of Yamashita 2012, ψ(r, φ, L) on its optimised meshes, trilinear, 128 nodes an axis", || {
+        Box::new(Paper(filed("paper-128.lut", Scheme::Paper, 128)))
+    }),
+    ("flat", "straight lines", || Box::new(Flat)),
 ];
 
-/// The names of [`CATALOGUE`], for a person to choose from.
+/// The methods' names, for a person to choose from.
 pub fn names() -> String {
-    CATALOGUE.map(|(name, _)| name).join(", ")
+    CATALOGUE.map(|(name, ..)| name).join(", ")
 }
 
 /// One line for each method.
 pub fn help() -> String {
-    let lines = CATALOGUE.map(|(name, about)| format!("{name:12} {about}"));
+    let lines = CATALOGUE.map(|(name, about, _)| format!("{name:12} {about}"));
     format!(
-        "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (those of Yamashita 2012 from 1.01), and \
-         leave fields empty beyond.",
+        "Methods:\n  {}\n\nTables answer cameras at 0.05 to 5,000 r_s and points at 1.0005 to 10,000 r_s (those of Yamashita 2012 \
+         from 1.01), and leave fields empty beyond.",
         lines.join("\n  ")
     )
 }
 
-/// The method called `name`, or None. Tables that are not there yet are baked, which stderr is told of, and kept beside the committed one.
+/// The method called `name`, made, or None.
 pub fn named(name: &str) -> Option<Box<dyn Projector>> {
-    Some(match name {
-        "table" => Box::new(Table(lensing::default_table())),
-        "exact" => Box::new(Exact),
-        "paper1-128" => Box::new(Paper(filed("paper-128.lut", Scheme::Paper, 128))),
-        "flat" => Box::new(Flat),
-        _ => return None,
-    })
+    CATALOGUE.into_iter().find(|(other, ..)| *other == name).map(|(_, _, make)| make())
 }
 
 /// The table of the file `path` beside the committed one, baked and written there if need be, with a progress bar on stderr.

@@ -12,7 +12,7 @@ use crate::spacetime::matter::ShipState;
 
 /// From where the player looks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
+pub enum CameraView {
     /// Behind and above the ship.
     #[default]
     ThirdPerson,
@@ -20,12 +20,12 @@ pub enum View {
     Cockpit,
 }
 
-impl View {
+impl CameraView {
     /// The other one.
-    pub fn toggled(self) -> View {
+    pub fn toggled(self) -> CameraView {
         match self {
-            View::ThirdPerson => View::Cockpit,
-            View::Cockpit => View::ThirdPerson,
+            CameraView::ThirdPerson => CameraView::Cockpit,
+            CameraView::Cockpit => CameraView::ThirdPerson,
         }
     }
 }
@@ -64,11 +64,11 @@ pub fn state_of(sample: &Sample) -> ShipState {
 }
 
 /// The camera of `view` on a ship of `length` r_s whose camera has turned to `attitude`.
-pub fn on_ship(state: &ShipState, view: View, attitude: DQuat, length: f64, field_of_view: f64) -> Observer {
+pub fn on_ship(state: &ShipState, view: CameraView, attitude: DQuat, length: f64, field_of_view: f64) -> Observer {
     let turned = ShipState { attitude, ..*state };
     let offset = match view {
-        View::ThirdPerson => BEHIND * length,
-        View::Cockpit => DVec3::ZERO,
+        CameraView::ThirdPerson => BEHIND * length,
+        CameraView::Cockpit => DVec3::ZERO,
     };
     third_person(&turned, offset, DQuat::IDENTITY, field_of_view)
 }
@@ -93,9 +93,9 @@ mod tests {
     #[test]
     fn the_cockpit_is_where_the_ship_is() {
         let state = ShipState::new(DVec3::X * 8.0, DVec3::new(0.1, 0.3, 0.0));
-        let camera = on_ship(&state, View::Cockpit, DQuat::IDENTITY, 0.25, 1.0);
+        let camera = on_ship(&state, CameraView::Cockpit, DQuat::IDENTITY, 0.25, 1.0);
         assert_eq!(camera.position, state.position);
-        let behind = on_ship(&state, View::ThirdPerson, DQuat::IDENTITY, 0.25, 1.0);
+        let behind = on_ship(&state, CameraView::ThirdPerson, DQuat::IDENTITY, 0.25, 1.0);
         assert!((behind.position - state.position).z > 0.5);
         assert_eq!(behind.momentum, state.momentum);
     }

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 
-use crate::play::camera::View;
+use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Bearing, Instruments, Scale};
 use crate::play::hud::paint::{ALARM, BAR_ROOM, FAINT, OWN, TEXT, TRUE, TextBox};
 use crate::play::hud::{BETWEEN, MARGIN};
@@ -89,8 +89,8 @@ fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, r
     let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
     let view = match player.view {
         _ if player.gaze.aside() => "at the target",
-        View::Cockpit => "cockpit",
-        View::ThirdPerson => "third person",
+        CameraView::Cockpit => "cockpit",
+        CameraView::ThirdPerson => "third person",
     };
     let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     let [colour, filled] = if read.fuel.is_some_and(|share| share < LOW_FUEL) { [ALARM; 2] } else { [TEXT, OWN] };

@@ -16,7 +16,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 use crate::scene::GameConfig;
 use crate::sim::{Chase, ChaseRules};
 
-use crate::play::camera::View;
+use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Countdown, Scale, hold_words};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
@@ -90,7 +90,7 @@ fn draw(
         text_boxes.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
     }
     taken.extend(text_boxes.iter().map(|text_box| text_box.frame));
-    if player.view == View::ThirdPerson {
+    if player.view == CameraView::ThirdPerson {
         taken.push(markers::own_ship(rect, panel.field_of_view));
     }
     // Below the dials, and named off them.

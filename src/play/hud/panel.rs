@@ -7,7 +7,7 @@ use crate::play::camera::state_of;
 use crate::play::hud::instruments::Instruments;
 use crate::play::picture::CurrentShot;
 use crate::play::picture::now::Now;
-use crate::play::picture::sight::Shot;
+use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
@@ -36,7 +36,7 @@ pub struct Panel {
 
 /// Reads the numbers of the frame that is drawn.
 pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerState>, mut panel: ResMut<Panel>) {
-    let (Some(Shot { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
+    let (Some(FrameCamera { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
     let time = now.time();
     let state = state_of(&history.at(time));
     let target = now.target().map(|(_, history)| history);

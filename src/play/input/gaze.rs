@@ -6,7 +6,7 @@ use crate::sim::History;
 use crate::spacetime::matter::ShipState;
 
 use crate::play::camera::seen::facing;
-use crate::play::camera::{View, on_ship};
+use crate::play::camera::{CameraView, on_ship};
 
 /// Wall time of the whole turn, in seconds.
 const TURN: f64 = 0.4;
@@ -46,7 +46,7 @@ impl Gaze {
 
     /// The attitude in which a camera on the ship has the image of order 1 of `target`, at T = `time`, in the middle; None where it is not
     /// seen. `follows` is the attitude of the camera that looks ahead; its upwards stays so.
-    pub fn facing(&self, state: &ShipState, view: View, length: f64, follows: DQuat, time: f64, target: &History) -> Option<DQuat> {
+    pub fn facing(&self, state: &ShipState, view: CameraView, length: f64, follows: DQuat, time: f64, target: &History) -> Option<DQuat> {
         let up = follows * DVec3::Y;
         // The third-person camera goes round the ship as it turns, which moves what is near: from the last frame's answer it is not far.
         let mut attitude = if self.aside() { follows * self.turn } else { follows };
@@ -78,7 +78,7 @@ mod tests {
         let ship = ShipState { attitude: DQuat::from_rotation_z(0.4) * DQuat::from_rotation_y(0.7), ..hovering(DVec3::X * 9.0) };
         for there in [[2.0, 7.0, 1.0], [9.0, -6.0, 0.5], [13.0, 1.0, 2.0], [9.4, 0.6, 0.2], [-8.0, 0.5, 0.3], [9.0, 0.0, 5.0]] {
             let target = History::new(0.0, &hovering(DVec3::from_array(there)));
-            for view in [View::Cockpit, View::ThirdPerson] {
+            for view in [CameraView::Cockpit, CameraView::ThirdPerson] {
                 let mut gaze = Gaze::default();
                 let mut camera = on_ship(&ship, view, ship.attitude, 0.25, 1.0);
                 for _ in 0..40 {

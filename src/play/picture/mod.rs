@@ -8,16 +8,16 @@ use std::sync::Arc;
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
-use crate::play::camera::{View, state_of};
+use crate::play::camera::{CameraView, state_of};
 use crate::play::menus::screens::Screen;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
-use crate::render::settings::Settings;
+use crate::render::settings::ANY_FILL;
 use crate::render::stage::{Stage, settings};
 use now::Now;
-use sight::{Shot, Sight, is_cut};
+use sight::{FrameCamera, ScreenContent, is_cut};
 
 /// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin)
 /// and [`GamePlugin`](crate::play::game::GamePlugin).
@@ -37,7 +37,7 @@ pub struct Staged(pub Stage);
 
 /// The camera of this frame; None as long as there is nothing to show: no chase has begun, or the window has no area, as a minimised one.
 #[derive(Resource, Clone, Copy, Debug, Default)]
-pub struct CurrentShot(pub Option<Shot>);
+pub struct CurrentShot(pub Option<FrameCamera>);
 
 /// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.
 const BEFORE: u32 = 4;
@@ -83,19 +83,19 @@ fn point_camera(
     let state = state_of(&history.at(time));
     let sight = sight(&now, *screen.get());
     // All of the player's state goes on, whatever is shown.
-    let rigid = player.view == View::Cockpit || video.reduced_motion;
+    let rigid = player.view == CameraView::Cockpit || video.reduced_motion;
     let attitude = player.follower.follow(state.attitude, seconds, rigid);
-    let sought = now.target().filter(|_| player.looking && sight == Sight::Own);
+    let sought = now.target().filter(|_| player.looking && sight == ScreenContent::Own);
     let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
     shot.0 = Some(match (sight, now.target()) {
-        (Sight::Own, _) => Shot::own(me, &state, player.view, attitude, now.session.length(me), field_of_view),
-        (Sight::Caught, Some((caught, history))) => {
-            Shot::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
+        (ScreenContent::Own, _) => FrameCamera::own(me, &state, player.view, attitude, now.session.length(me), field_of_view),
+        (ScreenContent::Caught, Some((caught, history))) => {
+            FrameCamera::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
         }
         _ => {
             let turn = if video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
-            Shot::afar(state.position, turn, field_of_view)
+            FrameCamera::afar(state.position, turn, field_of_view)
         }
     });
 }
@@ -108,7 +108,7 @@ fn make_frame(
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
     mut frame: ResMut<FrameToDraw>,
-    mut last: Local<Option<(Sight, f64)>>,
+    mut last: Local<Option<(ScreenContent, f64)>>,
 ) {
     let (Some(size), Some(shot)) = (area(&windows), shot.0) else { return };
     let config = &now.session.config;
@@ -118,7 +118,7 @@ fn make_frame(
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
         // should be.
-        settings.fill = Settings::default().fill;
+        settings.fill = ANY_FILL;
     } else {
         settings.adaptation = (1.0 - (-config.render.exposure_speed * real.delta_secs_f64()).exp2()) as f32;
     }
@@ -128,8 +128,8 @@ fn make_frame(
 }
 
 /// What the screen shows of the chase.
-fn sight(now: &Now, screen: Screen) -> Sight {
-    Sight::of(screen, now.chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome))
+fn sight(now: &Now, screen: Screen) -> ScreenContent {
+    ScreenContent::of(screen, now.chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome))
 }
 
 /// Width and height of the window in pixels, if it has an area: a minimised one has none.

@@ -20,7 +20,7 @@ pub struct RecordPlugin {
 }
 
 #[derive(Resource, Clone, Debug)]
-struct Recording {
+struct VideoRecording {
     folder: Option<PathBuf>,
     frames: Option<u32>,
     drawn: u32,
@@ -39,7 +39,7 @@ struct News {
 impl Plugin for RecordPlugin {
     fn build(&self, app: &mut App) {
         let (sender, receiver) = channel();
-        app.insert_resource(Recording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
+        app.insert_resource(VideoRecording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
             .insert_resource(News { sender, receiver: Mutex::new(receiver) })
             .add_systems(Update, tell)
             .add_systems(Last, record.run_if(resource_exists::<Staged>));
@@ -69,7 +69,7 @@ fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
 /// Frames at the start whose picture is not ready yet: the window's surface and the pipelines are being made.
 const WARM_UP: u32 = 3;
 
-fn record(mut recording: ResMut<Recording>, mut commands: Commands, mut exit: MessageWriter<AppExit>) {
+fn record(mut recording: ResMut<VideoRecording>, mut commands: Commands, mut exit: MessageWriter<AppExit>) {
     recording.drawn += 1;
     let Some(index) = recording.drawn.checked_sub(WARM_UP) else { return };
     if recording.frames.is_some_and(|frames| index > frames) {
@@ -93,7 +93,7 @@ pub fn screenshot(world: &mut World) {
     let Some(mut notice) = world.get_resource_mut::<Notice>() else { return };
     // What was said last is not to be in the picture.
     *notice = Notice::default();
-    if let Some(folder) = world.get_resource::<Recording>().and_then(|recording| recording.folder.clone()) {
+    if let Some(folder) = world.get_resource::<VideoRecording>().and_then(|recording| recording.folder.clone()) {
         let text = format!("every frame is written to {}", folder.join("frames").display());
         world.insert_resource(Notice { text, until });
         return;
@@ -149,7 +149,7 @@ mod tests {
         screenshot(app.world_mut());
         assert_eq!(app.world().resource::<Notice>().text, "");
         // Where every frame is written, the player is told so instead.
-        app.world_mut().resource_mut::<Recording>().folder = Some("film".into());
+        app.world_mut().resource_mut::<VideoRecording>().folder = Some("film".into());
         screenshot(app.world_mut());
         assert!(app.world().resource::<Notice>().text.contains("film"));
     }

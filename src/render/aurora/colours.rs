@@ -28,7 +28,8 @@ impl Colours {
         Colours { lines: std::array::from_fn(|k| of(ratio(k))), steps: [middle, right, up, 0.0].map(|value| value as f32), tile: [0.0; 4] }
     }
 
-    /// The lines' colours at a place on the screen, coordinates from −1 to 1; the twin of `colour_at` in shaders/aurora/levels/resolve.wgsl.
+    /// The lines' colours at a place on the screen, coordinates from −1 to 1; the twin of `colour_at` in
+    /// shaders/aurora/levels/resolve.wgsl.
     pub fn at(&self, place: DVec2) -> [[f32; 4]; 4] {
         let [middle, right, up, _] = self.steps;
         let steps = (middle + right * place.x as f32 + up * place.y as f32).clamp(0.0, (SHIFTS - 1) as f32);

@@ -7,7 +7,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::{DQuat, DVec2, Mat3};
 use half::f16;
 
-use crate::render::aurora::node_history::{NodeHistory, Row, place};
+use crate::render::aurora::node_history::{NodeHistory, NodeRow, place};
 use crate::scene::aurora::curve::Curve;
 use crate::scene::aurora::dipole::{PLANET_RADIUS, REFERENCE_HEIGHT};
 use crate::scene::aurora::ground::GroundMap;
@@ -101,7 +101,7 @@ const TURNED: f64 = 0.03;
 /// The map of a row.
 #[derive(Clone, Debug)]
 struct Kept {
-    row: Row,
+    row: NodeRow,
     /// The midnight for which it was made.
     midnight: DVec2,
     light: Arc<Vec<f32>>,
@@ -109,7 +109,7 @@ struct Kept {
 
 impl Kept {
     /// Whether it is still the map of `row`.
-    fn serves(&self, row: &Row, midnight: DVec2) -> bool {
+    fn serves(&self, row: &NodeRow, midnight: DVec2) -> bool {
         Arc::ptr_eq(&self.row, row) && self.midnight.distance(midnight) < TURNED
     }
 }
@@ -137,7 +137,7 @@ impl Ground {
     fn follow(&mut self, rows: &NodeHistory, midnight: DVec2) {
         let wanted = [0, 1].map(|ago| rows.row(ago));
         let [Some(newest), Some(before)] = wanted else { return };
-        let serves = |kept: &Option<Kept>, row: &Row| kept.as_ref().is_some_and(|kept| kept.serves(row, midnight));
+        let serves = |kept: &Option<Kept>, row: &NodeRow| kept.as_ref().is_some_and(|kept| kept.serves(row, midnight));
         if serves(&self.kept[0], newest) && serves(&self.kept[1], before) {
             return;
         }
@@ -153,7 +153,7 @@ impl Ground {
         }
     }
 
-    fn light(&self, row: &Row, midnight: DVec2) -> Vec<f32> {
+    fn light(&self, row: &NodeRow, midnight: DVec2) -> Vec<f32> {
         self.map.of(self.areas.iter().enumerate().filter(|(_, area)| **area > 0.0).map(|(k, area)| {
             let at = place(row, k);
             // As `night` in shaders/aurora/ends.wgsl.

@@ -14,13 +14,13 @@ pub const ROWS: usize = 128;
 pub const ROW: f64 = 1.0;
 
 /// Nodes of all curtains at one time, as the shaders read them.
-pub type Row = Arc<Vec<[f32; 4]>>;
+pub type NodeRow = Arc<Vec<[f32; 4]>>;
 
 /// The rows of a history. A clone shares them.
 #[derive(Clone, Debug, Default)]
 pub struct NodeHistory {
     /// By slot. From the newest on, each row is older than the one before, round the ring.
-    slots: Vec<Row>,
+    slots: Vec<NodeRow>,
     newest: usize,
 }
 
@@ -39,7 +39,7 @@ impl NodeHistory {
     }
 
     /// The rows by their slots; none if there is no history.
-    pub fn slots(&self) -> &[Row] {
+    pub fn slots(&self) -> &[NodeRow] {
         &self.slots
     }
 
@@ -49,7 +49,7 @@ impl NodeHistory {
     }
 
     /// The row so many rows ago, from 0.
-    pub fn row(&self, ago: usize) -> Option<&Row> {
+    pub fn row(&self, ago: usize) -> Option<&NodeRow> {
         self.slots.get((self.newest + ago) % ROWS)
     }
 
@@ -59,8 +59,8 @@ impl NodeHistory {
     }
 
     /// Slots with another row than in an earlier history.
-    pub fn changed<'a>(&'a self, before: &'a NodeHistory) -> impl Iterator<Item = (usize, &'a Row)> {
-        let same = |&(slot, row): &(usize, &Row)| before.slots.get(slot).is_some_and(|old| Arc::ptr_eq(old, row));
+    pub fn changed<'a>(&'a self, before: &'a NodeHistory) -> impl Iterator<Item = (usize, &'a NodeRow)> {
+        let same = |&(slot, row): &(usize, &NodeRow)| before.slots.get(slot).is_some_and(|old| Arc::ptr_eq(old, row));
         self.slots.iter().enumerate().filter(move |row| !same(row))
     }
 
@@ -81,7 +81,7 @@ impl NodeHistory {
     }
 }
 
-fn row(nodes: impl Iterator<Item = Node>) -> Row {
+fn row(nodes: impl Iterator<Item = Node>) -> NodeRow {
     Arc::new(nodes.map(|node| [node.place.x, node.place.y, node.flux, node.along].map(|x| x as f32)).collect())
 }
 

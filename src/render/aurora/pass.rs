@@ -55,7 +55,7 @@ pub struct Aurora {
     draws: wgpu::Buffer,
     colours: [wgpu::Buffer; ORDERS],
     levels: Option<Levels>,
-    groups: Option<Groups>,
+    groups: Option<VeilGroups>,
     /// For each image of the prepared frame: the pixels on which it may be (left, top, width, height), and whether it is behind the disk.
     images: Vec<([u32; 4], bool)>,
     /// In the prepared frame: streaks, chords of a streak, image orders. Zero orders: nothing is drawn.
@@ -70,7 +70,7 @@ pub struct Aurora {
 }
 
 #[derive(Debug)]
-struct Groups {
+struct VeilGroups {
     walk: wgpu::BindGroup,
     /// One group per level.
     draw: Vec<wgpu::BindGroup>,
@@ -191,7 +191,7 @@ impl Aurora {
         replaced
     }
 
-    fn make_groups(&self, device: &wgpu::Device) -> Option<Groups> {
+    fn make_groups(&self, device: &wgpu::Device) -> Option<VeilGroups> {
         let levels = self.levels.as_ref()?;
         let walk = [
             &self.settings,
@@ -221,7 +221,7 @@ impl Aurora {
         let tiles = self.colours.iter().map(|colours| {
             bind(device, "aurora tiles", &self.layouts.tiles, &[colours.as_entire_binding(), self.draws.as_entire_binding()])
         });
-        Some(Groups {
+        Some(VeilGroups {
             walk: bind(device, "aurora walk", &self.layouts.walk, &walk),
             draw: draw_strokes.collect(),
             spread: spread.collect(),

@@ -67,11 +67,11 @@ impl Shift {
                 // less.
                 let mut emission = began;
                 for _ in 0..if view.settings.light_delay { SEARCH } else { 0 } {
-                    emission = time - Ends::new(view.camera, moving(history, emission, *place * (HEIGHT * radius)).0, order)?.delay;
+                    emission = time - RayEnds::new(view.camera, moving(history, emission, *place * (HEIGHT * radius)).0, order)?.delay;
                 }
                 let body = moving(history, emission, *place * (HEIGHT * radius));
                 let (position, velocity) = body;
-                let ends = Ends::new(view.camera, position, order)?;
+                let ends = RayEnds::new(view.camera, position, order)?;
                 let outward = (position - history.at(emission).position).normalize();
                 let ratio = ends.ratio(view.camera, position, velocity)?;
                 let at = on_screen(view.camera, ends.look, aspect)?;
@@ -94,7 +94,7 @@ impl Shift {
 }
 
 /// Both ends of a ray, rain frame.
-struct Ends {
+struct RayEnds {
     /// Direction in which it is seen, a unit vector.
     look: DVec3,
     /// Momentum of the photon at the camera and at the point, in the same unit.
@@ -104,8 +104,8 @@ struct Ends {
     delay: f64,
 }
 
-impl Ends {
-    fn new(camera: &Observer, position: DVec3, order: Order) -> Option<Ends> {
+impl RayEnds {
+    fn new(camera: &Observer, position: DVec3, order: Order) -> Option<RayEnds> {
         let (l, r) = (camera.radius(), position.length());
         let n = camera.position / l;
         let across = position - n * position.dot(n);
@@ -118,7 +118,7 @@ impl Ends {
             [(ray.slope, 1.0 / l), (ray.emission_slope, 1.0 / r)].map(|(slope, u)| light::rain_momentum(slope, ray.energy, u));
         let m = position / r;
         let onward = (side * m.dot(n) - n * m.dot(side)) * turn;
-        Some(Ends { look, arriving: look * -here[0].hypot(here[1]), leaving: m * there[0] + onward * there[1], delay: ray.delay })
+        Some(RayEnds { look, arriving: look * -here[0].hypot(here[1]), leaving: m * there[0] + onward * there[1], delay: ray.delay })
     }
 
     /// ν_observed/ν_emitted for an emitter at `position` with `velocity` dx/dT.

@@ -81,6 +81,7 @@ impl DiskPasses {
                 Representation::Polygons(Box::new(PolygonPass::new(gpu, frame_layout, &self.gas_layout, radial(), &disk, turn)))
             }
             "sprites" => Representation::Sprites(SpritePass::new(gpu, frame_layout, &self.gas_layout, &self.frame, &radial(), &disk)),
+            // "arcs": the reader of `game.toml` lets only these four in.
             _ => Representation::Arcs,
         };
         self.straight = None;

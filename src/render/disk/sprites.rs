@@ -22,7 +22,7 @@ pub struct SpritePass {
     project: wgpu::ComputePipeline,
     draw: wgpu::RenderPipeline,
     /// One for each of orders 1, 2 and 3.
-    images: [Image; 3],
+    images: [OrderSprites; 3],
     /// Which of them are drawn in this frame.
     drawn: [bool; 3],
 }
@@ -30,7 +30,7 @@ pub struct SpritePass {
 /// The sprites of one order, and room for their seen vertices. Each sprite has its fixed place there, seen or not, so which lies over which
 /// is the same in every frame.
 #[derive(Debug)]
-struct Image {
+struct OrderSprites {
     count: u32,
     project: wgpu::BindGroup,
     draw: wgpu::BindGroup,
@@ -64,7 +64,7 @@ impl SpritePass {
                 bytemuck::cast_slice(&[order, (width as f32).to_bits(), all.len() as u32, (disk.gas.extent()[1] as f32).to_bits()]),
             );
             let resources = [frame, radial, &places, &seen, &told].map(|buffer| buffer.as_entire_binding());
-            Image {
+            OrderSprites {
                 count: all.len() as u32,
                 project: bind(device, "sprites", &project_layout, &resources),
                 draw: bind(device, "sprites draw", &draw_layout, &[seen.as_entire_binding()]),
@@ -88,7 +88,7 @@ impl SpritePass {
     }
 
     /// The images of these orders that are drawn, the farthest first.
-    fn drawn(&self, orders: RangeInclusive<u32>) -> impl Iterator<Item = &Image> {
+    fn drawn(&self, orders: RangeInclusive<u32>) -> impl Iterator<Item = &OrderSprites> {
         let all = self.images.iter().zip(self.drawn).zip([1, 2, 3]).rev();
         all.filter_map(move |((image, drawn), order)| (drawn && orders.contains(&order)).then_some(image))
     }

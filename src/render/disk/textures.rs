@@ -36,14 +36,14 @@ impl Textures {
 }
 
 /// One level: width, height, values.
-type Level = (u32, u32, Vec<f32>);
+type WidthLevel = (u32, u32, Vec<f32>);
 
 /// The levels of the far pattern: [`finer`], then [`narrower`] with its halvings.
-static FAR: LazyLock<Vec<Level>> = LazyLock::new(|| std::iter::once(finer()).chain(halvings(narrower())).collect());
+static FAR: LazyLock<Vec<WidthLevel>> = LazyLock::new(|| std::iter::once(finer()).chain(halvings(narrower())).collect());
 
 /// The pattern with its finest octaves in texels half as large as those of [`narrower`], so that at ten r_s, where the near pattern takes
 /// over, both show the same detail.
-fn finer() -> Level {
+fn finer() -> WidthLevel {
     let (width, height) = (WIDTH, 2 * HEIGHT);
     let finer = DETAIL.0 as usize;
     // A texel is a mean over lattice points of the finest octaves: so many columns, half as many rows.
@@ -64,7 +64,7 @@ fn finer() -> Level {
 
 /// The pattern with its finest octaves, halved round the hole: its cells are long that way, and a smaller texture stays in the processor's
 /// cache.
-fn narrower() -> Level {
+fn narrower() -> WidthLevel {
     let narrow = |values: &[f32]| -> Vec<f32> { values.chunks_exact(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect() };
     let (width, height) = (WIDTH / 2, HEIGHT);
     // The finest octaves are the pattern again, so many times finer: a texel is a mean over as many of their texels, both ways.
@@ -79,7 +79,7 @@ fn narrower() -> Level {
 }
 
 /// A level and all its halvings.
-fn halvings(finest: Level) -> Vec<Level> {
+fn halvings(finest: WidthLevel) -> Vec<WidthLevel> {
     let mut levels = vec![finest];
     while let Some(level) = levels.last().filter(|level| level.0 > 1 && level.1 > 1) {
         levels.push(halved(level));
@@ -88,7 +88,7 @@ fn halvings(finest: Level) -> Vec<Level> {
 }
 
 /// A level of half the width and height.
-fn halved((width, height, values): &Level) -> Level {
+fn halved((width, height, values): &WidthLevel) -> WidthLevel {
     let (w, h) = (*width as usize, *height as usize);
     let mean = (0..w * h / 4).map(|k| {
         let (x, y) = (2 * (k % (w / 2)), 2 * (k / (w / 2)));
@@ -105,7 +105,7 @@ const FAR_WIDTH: u32 = 1552;
 /// All levels in one picture, the first on the left, the others below one another beside it. Choosing a mip level of a texture anew in each
 /// pixel costs a software driver more than computing a corner. Each texel also holds its next neighbours to the right, below and across;
 /// values are written `as_bits`.
-fn side_by_side<T: Copy + Default>(levels: &[Level], as_bits: impl Fn(f32) -> T) -> Vec<[T; 4]> {
+fn side_by_side<T: Copy + Default>(levels: &[WidthLevel], as_bits: impl Fn(f32) -> T) -> Vec<[T; 4]> {
     let mut texels = vec![[T::default(); 4]; (FAR_WIDTH * levels[0].1) as usize];
     let (mut left, mut top) = (0, 0);
     for &(width, height, ref values) in levels {

@@ -10,7 +10,7 @@ use crate::render::gpu::layout::buffer;
 
 /// The map and its numbers on the GPU.
 #[derive(Debug)]
-pub(super) struct Ground {
+pub(super) struct GroundMap {
     pub light: wgpu::Buffer,
     pub view: wgpu::TextureView,
     texture: wgpu::Texture,
@@ -19,12 +19,12 @@ pub(super) struct Ground {
     uploaded: Arc<Vec<[u16; 2]>>,
 }
 
-impl Ground {
+impl GroundMap {
     /// One that lights nothing.
-    pub fn new(device: &wgpu::Device) -> Ground {
+    pub fn new(device: &wgpu::Device) -> GroundMap {
         let light = buffer(device, "ground light", size_of::<GroundLight>() as u64, BufferUsages::UNIFORM);
         let (texture, view) = map(device, 1);
-        Ground { light, view, texture, written: GroundLight::default(), uploaded: Arc::default() }
+        GroundMap { light, view, texture, written: GroundLight::default(), uploaded: Arc::default() }
     }
 
     /// Writes what has changed. True if the texture was replaced, so that bind groups must be made anew.

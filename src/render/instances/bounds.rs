@@ -16,7 +16,7 @@ use crate::render::method::Method;
 
 /// Three caps of directions in camera axes, as `Instance.bounds` of WGSL. xyz: the middle. w: the square of the chord from the middle to
 /// the rim, positive if the image lies inside, negative if outside, 0 if anywhere.
-pub type Bounds = [[f32; 4]; 3];
+pub type ImageBounds = [[f32; 4]; 3];
 
 /// By how many pixels of the screen's middle an image may be drawn beyond that of its ball; half a pixel is the error of patches.
 const MARGIN_PIXELS: f64 = 2.0;
@@ -34,7 +34,7 @@ impl View<'_> {
     /// The bounds of the image of a ball at `position` (rain axes). Its radius is `longer` times `reach` (r_s); `extent` is that for
     /// `reach`. Inside the horizon `age` decides which light is meant. No bounds if the ball holds the hole or the camera, or if part of it
     /// is not seen.
-    pub(super) fn bounds(&self, extent: &Extent, position: DVec3, reach: f64, longer: f64, order: Order, age: f64) -> Bounds {
+    pub(super) fn bounds(&self, extent: &Extent, position: DVec3, reach: f64, longer: f64, order: Order, age: f64) -> ImageBounds {
         let camera = self.camera;
         let radius = LARGER * longer * reach;
         // Approximate methods draw images outside of their exact bounds.
@@ -45,7 +45,7 @@ impl View<'_> {
             || position.length() < radius
             || position.distance(camera.position) < radius
         {
-            return Bounds::default();
+            return ImageBounds::default();
         }
         let from_axis = position.cross(camera.position).length() / camera.radius();
         if radius < FAR * from_axis.min(position.length() - 1.0) {
@@ -55,7 +55,7 @@ impl View<'_> {
         self.caps(position, radius, order, age).unwrap_or_default()
     }
 
-    fn caps(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Option<Bounds> {
+    fn caps(&self, position: DVec3, reach: f64, order: Order, age: f64) -> Option<ImageBounds> {
         let camera = self.camera;
         let [n, a, _] = camera.axis_frame();
         let height = position.dot(n);

@@ -43,7 +43,7 @@ pub enum Motion<'a> {
 
 /// An object to draw.
 #[derive(Clone, Copy, Debug)]
-pub struct Object<'a> {
+pub struct DrawnObject<'a> {
     /// Which model.
     pub model: ModelRange,
     /// Coarse model for images a few pixels wide.
@@ -62,7 +62,7 @@ pub struct Object<'a> {
     pub light: Illumination,
 }
 
-impl Object<'_> {
+impl DrawnObject<'_> {
     /// What is drawn of it in an image `width` pixels wide: the first that may stand for it in one so narrow, or itself.
     fn model_for(&self, width: f64, settings: &Settings) -> ModelRange {
         let models = [(settings.coarse_below, self.coarse)].into_iter().chain(self.stand_ins.iter().copied());
@@ -84,7 +84,7 @@ pub struct Placed {
 ///
 /// A camera inside the horizon sees what is held inside twice: by light of E > 0 and by light of E < 0, which left at two different times.
 /// The worldline of a moving body crosses the camera's past light cone once, on one side or the other; each vertex finds out which.
-pub fn instances_of(view: &View, time: f64, object: &Object, orders: u32) -> Vec<Placed> {
+pub fn instances_of(view: &View, time: f64, object: &DrawnObject, orders: u32) -> Vec<Placed> {
     let camera = view.camera;
     let settings = view.settings;
     let image = |order: Order, branch: Branch| {
@@ -211,7 +211,7 @@ pub(super) fn by_axis(camera: &Observer, instance: &Instance, position: DVec3, r
     [(position.dot(a) + 0.79 * aside) as f32, (position.dot(b) + 0.61 * aside) as f32, rounding as f32, 1.0]
 }
 
-fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &Object) -> Instance {
+fn held(camera: &Observer, position: DVec3, attitude: DQuat, object: &DrawnObject) -> Instance {
     let turn = DMat3::from_quat(attitude);
     Instance {
         offset: row(position - camera.position, 0.0),
@@ -241,7 +241,7 @@ fn drawn_out(camera: &Observer, instance: &Instance, position: DVec3, order: Ord
 const ACCELERATES: f64 = 1.5;
 
 /// The instance, the object's position at the emission time, and the age of its light.
-fn flying(view: &View, time: f64, history: &History, order: Order, object: &Object) -> Option<(Instance, DVec3, f64)> {
+fn flying(view: &View, time: f64, history: &History, order: Order, object: &DrawnObject) -> Option<(Instance, DVec3, f64)> {
     let camera = view.camera;
     let emission = departure(view, time, history, order)?;
     let sample = history.at(emission);

@@ -20,7 +20,7 @@ const PARTS: u32 = 12;
 
 /// A ring of curtains: its colatitude in radians; its width, the height of its waves and, for each part, their number about which chance
 /// draws. Lengths in km.
-struct Ring {
+struct CurtainRing {
     colatitude: f64,
     width: f64,
     amplitude: f64,
@@ -28,9 +28,9 @@ struct Ring {
 }
 
 /// The ring of an oval, and a second curtain poleward of it.
-const RINGS: [Ring; 2] = [
-    Ring { colatitude: OVAL, width: 12.0, amplitude: 20.0, waves: 4.0 },
-    Ring { colatitude: 0.83 * OVAL, width: 8.0, amplitude: 15.0, waves: 3.0 },
+const RINGS: [CurtainRing; 2] = [
+    CurtainRing { colatitude: OVAL, width: 12.0, amplitude: 20.0, waves: 4.0 },
+    CurtainRing { colatitude: 0.83 * OVAL, width: 8.0, amplitude: 15.0, waves: 3.0 },
 ];
 /// Seed of the second ring beyond that of the first.
 const OTHER_WAVES: u32 = 50;
@@ -69,7 +69,7 @@ pub fn curtains(shape: AuroraShape, seed: u32) -> Vec<Curve> {
 }
 
 /// A closed curve of [`PARTS`] arcs round the pole.
-fn ring(ring: &Ring, seed: u32) -> Vec<Curve> {
+fn ring(ring: &CurtainRing, seed: u32) -> Vec<Curve> {
     let radius = ring.colatitude * (PLANET_RADIUS + REFERENCE_HEIGHT);
     let part = TAU / f64::from(PARTS);
     // Length of the handles, over the radius, of a cubic Bézier curve that follows a part of a circle.

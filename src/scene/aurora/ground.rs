@@ -44,8 +44,8 @@ fn near(distance: f64) -> f64 {
 /// A square of the plane across the field: a fine map of light near its source, and a coarse map of the rest.
 #[derive(Clone, Debug)]
 pub struct GroundMap {
-    fine: Level,
-    coarse: Level,
+    fine: LightLevel,
+    coarse: LightLevel,
 }
 
 impl GroundMap {
@@ -59,8 +59,8 @@ impl GroundMap {
             if side.is_finite() { (((side / TEXEL).ceil() as usize + 1).min(MOST), 0.5 * (low + high)) } else { (1, DVec2::ZERO) };
         let first = middle - 0.5 * TEXEL * (size - 1) as f64;
         GroundMap {
-            fine: Level::new(first, TEXEL, size, NEAR[1].min(reach), |distance| near(distance) * lit(distance, height)),
-            coarse: Level::new(first, TEXEL * COARSE as f64, (size - 1) / COARSE + 2, reach, |distance| {
+            fine: LightLevel::new(first, TEXEL, size, NEAR[1].min(reach), |distance| near(distance) * lit(distance, height)),
+            coarse: LightLevel::new(first, TEXEL * COARSE as f64, (size - 1) / COARSE + 2, reach, |distance| {
                 (1.0 - near(distance)) * lit(distance, height)
             }),
         }
@@ -94,7 +94,7 @@ impl GroundMap {
 
 /// Texels of one size, and the light of a source on the texels round it.
 #[derive(Clone, Debug)]
-struct Level {
+struct LightLevel {
     /// The middle of the first texel, km, and the side of one.
     first: DVec2,
     texel: f64,
@@ -104,15 +104,15 @@ struct Level {
     spread: Vec<Vec<f32>>,
 }
 
-impl Level {
+impl LightLevel {
     /// Sources light as far as `reach` (km), by their distance as `light` says.
-    fn new(first: DVec2, texel: f64, size: usize, reach: f64, light: impl Fn(f64) -> f64) -> Level {
+    fn new(first: DVec2, texel: f64, size: usize, reach: f64, light: impl Fn(f64) -> f64) -> LightLevel {
         let most = (reach / texel) as i32;
         let row = |y: i32| {
             let half = f64::from(most * most - y * y).sqrt() as i32;
             (-half..=half).map(|x| light(f64::from(x).hypot(f64::from(y)) * texel) as f32).collect()
         };
-        Level { first, texel, size, spread: (-most..=most).map(row).collect() }
+        LightLevel { first, texel, size, spread: (-most..=most).map(row).collect() }
     }
 
     /// The part of the brightness of white ground that is in this map, row by row.

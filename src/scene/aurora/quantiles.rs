@@ -140,7 +140,7 @@ impl Quantiles {
 }
 
 /// Where one equal part of the light ends and the next begins.
-struct Part {
+struct Quantile {
     /// km.
     height: f64,
     /// Photons above it, by line.
@@ -163,7 +163,7 @@ fn ends(rows: &[Vec<[f64; 4]>], lines: [f64; 4], outside: f64) -> [f32; 2] {
 }
 
 /// The ends of so many equal parts of the light of some lines, from sums of each line at [`STEP`]s down from the first of [`HEIGHTS`].
-fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4], parts: usize) -> impl Iterator<Item = Part> {
+fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4], parts: usize) -> impl Iterator<Item = Quantile> {
     let of = move |sum: &[f64; 4]| -> f64 { sum.iter().zip(&lines).map(|(sum, line)| sum * line).sum() };
     let total = sums.last().map_or(0.0, of);
     let mut k = 0;
@@ -176,6 +176,6 @@ fn equal_parts(sums: &[[f64; 4]], lines: [f64; 4], parts: usize) -> impl Iterato
         let rise = of(below) - of(above);
         let inside = if rise > 0.0 { ((wanted - of(above)) / rise).clamp(0.0, 1.0) } else { 0.0 };
         let made = std::array::from_fn(|line| above[line] + inside * (below[line] - above[line]));
-        Part { height: HEIGHTS[0] + 0.5 * STEP - STEP * (k as f64 + inside), made }
+        Quantile { height: HEIGHTS[0] + 0.5 * STEP - STEP * (k as f64 + inside), made }
     })
 }

@@ -22,7 +22,7 @@ use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Pilot, ShipMotion};
 use super::{ChaseRules, SimSet};
 use plan::{Aim, Task, plan};
 use rendezvous::rendezvous;
-use rollout::{Burn, Point};
+use rollout::{PlannedBurn, Point};
 
 /// How well a pilot flies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ impl Default for Chance {
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Mind {
     /// The burn being flown.
-    pub burn: Burn,
+    pub burn: PlannedBurn,
     /// T at which it was planned, in r_s/c.
     pub since: f64,
     /// T of the next plan, in r_s/c.
@@ -82,7 +82,7 @@ pub struct Mind {
 
 impl Default for Mind {
     fn default() -> Self {
-        Mind { burn: Burn::COAST, since: 0.0, next_plan: 0.0, meeting: None }
+        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None }
     }
 }
 
@@ -147,7 +147,7 @@ pub fn fly_by_pilot(
             if mind.meeting.is_some() {
                 mind.next_plan = now + MEETING_PERIOD;
             } else {
-                let rest = Burn { duration: mind.burn.duration - (now - mind.since), ..mind.burn };
+                let rest = PlannedBurn { duration: mind.burn.duration - (now - mind.since), ..mind.burn };
                 mind.burn = plan(&task, &rest, &mut chance.0).0;
                 mind.since = now;
                 mind.next_plan = now + skill.replan_period;
@@ -162,12 +162,12 @@ pub fn fly_by_pilot(
 
 /// The other ship now, and what it burns, from what was to be seen of it up to `delay` ago: the burn is the change of its momentum over the
 /// last [`WATCH`] beyond free fall, taken to go on for [`PERSISTENCE`].
-fn reckon(history: &History, now: f64, delay: f64) -> (Point, Burn) {
+fn reckon(history: &History, now: f64, delay: f64) -> (Point, PlannedBurn) {
     let seen = |time: f64| {
         let sample = history.at(time);
         Point { x: sample.position, p: sample.momentum }
     };
-    let fly = |mut point: Point, span: f64, burn: &Burn| {
+    let fly = |mut point: Point, span: f64, burn: &PlannedBurn| {
         let steps = (span * 2.0).ceil().max(1.0);
         for _ in 0..steps as usize {
             point = rollout::advance(&point, span / steps, |at| burn.acceleration(at, 0.0, 0.0));
@@ -175,8 +175,8 @@ fn reckon(history: &History, now: f64, delay: f64) -> (Point, Burn) {
         point
     };
     let last = seen(now - delay);
-    let gained = (last.p - fly(seen(now - delay - WATCH), WATCH, &Burn::COAST).p) / WATCH;
-    let burn = Burn { thrust: last.to_local(gained), duration: PERSISTENCE };
+    let gained = (last.p - fly(seen(now - delay - WATCH), WATCH, &PlannedBurn::COAST).p) / WATCH;
+    let burn = PlannedBurn { thrust: last.to_local(gained), duration: PERSISTENCE };
     (fly(last, delay, &burn), burn)
 }
 

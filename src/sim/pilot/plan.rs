@@ -6,7 +6,7 @@
 use glam::DVec3;
 use rand::{RngExt, rngs::StdRng};
 
-use super::rollout::{Burn, Point, Span, advance, track};
+use super::rollout::{PlannedBurn, Point, Span, advance, track};
 
 /// A ship that comes under this radius (r_s) in a plan is judged as nearly lost: twice the horizon, above the photon sphere.
 pub const SAFE_RADIUS: f64 = 2.0;
@@ -72,7 +72,7 @@ pub struct Task {
     /// The other ship now, as far as the pilot knows.
     pub other: Point,
     /// What the other is thought to burn next, from what it was seen to do.
-    pub other_burn: Burn,
+    pub other_burn: PlannedBurn,
     /// The most proper acceleration, c²/r_s.
     pub max_thrust: f64,
     /// Δv left, in c.
@@ -100,40 +100,40 @@ const PUSH: f64 = 0.4;
 const STRETCH: std::ops::Range<f64> = 0.6..1.5;
 
 /// The best burn found, and its cost.
-pub fn plan(task: &Task, previous: &Burn, chance: &mut StdRng) -> (Burn, f64) {
+pub fn plan(task: &Task, previous: &PlannedBurn, chance: &mut StdRng) -> (PlannedBurn, f64) {
     let span = Span { step: STEP, count: (task.horizon / STEP) as usize };
     let other = track(task.other, &task.other_burn, span);
-    let mut best = (Burn::COAST, f64::INFINITY);
-    let mut consider = |burn: Burn| {
+    let mut best = (PlannedBurn::COAST, f64::INFINITY);
+    let mut consider = |burn: PlannedBurn| {
         let endurance = if burn.thrust == DVec3::ZERO { 0.0 } else { task.fuel / burn.thrust.length() };
-        let burn = Burn { duration: burn.duration.min(endurance), ..burn };
+        let burn = PlannedBurn { duration: burn.duration.min(endurance), ..burn };
         let cost = cost(task, &burn, &other, span);
         if cost < best.1 {
             best = (burn, cost);
         }
         best
     };
-    consider(Burn::COAST);
+    consider(PlannedBurn::COAST);
     consider(*previous);
     let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let directions: Vec<DVec3> = axes.chain((0..DIRECTIONS).map(|_| unit_vector(chance))).collect();
     for direction in directions {
         for duration in DURATIONS {
-            consider(Burn { thrust: direction * task.max_thrust, duration });
+            consider(PlannedBurn { thrust: direction * task.max_thrust, duration });
         }
     }
-    let mut found = consider(Burn::COAST);
+    let mut found = consider(PlannedBurn::COAST);
     for _ in 0..REFINEMENTS {
         let base = found.0;
         let thrust = (base.thrust + unit_vector(chance) * (PUSH * task.max_thrust)).clamp_length_max(task.max_thrust);
         let duration = (base.duration * chance.random_range(STRETCH)).max(STEP);
-        found = consider(Burn { thrust, duration });
+        found = consider(PlannedBurn { thrust, duration });
     }
     found
 }
 
 /// The smaller the better; distances in r_s, times in r_s/c.
-fn cost(task: &Task, burn: &Burn, other: &[Point], span: Span) -> f64 {
+fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     let mut own = task.own;
     let mut hunter = task.other;
     let mut nearest = f64::INFINITY;

@@ -9,16 +9,16 @@ use crate::spacetime::metric::river_speed;
 
 /// A burn: constant thrust on local axes, then coasting.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Burn {
+pub struct PlannedBurn {
     /// Proper acceleration on local axes (outward, along the motion around the hole, along the orbit's axis), c²/r_s.
     pub thrust: DVec3,
     /// For this long, in r_s/c.
     pub duration: f64,
 }
 
-impl Burn {
+impl PlannedBurn {
     /// No thrust at all.
-    pub const COAST: Burn = Burn { thrust: DVec3::ZERO, duration: 0.0 };
+    pub const COAST: PlannedBurn = PlannedBurn { thrust: DVec3::ZERO, duration: 0.0 };
 
     /// The proper acceleration (rest-frame axes) at `at`, in the middle of a step of `h` that begins `time` after the burn did.
     pub fn acceleration(&self, at: &Point, time: f64, h: f64) -> DVec3 {
@@ -97,7 +97,7 @@ pub struct Span {
 }
 
 /// The flight from `start` under `burn`: `count` + 1 points.
-pub fn track(start: Point, burn: &Burn, span: Span) -> Vec<Point> {
+pub fn track(start: Point, burn: &PlannedBurn, span: Span) -> Vec<Point> {
     let mut track = Vec::with_capacity(span.count + 1);
     let mut now = start;
     track.push(now);

@@ -47,7 +47,7 @@ pub fn delay(ray: &Ray, u_point: f64, swept: f64, u_camera: f64) -> f64 {
     let scattered = d < 0.0 && u_camera <= PHOTON_SPHERE;
     let trapped = d < 0.0 && !scattered;
     let near = swept < 0.5 && u_point < 2.0 * u_camera && u_camera < 2.0 * u_point;
-    let path = Path { slope, u_point, emission_slope, d, swept, u_camera, energy: e };
+    let path = QuadratureRay { slope, u_point, emission_slope, d, swept, u_camera, energy: e };
 
     let time = if trapped || near {
         let closed = |w: f64, u: f64| 2.0 * (u / ahead(e, w, u)).ln();
@@ -92,7 +92,7 @@ fn to_rain_time(u: f64) -> f64 {
 }
 
 /// A ray as the quadrature sees it.
-struct Path {
+struct QuadratureRay {
     slope: f64,
     u_point: f64,
     emission_slope: f64,
@@ -102,7 +102,7 @@ struct Path {
     energy: f64,
 }
 
-impl Path {
+impl QuadratureRay {
     /// ∫ f(u, w) dΦ along the ray.
     fn integral(&self, f: impl Fn(f64, f64) -> f64) -> f64 {
         let narrow = LONGEST_PANEL / self.energy.abs().max(1.0).cbrt();
@@ -116,7 +116,7 @@ impl Path {
         if count.is_nan() || count > 1e4 {
             return f64::NAN;
         }
-        let Some(panel) = Panel::new(self.swept / count, self.d) else {
+        let Some(panel) = PhasePanel::new(self.swept / count, self.d) else {
             return f64::NAN;
         };
         let from_camera = (0.5 * count) as usize;
@@ -149,7 +149,7 @@ impl Path {
             let longest = narrow.min(0.4 * (left + beyond));
             let last = left <= longest;
             let step = if last { left } else { longest };
-            let Some(panel) = Panel::new(step, self.d) else {
+            let Some(panel) = PhasePanel::new(step, self.d) else {
                 return f64::NAN;
             };
             sum += panel.integral(u, w, f);
@@ -177,20 +177,20 @@ fn ahead_by(u: f64, w: f64, pole: &Pole) -> (f64, f64) {
 }
 
 /// A panel of Φ: its length, and the pole orbit at its nodes and at its end.
-struct Panel {
+struct PhasePanel {
     step: f64,
     nodes: [Pole; 10],
     whole: Pole,
 }
 
-impl Panel {
-    fn new(step: f64, d: f64) -> Option<Panel> {
+impl PhasePanel {
+    fn new(step: f64, d: f64) -> Option<PhasePanel> {
         let whole = pole_orbit(step, d)?;
         let mut nodes = [whole; 10];
         for (node, (x, _)) in nodes.iter_mut().zip(NODES) {
             *node = pole_orbit(step * x, d)?;
         }
-        Some(Panel { step, nodes, whole })
+        Some(PhasePanel { step, nodes, whole })
     }
 
     /// ∫ f(u, w) dΦ over the panel that starts at (u, w).

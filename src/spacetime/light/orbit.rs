@@ -180,14 +180,14 @@ pub enum Fate {
 /// its energy may have either sign, which makes no difference to the path.
 pub fn follow(u: f64, w: f64, phi: f64) -> Fate {
     match shoot(u, w, critical_excess(u, w), phi) {
-        Shot::At(carried) if u + carried.rise >= 0.0 => Fate::At { u: u + carried.rise, slope: carried.chord * carried.rise - w },
-        Shot::At(_) | Shot::Escaped => Fate::Escaped,
-        Shot::Plunged => Fate::Plunged,
+        Continued::At(carried) if u + carried.rise >= 0.0 => Fate::At { u: u + carried.rise, slope: carried.chord * carried.rise - w },
+        Continued::At(_) | Continued::Escaped => Fate::Escaped,
+        Continued::Plunged => Fate::Plunged,
     }
 }
 
 /// As `Fate`; `At` may have u slightly below 0, a smooth continuation past the sky.
-pub(super) enum Shot {
+pub(super) enum Continued {
     At(Carried),
     Escaped,
     Plunged,
@@ -196,11 +196,11 @@ pub(super) enum Shot {
 /// As `follow`, with d given.
 ///
 /// The pole orbit tells how far along Φ is: its half period ω is passed where p′ changes sign, its period 2ω ends every ray.
-pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Shot {
+pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Continued {
     let trapped = d < 0.0 && u > PHOTON_SPHERE;
     let scattered = d < 0.0 && !trapped;
     let Some(pole) = pole_orbit(phi, d) else {
-        return if trapped || (w >= 0.0 && !scattered) { Shot::Plunged } else { Shot::Escaped };
+        return if trapped || (w >= 0.0 && !scattered) { Continued::Plunged } else { Continued::Escaped };
     };
     let past_half = pole.y >= 0.0;
     let gap = pole.p + 1.0 / 6.0 - 0.25 * u;
@@ -208,18 +208,18 @@ pub(super) fn shoot(u: f64, w: f64, d: f64, phi: f64) -> Shot {
         // Rises to its apsis, falls, leaves; what comes up again after more than ω is not light any more.
         let carried = carry(u, w, &pole);
         let left = if w >= 0.0 { past_half && carried.chord * carried.rise > w } else { past_half || returning(u, w, &carried) };
-        return if left { Shot::Escaped } else { Shot::At(carried) };
+        return if left { Continued::Escaped } else { Continued::At(carried) };
     }
     if w >= 0.0 {
         // Straight to the singularity, where gap = 0.
-        return if past_half || gap <= 0.0 { Shot::Plunged } else { Shot::At(carry(u, w, &pole)) };
+        return if past_half || gap <= 0.0 { Continued::Plunged } else { Continued::At(carry(u, w, &pole)) };
     }
     if trapped {
         // Up to its apsis and back to the singularity, where gap = 0 for the second time.
-        return if past_half && gap >= 0.0 { Shot::Plunged } else { Shot::At(carry(u, w, &pole)) };
+        return if past_half && gap >= 0.0 { Continued::Plunged } else { Continued::At(carry(u, w, &pole)) };
     }
     let carried = carry(u, w, &pole);
-    if past_half || returning(u, w, &carried) { Shot::Escaped } else { Shot::At(carried) }
+    if past_half || returning(u, w, &carried) { Continued::Escaped } else { Continued::At(carried) }
 }
 
 /// Whether a ray that set out outward comes back up, which it does only beyond the sky. Rounding can turn the slope of the ray

@@ -3,7 +3,7 @@
 //! At fixed Φ and camera, u(Φ) increases strictly with the slope w (neighbouring rays of one camera meet nowhere in the plane),
 //! from the ray that just escapes to the ray that just falls in, so there is at most one ray and a bracket always holds it.
 
-use super::orbit::{CRITICAL_ENERGY_SQUARED, Carried, Fate, PHOTON_SPHERE, Shot, critical_excess, follow, shoot};
+use super::orbit::{CRITICAL_ENERGY_SQUARED, Carried, Continued, Fate, PHOTON_SPHERE, critical_excess, follow, shoot};
 use super::{Branch, Ray};
 use std::f64::consts::PI;
 
@@ -155,13 +155,13 @@ fn solve(fan: Fan, u_point: f64, swept: f64, guess: f64) -> Option<(f64, f64)> {
         }
         let start = fan.start(x);
         let carried = match shoot(u, start.slope, start.d, swept) {
-            Shot::At(carried) => carried,
-            Shot::Escaped => {
+            Continued::At(carried) => carried,
+            Continued::Escaped => {
                 low = x;
                 x = f64::NAN;
                 continue;
             }
-            Shot::Plunged => {
+            Continued::Plunged => {
                 high = x;
                 x = f64::NAN;
                 continue;

@@ -160,7 +160,8 @@ fn the_pyramid_changes_no_picture() {
         let square = |p: &[f32; 4], q: &[f32; 4]| (0..3).map(|k| f64::from(p[k] - q[k]).powi(2)).sum::<f64>();
         let off: f64 = got.linear.iter().zip(&want.linear).map(|(p, q)| square(p, q)).sum();
         let all: f64 = want.linear.iter().map(|p| square(p, &[0.0; 4])).sum();
-        // As the experiment's: 2 % of the root mean square. Measured 0.013, of the light 0.0003. Light is kept to what lies beyond three standard deviations.
+        // As the experiment's: 2 % of the root mean square. Measured 0.013, of the light 0.0003. Light is kept to what lies beyond three
+        // standard deviations.
         assert!((off / all).sqrt() < 0.02, "{name}: off by {}", (off / all).sqrt());
         let ratio = total(&got) / total(&want);
         assert!((ratio - 1.0).abs() < 0.002, "{name}: {ratio} of the light");

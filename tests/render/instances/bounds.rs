@@ -34,7 +34,7 @@ fn drawn(bench: &mut Bench, placed: Vec<Placed>, settings: Settings) -> (usize, 
 #[test]
 fn what_is_out_of_bounds_is_left_out_and_counted() {
     let mut bench = bench();
-    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, orders: 2, ..Settings::default() };
+    let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, orders: 2, ..Settings::finest() };
     // Behind the hole on the axis and beside it, with both images round the shadow; beside it, and before it.
     let places = [[0.0, 0.0, -9.0], [0.3, 0.2, -9.0], [4.0, 0.0, -9.0], [-5.0, 0.0, 0.0], [2.0, -1.0, 6.0]].map(DVec3::from_array);
     for here in places {

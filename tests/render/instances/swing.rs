@@ -48,7 +48,7 @@ fn placed(jolt: f64, now: f64) -> (History, Instance, f64) {
     let history = history(jolt);
     let bench = bench();
     let camera = static_camera(DVec3::new(6.8, 1.2, 0.5), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
-    let object = lensrunner::render::instances::Object { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
+    let object = lensrunner::render::instances::DrawnObject { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
@@ -85,7 +85,7 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let centre = planet.state(0.0).unwrap().position;
     let camera = static_camera(centre + DVec3::new(0.0, 0.8, 0.01), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
     let object = bench.object(Motion::Flying(&history), 1.6, 1);
-    let object = lensrunner::render::instances::Object { reach: 0.8, ..object };
+    let object = lensrunner::render::instances::DrawnObject { reach: 0.8, ..object };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
     let settings = Default::default();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
@@ -122,7 +122,7 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     }
     let reach = 0.157;
     let bench = bench();
-    let object = lensrunner::render::instances::Object { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
+    let object = lensrunner::render::instances::DrawnObject { reach, ..bench.object(Motion::Flying(&history), 2.0 * reach, 1) };
     let momentum = DVec3::ZERO;
     let camera = Observer { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
     let camera = Observer { position: DVec3::Z * 0.6942, ..camera };

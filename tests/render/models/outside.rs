@@ -76,7 +76,7 @@ fn nothing_that_is_seen_is_left_out() {
         let mut renderer = renderer(size);
         let stage = Stage::new(&mut renderer, &scene, &config);
         // Thin images count layers, and leave out the backs of closed bodies by another rule.
-        let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, ..Settings::default() };
+        let settings = Settings { stars: false, milky_way: false, bloom: 0.0, min_width: 0.0, ..Settings::finest() };
         let mut seen = |both: bool| {
             let mut frame = stage.frame(stage.camera(0.0, &[]), size, 0.0, &[], None, &settings);
             for placed in &mut frame.placed {

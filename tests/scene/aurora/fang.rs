@@ -1,5 +1,5 @@
-//! The reference for `scene::aurora::fall` (Fang et al. 2010): the height profile of ionisation by isotropic electrons of one energy, 100 eV to 1
-//! MeV.
+//! The reference for `scene::aurora::fall` (Fang et al. 2010): the height profile of ionisation by isotropic electrons of one energy, 100
+//! eV to 1 MeV.
 
 use lensrunner::scene::aurora::air::air;
 use lensrunner::scene::aurora::fall::PAIR_ENERGY;

@@ -25,7 +25,7 @@ use super::world::span::Scope;
 use super::world::tree::Chord;
 use super::world::worldline::Motion;
 use crate::judge::geodesic::{Segment, State};
-use crate::judge::ray::{End, Follower, Stop, orbit_plane, sky_radius};
+use crate::judge::ray::{End, RayFollower, Stop, orbit_plane, sky_radius};
 use crate::judge::trace::Hit;
 use piece::{Ends, Piece, growth, pieces};
 
@@ -49,17 +49,17 @@ pub enum Seen {
 
 /// What a ray may meet in a step: candidates from a larger packet.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Near {
+pub(super) struct Candidates {
     /// Leaves of the tree of bodies held in place; None where they are not known.
     pub held: Option<Vec<u32>>,
     /// Indices of flying bodies.
     pub flying: Vec<u32>,
 }
 
-impl Near {
+impl Candidates {
     /// Everything.
-    pub fn all(world: &World) -> Near {
-        Near { held: None, flying: (0..world.flying.len() as u32).collect() }
+    pub fn all(world: &World) -> Candidates {
+        Candidates { held: None, flying: (0..world.flying.len() as u32).collect() }
     }
 }
 
@@ -86,7 +86,7 @@ impl World<'_> {
     /// The same; calls `cross` for every crossing of the plane z = 0 on the way, in order.
     pub fn look_through(&self, position: DVec3, look: DVec3, tolerance: f64, cross: &mut dyn FnMut(Crossing)) -> Seen {
         let (axes, in_plane) = orbit_plane(position, look);
-        let near = Near::all(self);
+        let near = Candidates::all(self);
         let scope = self.scope(position.length());
         let radius = scope.radius.max(sky_radius(position.length()));
         let mut looks = MOST_LOOKS;
@@ -100,7 +100,7 @@ impl World<'_> {
             return hit.map_or(Seen::Sky { direction, swept, energy: 1.0 }, Seen::Hit);
         }
         let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
-        let mut follower = Follower::new(position.length(), in_plane, tolerance, stop);
+        let mut follower = RayFollower::new(position.length(), in_plane, tolerance, stop);
         let mut swept = 0.0;
         while let Some(segment) = follower.step() {
             if let Some(hit) = self.meet(Step { segment: &segment, axes, swept }, &near, &scope, cross, &mut looks) {
@@ -117,7 +117,7 @@ impl World<'_> {
     }
 
     /// The first intersection in one step of the ray with what is `near` it. `looks` is how many tests of flying bodies are left.
-    fn meet(&self, step: Step, near: &Near, scope: &Scope, cross: &mut dyn FnMut(Crossing), looks: &mut u32) -> Option<Hit> {
+    fn meet(&self, step: Step, near: &Candidates, scope: &Scope, cross: &mut dyn FnMut(Crossing), looks: &mut u32) -> Option<Hit> {
         let Step { segment, axes, swept } = step;
         let bend = segment.bend();
         let (mut start, last) = (segment.position(0.0), segment.position(segment.length));
@@ -158,7 +158,7 @@ impl World<'_> {
 }
 
 /// What is seen by a ray that has met nothing.
-fn beyond(follower: &Follower, axes: [DVec3; 2]) -> Seen {
+fn beyond(follower: &RayFollower, axes: [DVec3; 2]) -> Seen {
     match follower.sky_swept() {
         Some(swept) if follower.end == Some(End::Escaped) => {
             let direction = axes[0] * swept.cos() + axes[1] * swept.sin();

@@ -12,12 +12,12 @@ use std::sync::atomic::Ordering;
 use glam::{DVec2, DVec3};
 
 use super::piece::{growth, pieces};
-use super::{MOST_LOOKS, Near, Seen, Step, beyond};
+use super::{Candidates, MOST_LOOKS, Seen, Step, beyond};
 use crate::judge::picture::disk::Crossing;
 use crate::judge::picture::world::World;
 use crate::judge::picture::world::span::Scope;
 use crate::judge::picture::world::tree::Chord;
-use crate::judge::ray::{End, Follower, Stop, orbit_plane, sky_radius};
+use crate::judge::ray::{End, RayFollower, Stop, orbit_plane, sky_radius};
 use crate::judge::segments::{LANES, PIECES, Segments};
 
 /// A packet is split if its sheaf is wider than this share of its length. A third more or less costs at most 2 %.
@@ -29,7 +29,7 @@ const MOST_LEAVES: usize = 24;
 
 /// A ray on its way.
 struct Walk {
-    follower: Follower,
+    follower: RayFollower,
     axes: [DVec3; 2],
     seen: Option<Seen>,
     /// How many tests of flying bodies it has left.
@@ -70,11 +70,11 @@ impl World<'_> {
         let stop = Stop { radius, horizon_gap: scope.gap, clings_until: scope.clings_until, ..Stop::default() };
         let walk = |&look: &DVec3| {
             let (axes, in_plane) = orbit_plane(position, look);
-            let follower = Follower::new(position.length(), in_plane, tolerance, stop);
+            let follower = RayFollower::new(position.length(), in_plane, tolerance, stop);
             Walk { follower, axes, seen: None, looks: MOST_LOOKS, stride: Stride::default() }
         };
         let mut march = March { world: self, scope: &scope, walks: looks.iter().map(walk).collect(), steps: Vec::new(), tolerance, cross };
-        let everything = Near::all(self);
+        let everything = Candidates::all(self);
         let mut packets: Vec<Range<usize>> = std::iter::once(0..looks.len()).collect();
         while !self.is_late() && march.step() {
             let mut split = Vec::with_capacity(packets.len());
@@ -144,7 +144,7 @@ impl March<'_> {
     }
 
     /// Intersects the rays of a packet, in their step, with what is `near` the larger packet.
-    fn meet(&mut self, packet: Range<usize>, near: &Near) {
+    fn meet(&mut self, packet: Range<usize>, near: &Candidates) {
         let count = self.count(&packet);
         if count <= 1 {
             return self.meet_each(packet, near, |_| true);
@@ -160,7 +160,7 @@ impl March<'_> {
     }
 
     /// Tests one by one those rays of a packet whose step satisfies `asked`.
-    fn meet_each(&mut self, packet: Range<usize>, near: &Near, asked: impl Fn(&Stride) -> bool) {
+    fn meet_each(&mut self, packet: Range<usize>, near: &Candidates, asked: impl Fn(&Stride) -> bool) {
         for ray in packet {
             let Walk { axes, seen, looks, stride, .. } = &mut self.walks[ray];
             if seen.is_none() && asked(stride) {
@@ -248,7 +248,7 @@ impl Sheaf {
     }
 
     /// The part of `outer` that the rays may meet.
-    fn near(&self, world: &World, scope: &Scope, outer: &Near) -> Near {
+    fn near(&self, world: &World, scope: &Scope, outer: &Candidates) -> Candidates {
         let chords: [Chord; PIECES] = std::array::from_fn(|piece| self.chord(piece));
         let tree = &world.held.tree;
         let held = match &outer.held {
@@ -267,6 +267,6 @@ impl Sheaf {
                 scope.allows(**number, from, to) && world.flying[**number as usize].sweep.touches(&chords[k], from, to)
             })
         };
-        Near { held, flying: outer.flying.iter().filter(touched).copied().collect() }
+        Candidates { held, flying: outer.flying.iter().filter(touched).copied().collect() }
     }
 }

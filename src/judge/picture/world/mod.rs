@@ -19,7 +19,7 @@ use crate::scene::lighting::Illumination;
 use crate::scene::model::Model;
 use span::{CLINGING, Scope};
 use sweep::Sweep;
-use tree::Tree;
+use tree::TriangleTree;
 use worldline::Motion;
 
 /// One visible thing.
@@ -66,7 +66,7 @@ pub(in crate::judge::picture) struct Held {
     pub triangles: Vec<[u32; 3]>,
     /// For each triangle its thing and its number in the model.
     pub owners: Vec<(u32, u32)>,
-    pub tree: Tree,
+    pub tree: TriangleTree,
 }
 
 /// A flying thing in its rest frame.
@@ -74,7 +74,7 @@ pub(in crate::judge::picture) struct Flying {
     pub thing: u32,
     /// Corners in body axes, in r_s.
     pub vertices: Vec<DVec3>,
-    pub tree: Tree,
+    pub tree: TriangleTree,
     /// The farthest corner from the centre, in r_s.
     pub reach: f64,
     /// Where it may be, by delay.
@@ -87,7 +87,7 @@ const OLDEST: f64 = 100.0;
 impl<'a> World<'a> {
     /// Builds the trees. `time` is T at the camera.
     pub fn new(models: &'a [Model], things: Vec<Thing<'a>>, time: f64, hole: bool) -> World<'a> {
-        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: Tree::new(&[], &[]) };
+        let mut held = Held { vertices: vec![], triangles: vec![], owners: vec![], tree: TriangleTree::new(&[], &[]) };
         let mut flying = Vec::new();
         for (index, thing) in things.iter().enumerate() {
             let model = &models[thing.model];
@@ -102,7 +102,7 @@ impl<'a> World<'a> {
                 }
                 Motion::Flying(line) => {
                     let vertices: Vec<DVec3> = corners.collect();
-                    let tree = Tree::new(&vertices, &model.triangles);
+                    let tree = TriangleTree::new(&vertices, &model.triangles);
                     let reach = vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
                     let far = line.at(time).position.length();
                     let oldest = OLDEST + 2.0 * far;
@@ -113,7 +113,7 @@ impl<'a> World<'a> {
                 }
             }
         }
-        held.tree = Tree::new(&held.vertices, &held.triangles);
+        held.tree = TriangleTree::new(&held.vertices, &held.triangles);
         let held_radius = held.vertices.iter().map(|v| v.length()).fold(0.0, f64::max);
         World {
             models,

@@ -19,12 +19,12 @@ const MOST_WINDOWS: usize = 256;
 #[derive(Clone, Debug)]
 pub(in crate::judge::picture) struct Sweep {
     /// Children after their parents; the first `windows` are the windows from delay 0 on.
-    nodes: Vec<Node>,
+    nodes: Vec<SweepNode>,
     windows: usize,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Node {
+struct SweepNode {
     bounds: Bounds<f64>,
     /// Index of the first of its two halves, 0 if there are none.
     halves: usize,
@@ -34,7 +34,7 @@ impl Sweep {
     /// For a body that reaches `reach` (r_s) from its centre, seen at T = `time` from delay 0 back to `oldest` (r_s/c).
     pub fn new(line: &dyn Worldline, time: f64, oldest: f64, reach: f64) -> Sweep {
         let windows = ((oldest / WINDOW).ceil() as usize).clamp(1, MOST_WINDOWS);
-        let nothing = Node { bounds: Bounds::EMPTY, halves: 0 };
+        let nothing = SweepNode { bounds: Bounds::EMPTY, halves: 0 };
         let mut sweep = Sweep { nodes: vec![nothing; windows], windows };
         for window in 0..windows {
             let from = WINDOW * window as f64;
@@ -68,11 +68,11 @@ impl Sweep {
             return;
         }
         let first = self.nodes.len();
-        let nothing = Node { bounds: Bounds::EMPTY, halves: 0 };
+        let nothing = SweepNode { bounds: Bounds::EMPTY, halves: 0 };
         self.nodes.extend([nothing; 2]);
         self.fill(first, line, time, [from, from + half], reach);
         self.fill(first + 1, line, time, [from + half, to], reach);
-        self.nodes[index] = Node { bounds: self.nodes[first].bounds.union(&self.nodes[first + 1].bounds), halves: first };
+        self.nodes[index] = SweepNode { bounds: self.nodes[first].bounds.union(&self.nodes[first + 1].bounds), halves: first };
     }
 
     /// Whether the body may be met by the chord at some delay from `from` to `to` (r_s/c).

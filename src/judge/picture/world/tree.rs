@@ -9,7 +9,7 @@ const SETTINGS: Settings = Settings { costs: Costs { node: 1.0, primitive: 4.0 }
 
 /// A binary tree of axis-aligned boxes over triangles.
 #[derive(Clone, Debug)]
-pub struct Tree(bvh::Tree<f64>);
+pub struct TriangleTree(bvh::Tree<f64>);
 
 /// A chord against boxes that are grown on all sides.
 #[derive(Clone, Copy, Debug)]
@@ -47,12 +47,12 @@ impl Chord {
     }
 }
 
-impl Tree {
+impl TriangleTree {
     /// Builds it over `triangles` with corners among `vertices`.
-    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Tree {
+    pub fn new(vertices: &[DVec3], triangles: &[[u32; 3]]) -> TriangleTree {
         let boxes: Vec<Bounds<f64>> =
             triangles.iter().map(|corners| Bounds::around(corners.map(|i| vertices[i as usize].to_array()))).collect();
-        Tree(bvh::build(&boxes, &SETTINGS))
+        TriangleTree(bvh::build(&boxes, &SETTINGS))
     }
 
     /// Calls `meet` for each triangle whose box, grown by `grow`, the chord from `from` to `to` passes; nearer boxes first. `meet` answers
@@ -90,7 +90,7 @@ impl Tree {
             }
         }
     }
-    /// The same, only for those leaves that `Tree::gather` found, in any order.
+    /// The same, only for those leaves that `TriangleTree::gather` found, in any order.
     pub fn along_leaves(&self, leaves: &[u32], from: DVec3, to: DVec3, grow: f64, mut meet: impl FnMut(u32, f64) -> f64) {
         let chord = Chord::new(from, to, DVec3::splat(grow));
         let mut until = 1.0;

@@ -16,7 +16,7 @@ use crate::render::aurora::ration::Ration;
 use crate::render::aurora::shift::Shift;
 use crate::render::aurora::{AuroraSettings, BOTH_POLES, LINEAR, Segment, sight, veil};
 use crate::render::gpu::types::Instance;
-use crate::render::instances::{Motion as Movement, Object, View, instances_of};
+use crate::render::instances::{DrawnObject, Motion as Movement, View, instances_of};
 use crate::render::models::ModelRange;
 use crate::scene::aurora::curtains::curtains;
 use crate::scene::aurora::dipole::PLANET_RADIUS;
@@ -196,7 +196,7 @@ impl AuroraAnimation {
     fn images(&self, globe: &PlanetView, orders: u32) -> (AuroraFrame, f64) {
         let &PlanetView { view, time, history, distance, .. } = globe;
         let nothing = ModelRange::default();
-        let object = Object {
+        let object = DrawnObject {
             model: nothing,
             coarse: nothing,
             stand_ins: &[],

@@ -30,14 +30,14 @@ pub struct Charge {
 
 /// Neighbouring charges: which, their sum at their middle, and the square of the distance from which on it stands for them.
 #[derive(Clone, Copy, Debug, Default)]
-struct Cluster {
+struct ChargeCluster {
     all: Charge,
     open: f64,
     first: usize,
     last: usize,
 }
 
-impl Cluster {
+impl ChargeCluster {
     fn new(charges: &[Charge], first: usize, last: usize) -> Self {
         let own = &charges[first..last];
         let amount: f64 = own.iter().map(|charge| charge.amount).sum();
@@ -46,7 +46,7 @@ impl Cluster {
         let middle = own.iter().map(|charge| charge.place * (charge.amount / amount)).sum::<DVec2>();
         let place = if middle.is_finite() { middle } else { mean };
         let radius = own.iter().map(|charge| charge.place.distance_squared(place)).fold(0.0, f64::max);
-        Cluster { all: Charge { place, amount }, open: radius / (OPENING * OPENING), first, last }
+        ChargeCluster { all: Charge { place, amount }, open: radius / (OPENING * OPENING), first, last }
     }
 }
 
@@ -62,7 +62,7 @@ pub struct Near {
     cells: usize,
     /// First cluster of each cell, row by row, and their number after the last.
     starts: Vec<usize>,
-    sorted: Vec<Cluster>,
+    sorted: Vec<ChargeCluster>,
     charges: Vec<Charge>,
 }
 
@@ -119,9 +119,9 @@ impl Near {
             let last = curve[1];
             (curve[0]..last).step_by(TOGETHER).map(move |first| (first, (first + TOGETHER).min(last)))
         };
-        let clusters: Vec<Cluster> =
-            curves.windows(2).flat_map(of_curve).map(|(first, last)| Cluster::new(&self.charges, first, last)).collect();
-        let index = |cluster: &Cluster| {
+        let clusters: Vec<ChargeCluster> =
+            curves.windows(2).flat_map(of_curve).map(|(first, last)| ChargeCluster::new(&self.charges, first, last)).collect();
+        let index = |cluster: &ChargeCluster| {
             let (column, row) = self.cell(cluster.all.place);
             row * self.cells + column
         };
@@ -133,7 +133,7 @@ impl Near {
             starts[k] += starts[k - 1];
         }
         let mut next = starts.clone();
-        let mut sorted = vec![Cluster::default(); clusters.len()];
+        let mut sorted = vec![ChargeCluster::default(); clusters.len()];
         for cluster in &clusters {
             let slot = &mut next[index(cluster)];
             sorted[*slot] = *cluster;
