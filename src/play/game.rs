@@ -6,9 +6,9 @@ use std::time::Duration;
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
-use crate::sim::assist::{AssistSettings, Reference, assisted, direct};
+use crate::sim::hands::choose_pilot;
 use crate::sim::ship::Player;
-use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Manual, ShipMotion, SimSet, outcome, set_manual, start};
+use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, outcome, start};
 use crate::spacetime::matter::gamma;
 
 use crate::play::input::action::Action;
@@ -33,7 +33,7 @@ impl Plugin for GamePlugin {
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
-            .add_systems(FixedUpdate, (fly_by_hand, note_pilot).in_set(SimSet::Input));
+            .add_systems(FixedUpdate, (move_hands, note_pilot).chain().in_set(SimSet::Input).before(choose_pilot));
     }
 }
 
@@ -53,9 +53,6 @@ fn begin(world: &mut World, screen: Screen) {
     player.gaze = Gaze::default();
     player.flown = Flown::default();
     player.assist = None;
-    player.avoiding = false;
-    let manual = !player.autopilot;
-    set_manual(world, manual);
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
 }
 
@@ -107,8 +104,6 @@ fn read_keys(
     player.begun |= player.always_autopilot || (begins && *screen.get() == Screen::Playing);
     if hands.pushed(Action::ToggleAutopilot) && *screen.get() == Screen::Playing {
         player.autopilot = !player.autopilot;
-        let manual = !player.autopilot;
-        commands.queue(move |world: &mut World| set_manual(world, manual));
     }
     let faster = f64::from(i8::from(hands.pushed(Action::Faster)) - i8::from(hands.pushed(Action::Slower)));
     if faster != 0.0 {
@@ -172,33 +167,29 @@ fn note_pilot(mut player: ResMut<PlayerState>) {
     player.flown.by_hand |= !autopilot;
 }
 
-/// The ship that the player flies by hand.
-type ByHand = (With<Player>, With<Manual>);
-
-/// The player's hands become the ship's controls.
-fn fly_by_hand(
-    hands: PlayerInput,
+/// What the player's hands do in this step.
+fn move_hands(
+    input: PlayerInput,
     clock: Res<Clock>,
     session: Res<Session>,
+    player: Res<PlayerState>,
     mut turn: ResMut<MouseTurn>,
-    mut player: ResMut<PlayerState>,
-    mut ships: Query<(&ShipMotion, &Engine, &mut Controls), ByHand>,
+    mut hands: ResMut<Hands>,
+    ships: Query<(&ShipMotion, &Engine), With<Player>>,
 ) {
-    for (motion, engine, mut controls) in &mut ships {
-        let mut stick = hands.stick();
-        let proper_step = clock.step / gamma(motion.0.momentum);
-        let mouse = turn.pull(engine.max_rate * proper_step);
+    let mut stick = input.stick();
+    for (motion, engine) in &ships {
+        let mouse = turn.pull(engine.max_rate * clock.step / gamma(motion.0.momentum));
         stick.turn += glam::DVec3::new(mouse.x, mouse.y, 0.0);
-        let config = &session.config;
-        player.avoiding = false;
-        controls.0 = if player.assisted(config) {
-            let help = assisted(&motion.0, &stick, engine, Reference::Orbit, &AssistSettings::from(config));
-            player.avoiding = help.avoiding;
-            help.command
-        } else {
-            direct(&stick, engine)
-        };
     }
+    *hands = Hands {
+        assist: player.assisted(&session.config),
+        autopilot: player.autopilot,
+        looking: player.looking,
+        fire: input.holds(Action::Fire),
+        pace: session.config.clock.pace,
+        ..Hands::holding(&stick)
+    };
 }
 
 #[cfg(test)]
@@ -344,7 +335,7 @@ mod tests {
         let mut app = game();
         push(&mut app, KeyCode::Enter);
         let thrust = |app: &mut App| {
-            let mut ships = app.world_mut().query_filtered::<&Controls, With<Player>>();
+            let mut ships = app.world_mut().query_filtered::<&crate::sim::Controls, With<Player>>();
             ships.single(app.world()).expect("one player").0.thrust
         };
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyW);
@@ -353,7 +344,7 @@ mod tests {
         app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyW);
         push(&mut app, KeyCode::KeyP);
         assert!(app.world().resource::<PlayerState>().autopilot);
-        let mut manual = app.world_mut().query_filtered::<(), With<Manual>>();
+        let mut manual = app.world_mut().query_filtered::<(), With<crate::sim::Manual>>();
         assert_eq!(manual.iter(app.world()).count(), 0);
     }
 

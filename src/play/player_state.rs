@@ -18,8 +18,6 @@ pub struct PlayerState {
     pub overlay: bool,
     /// The flight assist as the player switched it in this chase; None: as it is configured.
     pub assist: Option<bool>,
-    /// The assist has taken the thrust to keep off the hole.
-    pub avoiding: bool,
     /// Who has flown in this chase.
     pub flown: Flown,
     /// The autopilot was asked for on the command line.

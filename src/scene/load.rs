@@ -1,6 +1,7 @@
 //! Scene files: name or path to a checked [`Scene`].
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -12,6 +13,7 @@ use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
 use super::document::fault::Fault;
 use super::document::{complain_all, one, parse, syntax};
+use super::mission::{Difficulty, GateEntry, GoalEntry, Mission, MissionEntry, check_mission, levels};
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
 use super::prop::{Prop, PropEntry, check_props};
 use super::rules::{Rules, RulesEntry};
@@ -35,6 +37,10 @@ pub struct Scene {
     /// `[disk]`: present if the scene has a disk. Its keys are those of `[disk]` in `game.toml` and go before them.
     disk: Option<DiskKeys>,
     rules: RulesEntry,
+    /// Goals and limits, if it is a mission.
+    pub mission: Option<Arc<Mission>>,
+    /// A fingerprint of the file's text.
+    pub fingerprint: u64,
 }
 
 /// The text of a `[disk]` section, checked once, applied to a configuration that may change while the game runs.
@@ -56,6 +62,13 @@ struct SceneFile {
     sky: SkyEntry,
     #[serde(default)]
     rules: RulesEntry,
+    mission: Option<MissionEntry>,
+    #[serde(default)]
+    goal: Vec<Spanned<GoalEntry>>,
+    #[serde(default)]
+    gate: Vec<Spanned<GateEntry>>,
+    /// Read from the document, as its keys are those of `game.toml`.
+    difficulty: Option<toml::Table>,
 }
 
 impl Scene {
@@ -72,17 +85,30 @@ impl Scene {
         Some(config.disk)
     }
 
+    /// `game.toml` as this scene's mission has it on a difficulty; as it is for a scene that is no mission.
+    pub fn config(&self, config: &GameConfig, difficulty: Difficulty) -> GameConfig {
+        let mut config = config.clone();
+        if let Some(mission) = &self.mission {
+            mission.levels[difficulty as usize].apply(&mut config);
+        }
+        config
+    }
+
     /// The rules of this scene: the scene's own keys over those of `game.toml`.
     pub fn rules(&self, config: &GameConfig) -> Rules {
         let base = Rules::from(&config.rules);
         // Checked when the scene was loaded.
-        self.rules.check(base).unwrap_or(base)
+        let rules = self.rules.check(base).unwrap_or(base);
+        let limit = self.mission.as_ref().map_or(rules.time_limit, |mission| mission.time_limit);
+        Rules { time_limit: limit, ..rules }
     }
 
     /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.
     pub fn from_toml(file: &Path, text: &str) -> Result<Scene, Complaints> {
         let entry: SceneFile = parse(file, text).map_err(one)?;
-        let scene = check(&entry).map_err(|fault| complain_all(file, text, vec![fault]))?;
+        let mut scene = check(&entry).map_err(|fault| complain_all(file, text, vec![fault]))?;
+        scene.mission = mission(file, text, &entry, &scene.ships)?.map(Arc::new);
+        scene.fingerprint = fingerprint(text);
         let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
         Ok(Scene { name, disk, ..scene })
@@ -101,8 +127,32 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
         sky: check_sky(&entry.sky)?,
         disk: None,
         rules: entry.rules.clone(),
+        mission: None,
+        fingerprint: 0,
         ships,
     })
+}
+
+/// The mission of a file, checked; None for a scene that is none.
+fn mission(file: &Path, text: &str, entry: &SceneFile, ships: &[ShipSpec]) -> Result<Option<Mission>, Complaints> {
+    let Some(mission) = &entry.mission else {
+        let parts = entry.goal.first().map(Spanned::span).or(entry.gate.first().map(Spanned::span));
+        let message = "[[goal]], [[gate]] and [difficulty] need a [mission]";
+        return match parts.or(entry.difficulty.as_ref().map(|_| 0..0)) {
+            Some(span) => Err(complain_all(file, text, vec![Fault { span, message: message.into() }])),
+            None => Ok(None),
+        };
+    };
+    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let levels = levels(document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
+    check_mission(mission, &entry.goal, &entry.gate, ships, levels)
+        .map(Some)
+        .map_err(|fault| complain_all(file, text, vec![fault]))
+}
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo), of a text.
+fn fingerprint(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
 /// The keys of `[disk]`, checked by the table of `game.toml`.

@@ -11,6 +11,7 @@
 //! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
 //! ai = "none"                      # or "flee", "pursue"
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
+//! sees = "now"                     # what the AI knows of others: "now", or "light", only what light has brought it
 //! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
 //! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
@@ -53,6 +54,17 @@ pub enum Ai {
     Pursue,
 }
 
+/// By what a pilot knows other ships.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Sees {
+    /// Where they are, a reaction delay ago.
+    #[default]
+    Now,
+    /// By the light of their primary image, a reaction delay ago.
+    Light,
+}
+
 /// A stretch of constant thrust.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Burn {
@@ -75,6 +87,8 @@ pub struct ShipSpec {
     pub ai: Ai,
     /// Whom its AI flees or pursues; the first other ship if none.
     pub target: Option<String>,
+    /// By what its AI knows others.
+    pub sees: Sees,
     /// Its thrust programme, in order of time, without overlap.
     pub programme: Vec<Burn>,
     /// Δv left, in c; infinite if the scene does not say.
@@ -95,6 +109,7 @@ impl ShipSpec {
             state,
             ai: Ai::None,
             target: None,
+            sees: Sees::Now,
             programme: Vec::new(),
             fuel: f64::INFINITY,
             max_thrust: None,
@@ -119,6 +134,8 @@ pub struct ShipEntry {
     #[serde(default)]
     ai: Ai,
     target: Option<Spanned<String>>,
+    #[serde(default)]
+    sees: Sees,
     thrust: Option<Vec<Spanned<BurnEntry>>>,
     fuel: Option<Spanned<f64>>,
     max_thrust: Option<Spanned<f64>>,
@@ -200,6 +217,7 @@ pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
         state,
         ai: entry.ai,
         target: entry.target.as_ref().map(|target| target.get_ref().clone()),
+        sees: entry.sees,
         programme,
         fuel: optional(&entry.fuel, "fuel", 0.0..=f64::MAX, "c")?.unwrap_or(f64::INFINITY),
         max_thrust: optional(&entry.max_thrust, "max_thrust", 0.0..=MAX_ACCELERATION, "c²/r_s")?,

@@ -129,7 +129,7 @@ fn falls_below(state: &ShipState, radius: f64) -> bool {
     let mut point = Point::from(state);
     let h = LOOK_AHEAD.0 / LOOK_AHEAD.1 as f64;
     (0..LOOK_AHEAD.1).any(|_| {
-        point = advance(&point, h, |_| DVec3::ZERO);
+        point = advance(&point, h, 1.0, |_| DVec3::ZERO);
         point.x.length_squared() < radius * radius
     })
 }

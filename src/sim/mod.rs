@@ -5,8 +5,11 @@
 //! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
 
 pub mod assist;
+pub mod bolts;
 pub mod clock;
 pub mod flight;
+pub mod goals;
+pub mod hands;
 pub mod hash;
 pub mod history;
 pub mod moment;
@@ -15,19 +18,23 @@ pub mod pilot;
 pub mod rules;
 pub mod setup;
 pub mod ship;
+pub mod sight;
 pub mod simulate;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;
 
+pub use bolts::{Bolts, BoltsPlugin};
 pub use clock::Clock;
 pub use flight::Command;
+pub use goals::{ActiveMission, GoalsPlugin, Progress};
+pub use hands::{Hands, HandsPlugin};
 pub use history::{History, Sample};
 pub use moment::Moment;
 pub use physics::ShipPhysicsPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
-pub use setup::{outcome, set_manual, start};
+pub use setup::{outcome, start};
 pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion};
 
 /// The order of a fixed step.
@@ -73,6 +80,20 @@ pub enum SimEvent {
         /// Why.
         reason: ship::EndReason,
     },
+    /// A bolt hit a ship.
+    Hit {
+        /// The ship's name.
+        ship: String,
+        /// T in r_s/c.
+        time: f64,
+    },
+    /// A goal of the mission is done.
+    GoalDone {
+        /// Which, from 1.
+        goal: usize,
+        /// T in r_s/c.
+        time: f64,
+    },
     /// The chase is decided.
     Decided {
         /// How.
@@ -89,6 +110,8 @@ impl SimEvent {
             SimEvent::FuelSpent { time, .. }
             | SimEvent::CrossedHorizon { time, .. }
             | SimEvent::Ended { time, .. }
+            | SimEvent::Hit { time, .. }
+            | SimEvent::GoalDone { time, .. }
             | SimEvent::Decided { time, .. } => *time,
         }
     }
@@ -99,6 +122,8 @@ impl std::fmt::Display for SimEvent {
         match self {
             SimEvent::FuelSpent { ship, time } => write!(f, "{ship}: out of fuel at T = {time}"),
             SimEvent::CrossedHorizon { ship, time } => write!(f, "{ship}: crossed the horizon at T = {time}"),
+            SimEvent::Hit { ship, time } => write!(f, "{ship}: hit at T = {time}"),
+            SimEvent::GoalDone { goal, time } => write!(f, "goal {goal} done at T = {time}"),
             SimEvent::Decided { outcome, time } => write!(f, "{outcome} at T = {time}"),
             SimEvent::Ended { ship, time, proper_time, reason } => {
                 write!(f, "{ship}: {reason} at T = {time}, tau = {proper_time}")
@@ -121,6 +146,13 @@ pub struct SimulationPlugins;
 
 impl PluginGroup for SimulationPlugins {
     fn build(self) -> PluginGroupBuilder {
-        PluginGroupBuilder::start::<Self>().add(SimSchedulePlugin).add(EnemyAiPlugin).add(ShipPhysicsPlugin).add(ChaseRulesPlugin)
+        PluginGroupBuilder::start::<Self>()
+            .add(SimSchedulePlugin)
+            .add(HandsPlugin)
+            .add(EnemyAiPlugin)
+            .add(ShipPhysicsPlugin)
+            .add(BoltsPlugin)
+            .add(ChaseRulesPlugin)
+            .add(GoalsPlugin)
     }
 }

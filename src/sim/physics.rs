@@ -78,6 +78,6 @@ fn crossing_time(flight: &Flight, from: f64, to: f64, order: Command, programme:
     inside
 }
 
-fn advance_clock(mut clock: ResMut<Clock>) {
+pub(super) fn advance_clock(mut clock: ResMut<Clock>) {
     clock.advance();
 }

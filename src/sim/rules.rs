@@ -4,10 +4,10 @@
 use bevy::prelude::*;
 
 use crate::scene::rules::Rules;
-use crate::scene::ship::Ai;
 
 use super::clock::Clock;
-use super::ship::{CrossedHorizon, Ended, Fleet, Pilot, Player, ShipMotion};
+use super::goals::Progress;
+use super::ship::{CrossedHorizon, Ended, Fleet, Order, Pilot, Player, ShipMotion};
 use super::{SimEvent, SimSet};
 
 /// The rules in force.
@@ -25,6 +25,19 @@ pub enum Outcome {
     QuarryLost,
     /// The time is out.
     TimeOut,
+    /// All goals of the mission are done.
+    Done,
+    /// The player's ship was caught.
+    Taken,
+    /// The player's ship is lost.
+    ShipLost,
+}
+
+impl Outcome {
+    /// Whether the player has won.
+    pub fn is_won(self) -> bool {
+        matches!(self, Outcome::Caught | Outcome::Done)
+    }
 }
 
 impl std::fmt::Display for Outcome {
@@ -34,6 +47,9 @@ impl std::fmt::Display for Outcome {
             Outcome::HunterLost => "the hunter crossed the horizon",
             Outcome::QuarryLost => "the quarry crossed the horizon",
             Outcome::TimeOut => "the time is out",
+            Outcome::Done => "the mission is done",
+            Outcome::Taken => "the ship is caught",
+            Outcome::ShipLost => "the ship is lost",
         })
     }
 }
@@ -43,9 +59,9 @@ impl std::fmt::Display for Outcome {
 pub struct Chase {
     /// The player's ship, or the first that pursues.
     pub hunter: Entity,
-    /// Whom it hunts.
-    pub quarry: Entity,
-    /// For how long the quarry has been within the capture radius, in r_s/c of T.
+    /// Whom it hunts; in a mission the ship that the present goal is about, if there was one yet.
+    pub quarry: Option<Entity>,
+    /// For how long the quarry has been within the capture radius, in r_s/c of T; in a mission how much of the present goal is done.
     pub held: f64,
     /// How it ended, and at which T; None while it goes on.
     pub outcome: Option<(Outcome, f64)>,
@@ -58,7 +74,7 @@ impl Plugin for ChaseRulesPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<ChaseRules>()
             .add_message::<SimEvent>()
-            .add_systems(FixedUpdate, judge_chase.run_if(resource_exists::<Chase>).in_set(SimSet::Rules));
+            .add_systems(FixedUpdate, judge_chase.run_if(resource_exists::<Chase>).run_if(not(resource_exists::<Progress>)).in_set(SimSet::Rules));
     }
 }
 
@@ -66,17 +82,17 @@ impl Plugin for ChaseRulesPlugin {
 pub fn begin_chase(world: &mut World) {
     world.remove_resource::<Chase>();
     let Some(fleet) = world.get_resource::<Fleet>().cloned() else { return };
-    let ai = |entity: Entity| world.get::<Pilot>(entity).map(|pilot| pilot.ai);
-    if !fleet.0.iter().any(|&entity| ai(entity).is_some()) {
+    let order = |entity: Entity| world.get::<Pilot>(entity).map(|pilot| pilot.order);
+    if !fleet.0.iter().any(|&entity| order(entity).is_some()) {
         return;
     }
     let player = fleet.0.iter().find(|&&entity| world.get::<Player>(entity).is_some());
-    let Some(&hunter) = player.or_else(|| fleet.0.iter().find(|&&entity| ai(entity) == Some(Ai::Pursue))) else { return };
-    let target = world.get::<Pilot>(hunter).map(|pilot| pilot.target);
-    let fleeing = || fleet.0.iter().copied().find(|&entity| ai(entity) == Some(Ai::Flee) && entity != hunter);
+    let Some(&hunter) = player.or_else(|| fleet.0.iter().find(|&&entity| matches!(order(entity), Some(Order::Catch(_))))) else { return };
+    let target = order(hunter).and_then(Order::target);
+    let fleeing = || fleet.0.iter().copied().find(|&entity| matches!(order(entity), Some(Order::Escape(_))) && entity != hunter);
     let other = || fleet.0.iter().copied().find(|&entity| entity != hunter);
     let Some(quarry) = target.or_else(fleeing).or_else(other) else { return };
-    world.insert_resource(Chase { hunter, quarry, held: 0.0, outcome: None });
+    world.insert_resource(Chase { hunter, quarry: Some(quarry), held: 0.0, outcome: None });
 }
 
 /// Runs after the ships have flown: `clock.time` is the T of their states.
@@ -90,7 +106,7 @@ pub fn judge_chase(
     if chase.outcome.is_some() {
         return;
     }
-    let (Ok(hunter), Ok(quarry)) = (ships.get(chase.hunter), ships.get(chase.quarry)) else { return };
+    let (Ok(hunter), Some(Ok(quarry))) = (ships.get(chase.hunter), chase.quarry.map(|quarry| ships.get(quarry))) else { return };
     let lost = |ship: (&ShipMotion, bool, bool)| ship.1 || ship.2;
     let near = hunter.0.0.position.distance(quarry.0.0.position) <= rules.0.capture_radius;
     chase.held = if near { chase.held + clock.step } else { 0.0 };

@@ -1,40 +1,53 @@
 //! From a scene and `game.toml` to a world at T = 0.
 
-use super::pilot::Mind;
-use crate::scene::ship::{Ai, ShipSpec};
 use bevy::prelude::*;
 
+use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 
+use super::bolts::{Bolts, Gun, Hits, Trigger};
 use super::clock::Clock;
+use super::goals::{ActiveMission, Progress};
+use super::hands::{Hands, HandsRule};
 use super::history::History;
-use super::pilot::{Chance, Manual, Skill, Skills};
+use super::pilot::{Chance, Mind, Skill, Skills};
 use super::rules::{Chase, ChaseRules, begin_chase};
-use super::ship::{Controls, Engine, Fleet, Fuel, Pilot, Player, Programme, Ship, ShipMotion};
+use super::ship::{Controls, Engine, Fleet, Fuel, Order, Pilot, Player, Programme, Ship, ShipMotion};
 
-/// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`. The plugins [`super::SimulationPlugins`]
-/// must be there. The player's ship, too, is flown by its AI until [`set_manual`] takes it over.
+/// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
+/// that of the difficulty ([`Scene::config`]). The plugins [`super::SimulationPlugins`] must be there. The player's ship, too, is flown by
+/// its AI until the [`Hands`] take it over.
 pub fn start(world: &mut World, scene: &Scene, config: &GameConfig, seed: u64) {
     world.insert_resource(Clock::new(config.clock.step));
     world.insert_resource(Chance::from_seed(seed));
     world.insert_resource(skills(config));
     world.insert_resource(ChaseRules(scene.rules(config)));
+    world.insert_resource(HandsRule::from(config));
+    world.insert_resource(Hands { autopilot: true, assist: config.assist.enabled, pace: config.clock.pace, ..Hands::default() });
+    world.insert_resource(Bolts::default());
+    world.remove_resource::<Progress>();
+    world.remove_resource::<ActiveMission>();
     muster(world, &scene.ships, &defaults(config), 0.0);
     begin_chase(world);
+    if scene.mission.is_some() {
+        begin_mission(world, scene);
+    }
 }
 
-/// Takes the player's ship from its AI (true), or gives it back (false).
-pub fn set_manual(world: &mut World, manual: bool) {
-    let Some(fleet) = world.get_resource::<Fleet>().cloned() else { return };
-    for entity in fleet.0 {
-        if world.get::<Player>(entity).is_some() {
-            if manual {
-                world.entity_mut(entity).insert(Manual);
-            } else {
-                world.entity_mut(entity).remove::<Manual>();
-            }
-        }
+/// Arms the player's ship and puts the mission at its first goal.
+fn begin_mission(world: &mut World, scene: &Scene) {
+    let Some(mission) = scene.mission.clone() else { return };
+    let Some(own) = scene.ships.iter().position(|ship| ship.player).map(|index| world.resource::<Fleet>().0[index]) else { return };
+    let (Some(&motion), Some(&fuel)) = (world.get::<ShipMotion>(own), world.get::<Fuel>(own)) else { return };
+    let mut ship = world.entity_mut(own);
+    ship.insert((Gun { left: mission.bolts, ready: 0.0 }, Trigger::default()));
+    if !ship.contains::<Pilot>() {
+        ship.insert((Pilot { order: Order::Rest, sees: Default::default() }, Mind::default()));
     }
+    let quarry = world.get_resource::<Chase>().and_then(|chase| chase.quarry);
+    world.insert_resource(Chase { hunter: own, quarry, held: 0.0, outcome: None });
+    world.insert_resource(Progress::new(own, &motion.0, fuel.left));
+    world.insert_resource(ActiveMission(mission));
 }
 
 /// How the chase ended, if it has, and at which T.
@@ -42,21 +55,21 @@ pub fn outcome(world: &World) -> Option<(super::Outcome, f64)> {
     world.get_resource::<Chase>().and_then(|chase| chase.outcome)
 }
 
-/// The quarry's skill from `[enemy]`; the autopilot's is its own default.
+/// The others' skill from `[enemy]`; the autopilot's is its own default.
 pub fn skills(config: &GameConfig) -> Skills {
     let enemy = &config.enemy;
     Skills {
-        quarry: Skill { replan_period: enemy.replan_period, horizon: enemy.horizon, reaction_delay: enemy.reaction_delay },
-        hunter: Skill::default(),
+        own: Skill::default(),
+        enemy: Skill { replan_period: enemy.replan_period, horizon: enemy.horizon, reaction_delay: enemy.reaction_delay },
     }
 }
 
 fn defaults(config: &GameConfig) -> Defaults {
     Defaults {
-        hunter_thrust: config.ship.thrust,
-        hunter_fuel: config.ship.fuel,
-        quarry_thrust: config.enemy.thrust,
-        quarry_fuel: config.enemy.fuel,
+        own_thrust: config.ship.thrust,
+        own_fuel: config.ship.fuel,
+        enemy_thrust: config.enemy.thrust,
+        enemy_fuel: config.enemy.fuel,
         // Turns are given by the wall second; the simulation wants them by the r_s/c.
         max_rate: config.ship.turn_rate / config.clock.pace,
     }
@@ -65,14 +78,14 @@ fn defaults(config: &GameConfig) -> Defaults {
 /// What a scene leaves open, from the game's configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defaults {
-    /// For the player and those who pursue, c²/r_s.
-    pub hunter_thrust: f64,
+    /// For the player, and ships that nobody flies, c²/r_s.
+    pub own_thrust: f64,
     /// Δv, in c.
-    pub hunter_fuel: f64,
-    /// For those who flee, c²/r_s.
-    pub quarry_thrust: f64,
+    pub own_fuel: f64,
+    /// For all others, c²/r_s.
+    pub enemy_thrust: f64,
     /// Δv, in c.
-    pub quarry_fuel: f64,
+    pub enemy_fuel: f64,
     /// The fastest turn, rad per proper r_s/c.
     pub max_rate: f64,
 }
@@ -89,17 +102,18 @@ pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: 
         let first_other = (0..specs.len()).find(|&other| other != index);
         let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
         if let (true, Some(target)) = (spec.ai != Ai::None, target) {
-            world.entity_mut(fleet.0[index]).insert((Pilot { ai: spec.ai, target }, Mind::default()));
+            let order = if spec.ai == Ai::Flee { Order::Escape(target) } else { Order::Catch(target) };
+            world.entity_mut(fleet.0[index]).insert((Pilot { order, sees: spec.sees }, Mind::default()));
         }
     }
     world.insert_resource(fleet);
 }
 
 fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, time: f64) -> Entity {
-    let (thrust, tank) = match (spec.ai, spec.player) {
-        (Ai::Flee, false) => (defaults.quarry_thrust, defaults.quarry_fuel),
-        (Ai::None, false) => (defaults.hunter_thrust, f64::INFINITY),
-        _ => (defaults.hunter_thrust, defaults.hunter_fuel),
+    let (thrust, tank) = match (spec.player, spec.ai) {
+        (true, _) => (defaults.own_thrust, defaults.own_fuel),
+        (false, Ai::None) => (defaults.own_thrust, f64::INFINITY),
+        (false, Ai::Flee | Ai::Pursue) => (defaults.enemy_thrust, defaults.enemy_fuel),
     };
     let fuel = if spec.fuel.is_finite() { spec.fuel } else { tank };
     let mut entity = world.spawn((
@@ -110,6 +124,7 @@ fn spawn(world: &mut World, index: usize, spec: &ShipSpec, defaults: &Defaults, 
         Engine { max_thrust: spec.max_thrust.unwrap_or(thrust), max_rate: defaults.max_rate },
         Programme(spec.programme.clone()),
         History::new(time, &spec.state),
+        Hits::default(),
     ));
     if spec.player {
         entity.insert(Player);

@@ -2,7 +2,9 @@
 
 use bevy::prelude::*;
 
-use crate::scene::ship::{Ai, Burn, ShipSpec};
+use glam::DVec3;
+
+use crate::scene::ship::{Burn, Sees, ShipSpec};
 use crate::spacetime::matter::ShipState;
 
 use super::flight::Command;
@@ -45,7 +47,7 @@ pub struct Engine {
 impl Engine {
     /// `command` cut to what the engine can do; a command that is not finite is none.
     pub fn limit(&self, command: &Command) -> Command {
-        let limited = |v: glam::DVec3, max: f64| if v.is_finite() { v.clamp_length_max(max) } else { glam::DVec3::ZERO };
+        let limited = |v: DVec3, max: f64| if v.is_finite() { v.clamp_length_max(max) } else { DVec3::ZERO };
         Command { thrust: limited(command.thrust, self.max_thrust), rates: limited(command.rates, self.max_rate) }
     }
 }
@@ -54,13 +56,44 @@ impl Engine {
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Programme(pub Vec<Burn>);
 
-/// Who flies: the scene's AI and whom it minds.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+/// Who flies where nobody does by hand.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Pilot {
-    /// Flee or pursue.
-    pub ai: Ai,
-    /// The other ship.
-    pub target: Entity,
+    /// What it is to do.
+    pub order: Order,
+    /// By what it knows other ships.
+    pub sees: Sees,
+}
+
+/// What a pilot is to do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Order {
+    /// Nothing: coast.
+    Rest,
+    /// Be with this ship, soon.
+    Catch(Entity),
+    /// Hit this ship with bolts.
+    Hit(Entity),
+    /// Stay away from this ship.
+    Escape(Entity),
+    /// Turn the nose to the image of this ship.
+    Face(Entity),
+    /// Turn round.
+    Turn,
+    /// Fly through this place (r_s), at any speed.
+    Pass(DVec3),
+    /// Stay about this radius (r_s).
+    Keep(f64),
+}
+
+impl Order {
+    /// The ship that it is about.
+    pub fn target(self) -> Option<Entity> {
+        match self {
+            Order::Catch(ship) | Order::Hit(ship) | Order::Escape(ship) | Order::Face(ship) => Some(ship),
+            Order::Rest | Order::Turn | Order::Pass(_) | Order::Keep(_) => None,
+        }
+    }
 }
 
 /// Marks the ship that a player flies where there is one.

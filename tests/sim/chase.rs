@@ -11,7 +11,7 @@ use lensrunner::sim::flight::{Flight, fly};
 use lensrunner::sim::pilot::plan::{SAFE_RADIUS, fall_risk};
 use lensrunner::sim::pilot::rollout::Point;
 use lensrunner::sim::simulate::app_of;
-use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, SimulationPlugins, outcome, set_manual};
+use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, Hands, SimulationPlugins, outcome};
 use lensrunner::spacetime::matter::{ShipState, energy, step};
 use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 
@@ -75,7 +75,7 @@ fn the_quarry_flees_without_falling_in_and_is_caught_more_often_than_not() {
         let (mut lowest, mut burnt, start) = (f64::INFINITY, 0.0f64, chase.ships[1].fuel);
         let (end, time) = play(&chase, seed, |world| {
             lowest = lowest.min(motion(world, 0).position.length()).min(motion(world, 1).position.length());
-            let quarry = world.resource::<Chase>().quarry;
+            let quarry = world.resource::<Chase>().quarry.expect("a quarry");
             burnt = start - world.get::<Fuel>(quarry).expect("a tank").left;
         });
         assert!(matches!(end, Outcome::Caught | Outcome::TimeOut), "seed {seed}: {end} at {time}");
@@ -171,13 +171,13 @@ fn a_hunter_that_falls_in_has_lost_and_one_that_dawdles_too() {
 #[test]
 fn a_ship_flown_by_hand_is_left_alone_by_its_pilot() {
     let mut app = app_of(&scene(CHASE), &GameConfig::default(), 0);
-    set_manual(app.world_mut(), true);
+    *app.world_mut().resource_mut::<Hands>() = Hands { autopilot: false, assist: false, ..Hands::default() };
     let before = energy(&motion(app.world(), 0));
     for _ in 0..200 {
         app.world_mut().run_schedule(FixedUpdate);
     }
     assert!((energy(&motion(app.world(), 0)) - before).abs() < 1e-12, "it coasted");
-    set_manual(app.world_mut(), false);
+    app.world_mut().resource_mut::<Hands>().autopilot = true;
     for _ in 0..200 {
         app.world_mut().run_schedule(FixedUpdate);
     }

@@ -8,7 +8,7 @@ use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 
-use crate::play::camera::seen::facing;
+use crate::sim::sight::facing;
 use crate::play::camera::state_of;
 
 /// A kind of picture.
@@ -140,7 +140,7 @@ pub fn on_caught(caught: &History, length: f64, own: DVec3, time: f64, field_of_
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::play::camera::seen::apparition;
+    use crate::sim::sight::apparition;
     use crate::spacetime::light::Order;
     use crate::spacetime::orbit::static_momentum;
 

@@ -1,7 +1,6 @@
 //! Where the player's camera is: behind the ship or in its cockpit, following its turns smoothly.
 
 pub mod director;
-pub mod seen;
 
 use crate::spacetime::Observer;
 use glam::{DQuat, DVec3};

@@ -14,6 +14,7 @@ use bevy_egui::egui::{self, Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, v
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
+use crate::sim::hands::Avoiding;
 use crate::sim::{Chase, ChaseRules};
 
 use crate::play::camera::CameraView;
@@ -51,7 +52,7 @@ impl Plugin for HudPlugin {
 fn draw(
     mut contexts: EguiContexts,
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
-    (chase, rules): (Option<Res<Chase>>, Res<ChaseRules>),
+    (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
     panel: Res<Panel>,
     (notice, real): (Res<Notice>, Res<Time<Real>>),
     staged: Option<Res<Staged>>,
@@ -98,7 +99,7 @@ fn draw(
     for text_box in text_boxes {
         text_box.paint(&painter);
     }
-    warnings(&painter, rect, player.avoiding, read.radius);
+    warnings(&painter, rect, avoiding.0, read.radius);
     Ok(())
 }
 

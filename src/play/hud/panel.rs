@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::play::camera::seen::{Apparition, apparition, true_direction};
+use crate::sim::sight::{Apparition, apparition, true_direction};
 use crate::play::camera::state_of;
 use crate::play::hud::instruments::Instruments;
 use crate::play::picture::CurrentShot;

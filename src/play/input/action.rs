@@ -38,6 +38,8 @@ actions! {
     ThrustDown = "thrust_down",
     /// Full thrust while held.
     Boost = "boost",
+    /// Fire a bolt.
+    Fire = "fire",
     /// Nose up.
     PitchUp = "pitch_up",
     /// Nose down.

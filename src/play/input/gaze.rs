@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::sim::History;
 use crate::spacetime::matter::ShipState;
 
-use crate::play::camera::seen::facing;
+use crate::sim::sight::facing;
 use crate::play::camera::{CameraView, on_ship};
 
 /// Wall time of the whole turn, in seconds.
@@ -64,7 +64,7 @@ impl Gaze {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::play::camera::seen::apparition;
+    use crate::sim::sight::apparition;
     use crate::spacetime::light::Order;
     use crate::spacetime::orbit::static_momentum;
 

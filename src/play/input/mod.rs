@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use crate::play::input::action::Action;
 use crate::scene::GameConfig;
 use crate::scene::config::{self, Value};
+use crate::sim::Hands;
 use crate::sim::assist::Stick;
 
 /// A key or a mouse button.
@@ -227,7 +228,9 @@ impl MouseTurn {
         if most <= 0.0 {
             return DVec2::ZERO;
         }
+        // In the steps that the hands are kept in: what is too little for one waits.
         let deflection = (self.0 / most).clamp(DVec2::NEG_ONE, DVec2::ONE);
+        let deflection = (deflection * Hands::FULL).round() / Hands::FULL;
         self.0 -= deflection * most;
         deflection
     }

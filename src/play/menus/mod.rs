@@ -282,6 +282,9 @@ fn headline(outcome: Outcome) -> (&'static str, Color32) {
         Outcome::HunterLost => ("LOST", Color32::from_rgb(255, 96, 80)),
         Outcome::QuarryLost => ("IT IS GONE", WARM),
         Outcome::TimeOut => ("TOO LATE", WARM),
+        Outcome::Done => ("DONE", Color32::from_rgb(150, 240, 150)),
+        Outcome::Taken => ("CAUGHT", Color32::from_rgb(255, 96, 80)),
+        Outcome::ShipLost => ("LOST", Color32::from_rgb(255, 96, 80)),
     }
 }
 

@@ -100,7 +100,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     let fleet = world.get_resource::<Fleet>().cloned().unwrap_or_default();
     for (&ship, spec) in fleet.0.iter().zip(&session.scene.ships) {
         if let Some(mut engine) = world.get_mut::<Engine>(ship) {
-            let thrust = if spec.ai == Ai::Flee && !spec.player { config.enemy.thrust } else { config.ship.thrust };
+            let thrust = if spec.ai != Ai::None && !spec.player { config.enemy.thrust } else { config.ship.thrust };
             engine.max_thrust = spec.max_thrust.unwrap_or(thrust);
             engine.max_rate = config.ship.turn_rate / config.clock.pace;
         }

@@ -8,7 +8,7 @@ pub mod visibility;
 
 use glam::{DMat3, DQuat, DVec3};
 
-pub use emission::{branch_of, departure, emission_time, light_path};
+pub use emission::departure;
 pub use view::View;
 
 use crate::lensing::lookup::OLD;
@@ -20,6 +20,7 @@ use crate::render::models::ModelRange;
 use crate::render::settings::Settings;
 pub use crate::scene::lighting::Illumination;
 use crate::sim::History;
+use crate::sim::sight::{branch_of, light_path};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::{Branch, Order};

@@ -224,6 +224,7 @@ config! {
         thrust_up: String = "Space", Key, "", "accelerate upwards";
         thrust_down: String = "ControlLeft", Key, "", "accelerate downwards";
         boost: String = "ShiftLeft", Key, "", "full thrust while held";
+        fire: String = "MouseLeft", Key, "", "fire a bolt, in missions that give some";
         pitch_up: String = "ArrowDown", Key, "", "nose up";
         pitch_down: String = "ArrowUp", Key, "", "nose down";
         yaw_left: String = "ArrowLeft", Key, "", "nose left";

@@ -1,9 +1,13 @@
-//! [`EnemyAiPlugin`]: the pilots. One code flies hunter and quarry; the quarry has the sign of the distance turned.
+//! [`EnemyAiPlugin`]: the pilots. One code flies all ships; who flees has the sign of the distance turned.
 //!
 //! Far away, sampling model-predictive control ([`mod@plan`]); where a meeting can be flown, zero-effort-miss shooting
-//! ([`mod@rendezvous`]); the hole is avoided in both. A pilot knows the other ship as it was a reaction delay ago and expects it to go on
-//! as it did. Difficulty is thrust, replanning period, horizon and reaction delay, nothing else.
+//! ([`mod@rendezvous`]); bolts are aimed by shooting too ([`mod@aim`]). The hole is avoided in all. A pilot knows the other ship as it was a
+//! reaction delay ago, or by its light, and expects it to go on as it did. Difficulty is thrust, fuel, replanning period, horizon and
+//! reaction delay, nothing else. [`beginner`] flies as somebody does who plays for the first time.
 
+pub mod aim;
+pub mod beginner;
+pub mod orders;
 pub mod plan;
 pub mod rendezvous;
 pub mod rollout;
@@ -12,16 +16,21 @@ use bevy::prelude::*;
 use glam::{DQuat, DVec3};
 use rand::{SeedableRng, rngs::StdRng};
 
-use crate::scene::ship::Ai;
+use crate::scene::ship::Sees;
+use crate::spacetime::Observer;
+use crate::spacetime::light::Order as ImageOrder;
 use crate::spacetime::matter::ShipState;
 
+use super::bolts::{Gun, Trigger};
 use super::clock::Clock;
 use super::flight::Command;
 use super::history::History;
-use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Pilot, ShipMotion};
-use super::{ChaseRules, SimSet};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Order, Pilot, Player, ShipMotion};
+use super::sight::{apparition, emission_time};
+use super::{ActiveMission, ChaseRules, SimSet};
+use beginner::Beginner;
 use plan::{Aim, Task, plan};
-use rendezvous::rendezvous;
+use rendezvous::{intercept, rendezvous};
 use rollout::{PlannedBurn, Point};
 
 /// How well a pilot flies.
@@ -44,10 +53,10 @@ impl Default for Skill {
 /// The skills of the two sides.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Skills {
-    /// Of those who flee.
-    pub quarry: Skill,
-    /// Of those who pursue (the autopilot).
-    pub hunter: Skill,
+    /// Of the player's autopilot.
+    pub own: Skill,
+    /// Of all others.
+    pub enemy: Skill,
 }
 
 /// The one source of chance in the simulation.
@@ -78,11 +87,17 @@ pub struct Mind {
     pub next_plan: f64,
     /// The thrust of a meeting being flown, on rest-frame axes; None while far.
     pub meeting: Option<DVec3>,
+    /// What it was planned for.
+    pub order: Order,
+    /// T of what it last knew of the other ship, in r_s/c.
+    pub known: f64,
+    /// Where the nose is to point to fire a bolt, on rest-frame axes, and how far off it may, in radians.
+    pub aim: Option<(DVec3, f64)>,
 }
 
 impl Default for Mind {
     fn default() -> Self {
-        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None }
+        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None, order: Order::Rest, known: 0.0, aim: None }
     }
 }
 
@@ -98,7 +113,7 @@ impl Plugin for EnemyAiPlugin {
         app.init_resource::<Skills>()
             .init_resource::<Chance>()
             .init_resource::<ChaseRules>()
-            .add_systems(FixedUpdate, fly_by_pilot.in_set(SimSet::Ai));
+            .add_systems(FixedUpdate, (orders::give_orders, beginner::fly_as_beginner, fly_by_pilot).chain().in_set(SimSet::Ai));
     }
 }
 
@@ -110,53 +125,152 @@ const PERSISTENCE: f64 = 4.0;
 /// T between two looks at whether a meeting can be flown, in r_s/c.
 const MEETING_PERIOD: f64 = 0.25;
 
-type Piloted<'a> = (&'a Pilot, &'a mut Mind, &'a mut Controls, &'a ShipMotion, &'a Engine, &'a Fuel);
+type Piloted<'a> = (
+    (&'a Pilot, &'a mut Mind, &'a mut Controls),
+    (&'a ShipMotion, &'a Engine, &'a Fuel),
+    (Option<&'a Gun>, Option<&'a mut Trigger>),
+    Has<Player>,
+);
+type ByPilot = (Without<Ended>, Without<Manual>, Without<Beginner>);
 
 /// Every pilot, in scene order, sets the controls of its ship for the coming step.
 pub fn fly_by_pilot(
     clock: Res<Clock>,
-    fleet: Res<Fleet>,
-    skills: Res<Skills>,
-    rules: Res<ChaseRules>,
+    (fleet, skills, rules): (Res<Fleet>, Res<Skills>, Res<ChaseRules>),
+    mission: Option<Res<ActiveMission>>,
     mut chance: ResMut<Chance>,
-    mut pilots: Query<Piloted, (Without<Ended>, Without<Manual>)>,
+    mut pilots: Query<Piloted, ByPilot>,
     others: Query<(&History, &Engine)>,
 ) {
+    let inside = mission.is_some_and(|mission| mission.0.inside);
     for &entity in &fleet.0 {
-        let Ok((pilot, mut mind, mut controls, motion, engine, fuel)) = pilots.get_mut(entity) else { continue };
-        let Ok((other_history, other_engine)) = others.get(pilot.target) else { continue };
-        let (aim, skill) = match pilot.ai {
-            Ai::Flee => (Aim::Escape, skills.quarry),
-            _ => (Aim::Catch, skills.hunter),
+        let Ok(((pilot, mut mind, mut controls), (motion, engine, fuel), (gun, trigger), is_player)) = pilots.get_mut(entity) else {
+            continue;
         };
-        let now = clock.time;
-        if now >= mind.next_plan {
-            let (other, other_burn) = reckon(other_history, now, skill.reaction_delay);
-            let task = Task {
-                aim,
-                own: Point::from(&motion.0),
-                other,
-                other_burn,
-                max_thrust: if fuel.left > 0.0 { engine.max_thrust } else { 0.0 },
-                fuel: fuel.left,
-                other_thrust: other_engine.max_thrust,
-                horizon: skill.horizon,
-                arena_radius: rules.0.arena_radius,
+        let seat = Seat { state: &motion.0, engine, fuel: fuel.left, now: clock.time, sees: pilot.sees };
+        let skill = if is_player { skills.own } else { skills.enemy };
+        if mind.order != pilot.order {
+            *mind = Mind { order: pilot.order, known: mind.known, ..Mind::default() };
+        }
+        let other = pilot.order.target().map(|ship| others.get(ship));
+        let other = match other {
+            Some(Ok(other)) => Some(other),
+            Some(Err(_)) => continue,
+            None => None,
+        };
+        match pilot.order {
+            Order::Rest => {
+                controls.0 = Command::default();
+                continue;
+            }
+            Order::Turn => {
+                controls.0 = Command { thrust: DVec3::ZERO, rates: DVec3::Y * engine.max_rate };
+                continue;
+            }
+            Order::Face(_) => {
+                controls.0 = other.and_then(|(history, _)| seat.image(history)).map_or_else(Command::default, |ahead| Command {
+                    thrust: DVec3::ZERO,
+                    rates: turn_nose(ahead, engine.max_rate),
+                });
+                continue;
+            }
+            Order::Catch(_) | Order::Hit(_) | Order::Escape(_) | Order::Pass(_) | Order::Keep(_) => (),
+        }
+        if clock.time >= mind.next_plan {
+            let known = other.map(|(history, engine)| (seat.reckon(history, skill.reaction_delay, &mut mind.known), engine.max_thrust));
+            let task = seat.task(pilot.order, known, &skill, rules.0.arena_radius, inside);
+            mind.aim = match (pilot.order, gun) {
+                (Order::Hit(_), Some(gun)) if gun.left > 0 => aim::lead(&motion.0, &task.other, &task.other_burn),
+                _ => None,
             };
-            mind.meeting = if aim == Aim::Catch { rendezvous(&task) } else { None };
+            mind.meeting = match task.aim {
+                Aim::Catch => rendezvous(&task),
+                Aim::Pass => intercept(&task),
+                Aim::Escape | Aim::Keep(_) => None,
+            };
             if mind.meeting.is_some() {
-                mind.next_plan = now + MEETING_PERIOD;
+                mind.next_plan = clock.time + MEETING_PERIOD;
             } else {
-                let rest = PlannedBurn { duration: mind.burn.duration - (now - mind.since), ..mind.burn };
+                let rest = PlannedBurn { duration: mind.burn.duration - (clock.time - mind.since), ..mind.burn };
                 mind.burn = plan(&task, &rest, &mut chance.0).0;
-                mind.since = now;
-                mind.next_plan = now + skill.replan_period;
+                mind.since = clock.time;
+                mind.next_plan = clock.time + if mind.aim.is_some() { MEETING_PERIOD } else { skill.replan_period };
             }
         }
-        let wish = mind.meeting.unwrap_or_else(|| {
-            if now - mind.since < mind.burn.duration { Point::from(&motion.0).from_local(mind.burn.thrust) } else { DVec3::ZERO }
-        });
+        let burning = clock.time - mind.since < mind.burn.duration;
+        let wish = mind.meeting.unwrap_or_else(|| if burning { Point::from(&motion.0).from_local(mind.burn.thrust) } else { DVec3::ZERO });
         controls.0 = command(&motion.0, wish, engine);
+        if let Some((direction, tolerance)) = mind.aim {
+            let ahead = motion.0.attitude.conjugate() * direction;
+            controls.0.rates = turn_nose(ahead, engine.max_rate);
+            if let Some(mut trigger) = trigger {
+                trigger.pulled = ahead.angle_between(DVec3::NEG_Z) < tolerance;
+            }
+        }
+    }
+}
+
+/// What a pilot has before it.
+struct Seat<'a> {
+    state: &'a ShipState,
+    engine: &'a Engine,
+    fuel: f64,
+    now: f64,
+    sees: Sees,
+}
+
+impl Seat<'_> {
+    /// The ship as an observer.
+    fn eye(&self) -> Observer {
+        let ShipState { position, momentum, attitude, .. } = *self.state;
+        Observer { position, momentum, attitude, field_of_view: 1.0 }
+    }
+
+    /// Where the other ship's primary image is, on body axes.
+    fn image(&self, history: &History) -> Option<DVec3> {
+        apparition(&self.eye(), self.now, history, ImageOrder::ALL[0]).map(|image| image.direction)
+    }
+
+    /// The other ship now, and what it burns, from what is known of it `delay` ago. `known`: T of what was known last, which stays where no
+    /// light comes any more.
+    fn reckon(&self, history: &History, delay: f64, known: &mut f64) -> (Point, PlannedBurn) {
+        match self.sees {
+            Sees::Now => *known = self.now - delay,
+            Sees::Light => {
+                if let Some(emitted) = emission_time(&self.eye(), self.now - delay, history, ImageOrder::ALL[0]) {
+                    *known = emitted;
+                }
+            }
+        }
+        reckon(history, self.now, self.now - *known)
+    }
+
+    /// What a plan for `order` is made from; `other` is what is known of the ship that it is about, and that ship's thrust.
+    fn task(&self, order: Order, other: Option<((Point, PlannedBurn), f64)>, skill: &Skill, arena_radius: f64, inside: bool) -> Task {
+        let own = Point::from(self.state);
+        let aim = match order {
+            Order::Escape(_) => Aim::Escape,
+            Order::Pass(_) => Aim::Pass,
+            Order::Keep(radius) => Aim::Keep(radius),
+            _ => Aim::Catch,
+        };
+        let place = match order {
+            Order::Pass(place) => Point { x: place, p: DVec3::ZERO },
+            _ => own,
+        };
+        let ((other, other_burn), other_thrust) = other.unwrap_or(((place, PlannedBurn::COAST), 0.0));
+        Task {
+            aim,
+            own,
+            other,
+            other_burn,
+            max_thrust: if self.fuel > 0.0 { self.engine.max_thrust } else { 0.0 },
+            fuel: self.fuel,
+            other_thrust,
+            horizon: skill.horizon,
+            arena_radius,
+            inside,
+        }
     }
 }
 
@@ -170,7 +284,7 @@ fn reckon(history: &History, now: f64, delay: f64) -> (Point, PlannedBurn) {
     let fly = |mut point: Point, span: f64, burn: &PlannedBurn| {
         let steps = (span * 2.0).ceil().max(1.0);
         for _ in 0..steps as usize {
-            point = rollout::advance(&point, span / steps, |at| burn.acceleration(at, 0.0, 0.0));
+            point = rollout::advance(&point, span / steps, 1.0, |at| burn.acceleration(at, 0.0, 0.0));
         }
         point
     };

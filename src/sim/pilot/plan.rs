@@ -12,12 +12,16 @@ use super::rollout::{PlannedBurn, Point, Span, advance, track};
 pub const SAFE_RADIUS: f64 = 2.0;
 
 /// What a pilot wants.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Aim {
     /// To be where the target is, soon.
     Catch,
     /// To stay away from it.
     Escape,
+    /// To fly through the place where the target is held, at any speed.
+    Pass,
+    /// To stay about this radius, in r_s.
+    Keep(f64),
 }
 
 // The cost of a plan is in r_s of distance to the other ship; every other thing has a weight that says how many r_s it is worth. All of
@@ -83,7 +87,19 @@ pub struct Task {
     pub horizon: f64,
     /// Keep within this radius, in r_s.
     pub arena_radius: f64,
+    /// The hole is no danger: the way may lead below the horizon.
+    pub inside: bool,
 }
+
+impl Task {
+    /// The radius, in r_s, below which flights of a plan end.
+    pub fn floor(&self) -> f64 {
+        if self.inside { DEEPEST } else { 1.0 }
+    }
+}
+
+/// Plans below the horizon end here, in r_s: the rain falls from there to the singularity in 0.04 r_s/c.
+const DEEPEST: f64 = 0.15;
 
 /// T per planning step, in r_s/c.
 const STEP: f64 = 1.0;
@@ -102,7 +118,11 @@ const STRETCH: std::ops::Range<f64> = 0.6..1.5;
 /// The best burn found, and its cost.
 pub fn plan(task: &Task, previous: &PlannedBurn, chance: &mut StdRng) -> (PlannedBurn, f64) {
     let span = Span { step: STEP, count: (task.horizon / STEP) as usize };
-    let other = track(task.other, &task.other_burn, span);
+    let other = match task.aim {
+        Aim::Catch | Aim::Escape => track(task.other, &task.other_burn, span, task.floor()),
+        // What is held stays where it is.
+        Aim::Pass | Aim::Keep(_) => vec![task.other; span.count + 1],
+    };
     let mut best = (PlannedBurn::COAST, f64::INFINITY);
     let mut consider = |burn: PlannedBurn| {
         let endurance = if burn.thrust == DVec3::ZERO { 0.0 } else { task.fuel / burn.thrust.length() };
@@ -135,6 +155,7 @@ pub fn plan(task: &Task, previous: &PlannedBurn, chance: &mut StdRng) -> (Planne
 /// The smaller the better; distances in r_s, times in r_s/c.
 fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     let mut own = task.own;
+    let mut before = own.x;
     let mut hunter = task.other;
     let mut nearest = f64::INFINITY;
     let mut mean = 0.0;
@@ -144,26 +165,36 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     for (index, seen) in other.iter().enumerate() {
         let time = index as f64 * span.step;
         if index > 0 {
-            own = advance(&own, span.step, |at| burn.acceleration(at, time - span.step, span.step));
+            before = own.x;
+            own = advance(&own, span.step, task.floor(), |at| burn.acceleration(at, time - span.step, span.step));
             if task.aim == Aim::Escape {
                 hunter = follow(&hunter, &own, task.other_thrust, span.step);
             }
         }
         let target = if task.aim == Aim::Escape { &hunter } else { seen };
-        let distance = own.x.distance(target.x);
         let r = own.x.length();
+        let distance = match task.aim {
+            Aim::Catch | Aim::Escape => own.x.distance(target.x),
+            // A step may be longer than what is flown through.
+            Aim::Pass => off_the_way(before, own.x, target.x),
+            Aim::Keep(radius) => (r - radius).abs(),
+        };
         lowest = lowest.min(r);
         penalty += (r - task.arena_radius).max(0.0);
         mean += distance.min(FAR);
         end = distance;
         let weighted = match task.aim {
             Aim::Catch => distance + LATER * time + FLY_BY * (own.velocity() - target.velocity()).length() / (1.0 + distance),
-            Aim::Escape => distance,
+            Aim::Pass => distance + LATER * time,
+            Aim::Escape | Aim::Keep(_) => distance,
         };
         nearest = nearest.min(weighted);
     }
     mean /= other.len() as f64;
     let spent = burn.thrust.length() * burn.duration.min(task.horizon);
+    if task.inside {
+        return nearest + HUNTER_END * end + HUNTER_FUEL * spent;
+    }
     let danger = if lowest < SAFE_RADIUS { DANGER + DEEPER * (SAFE_RADIUS - lowest) } else { 0.0 };
     // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
     let unbound =
@@ -172,9 +203,18 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
         + unbound
         + fall_risk(&own, task.fuel - spent)
         + match task.aim {
+            Aim::Keep(_) => mean + QUARRY_END * end.min(FAR) + HUNTER_FUEL * spent + penalty,
+            Aim::Pass => nearest + HUNTER_FUEL * spent + penalty,
             Aim::Catch => nearest + HUNTER_END * end + HUNTER_FUEL * spent + penalty,
             Aim::Escape => -nearest - QUARRY_MEAN * mean - QUARRY_END * end.min(FAR) + QUARRY_FUEL * spent + penalty,
         }
+}
+
+/// How near the straight way between two places comes to a third, in r_s.
+fn off_the_way(from: DVec3, to: DVec3, place: DVec3) -> f64 {
+    let way = to - from;
+    let share = ((place - from).dot(way) / way.length_squared().max(1e-30)).clamp(0.0, 1.0);
+    (from + way * share).distance(place)
 }
 
 /// What it costs to be on an orbit that leads down to [`SAFE_RADIUS`]: some while there is fuel to leave it, nearly all when there is not.
@@ -196,7 +236,7 @@ const NO_DIVE: f64 = 3.0;
 
 /// How one who flees reckons the hunter: it thrusts towards the prey and brakes its sideways drift, but not into the hole.
 fn follow(hunter: &Point, prey: &Point, thrust: f64, h: f64) -> Point {
-    advance(hunter, h, |at| {
+    advance(hunter, h, 1.0, |at| {
         let gap = prey.x - at.x;
         let drift = prey.velocity() - at.velocity();
         let wish = gap * PULL + drift * BRAKE;

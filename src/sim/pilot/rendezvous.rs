@@ -29,8 +29,8 @@ fn meet(task: &Task, go: f64) -> Option<DVec3> {
     let h = go / STEPS as f64;
     let (mut own, mut other) = (task.own, task.other);
     for index in 0..STEPS {
-        own = advance(&own, h, |_| DVec3::ZERO);
-        other = advance(&other, h, |at| task.other_burn.acceleration(at, index as f64 * h, h));
+        own = advance(&own, h, task.floor(), |_| DVec3::ZERO);
+        other = advance(&other, h, task.floor(), |at| task.other_burn.acceleration(at, index as f64 * h, h));
     }
     let miss = other.x - own.x;
     let drift = other.velocity() - own.velocity();
@@ -44,14 +44,38 @@ fn meet(task: &Task, go: f64) -> Option<DVec3> {
     for index in 0..STEPS {
         let share = (index as f64 + 0.5) / STEPS as f64;
         let wanted = first + (last - first) * share;
-        now = advance(&now, h, |at| proper_acceleration(at.p, wanted));
-        if now.x.length_squared() < SAFE_RADIUS * SAFE_RADIUS {
+        now = advance(&now, h, task.floor(), |at| proper_acceleration(at.p, wanted));
+        if !task.inside && now.x.length_squared() < SAFE_RADIUS * SAFE_RADIUS {
             return None;
         }
     }
-    if task.fuel < RESERVE && fall_risk(&now, task.fuel) > 0.0 {
+    if !task.inside && task.fuel < RESERVE && fall_risk(&now, task.fuel) > 0.0 {
         return None;
     }
     let close = now.x.distance(other.x) <= MISS + SHARE_OF_MISS * miss.length();
     close.then(|| proper_acceleration(task.own.p, first).clamp_length_max(task.max_thrust))
+}
+
+/// The thrust now (as of [`rendezvous`]) of the soonest flight through the place that the task's target holds, at any speed. The thrust of
+/// least ∫a² is then 3z/go², falling to nothing.
+pub fn intercept(task: &Task) -> Option<DVec3> {
+    TIMES_TO_GO.iter().find_map(|&go| {
+        let h = go / STEPS as f64;
+        let coast = (0..STEPS).fold(task.own, |own, _| advance(&own, h, task.floor(), |_| DVec3::ZERO));
+        let miss = task.other.x - coast.x;
+        let first = miss * (3.0 / (go * go));
+        if first.length() > task.max_thrust * THRUST_SHARE {
+            return None;
+        }
+        let mut now = task.own;
+        for index in 0..STEPS {
+            let left = 1.0 - (index as f64 + 0.5) / STEPS as f64;
+            now = advance(&now, h, task.floor(), |at| proper_acceleration(at.p, first * left));
+            if !task.inside && now.x.length_squared() < SAFE_RADIUS * SAFE_RADIUS {
+                return None;
+            }
+        }
+        let close = now.x.distance(task.other.x) <= MISS + SHARE_OF_MISS * miss.length();
+        close.then(|| proper_acceleration(task.own.p, first).clamp_length_max(task.max_thrust))
+    })
 }

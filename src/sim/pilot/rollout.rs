@@ -96,13 +96,13 @@ pub struct Span {
     pub count: usize,
 }
 
-/// The flight from `start` under `burn`: `count` + 1 points.
-pub fn track(start: Point, burn: &PlannedBurn, span: Span) -> Vec<Point> {
+/// The flight from `start` under `burn`, down to the radius `floor` (r_s): `count` + 1 points.
+pub fn track(start: Point, burn: &PlannedBurn, span: Span, floor: f64) -> Vec<Point> {
     let mut track = Vec::with_capacity(span.count + 1);
     let mut now = start;
     track.push(now);
     for index in 0..span.count {
-        now = advance(&now, span.step, |at| burn.acceleration(at, index as f64 * span.step, span.step));
+        now = advance(&now, span.step, floor, |at| burn.acceleration(at, index as f64 * span.step, span.step));
         track.push(now);
     }
     track
@@ -113,10 +113,10 @@ const NEAR_HOLE: f64 = 3.0;
 /// See [`NEAR_HOLE`].
 const PIECES: u32 = 4;
 
-/// One planning step; near the hole it is halved twice. Inside r = 1 the ship is lost to the plan and stays where it is.
-pub fn advance(now: &Point, h: f64, acceleration: impl Fn(&Point) -> DVec3) -> Point {
+/// One planning step; near the hole it is halved twice. Below the radius `floor` (r_s) the ship is lost to the plan and stays where it is.
+pub fn advance(now: &Point, h: f64, floor: f64, acceleration: impl Fn(&Point) -> DVec3) -> Point {
     let r_squared = now.x.length_squared();
-    if r_squared < 1.0 {
+    if r_squared < floor * floor {
         return *now;
     }
     let pieces = if r_squared < NEAR_HOLE * NEAR_HOLE { PIECES } else { 1 };

@@ -50,7 +50,7 @@ fn placed(jolt: f64, now: f64) -> (History, Instance, f64) {
     let camera = static_camera(DVec3::new(6.8, 1.2, 0.5), DVec3::NEG_X, DVec3::Z, 60f64.to_radians());
     let object = lensrunner::render::instances::DrawnObject { reach: REACH, ..bench.object(Motion::Flying(&history), 2.0 * REACH, 1) };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = Default::default();
+    let settings = lensrunner::render::settings::Settings::finest();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
     let instance = instances_of(&view, now, &object, 1)[0].instance;
     (history.clone(), instance, now - f64::from(instance.offset[3]))
@@ -87,7 +87,7 @@ fn a_planet_turns_under_a_camera_close_to_it() {
     let object = bench.object(Motion::Flying(&history), 1.6, 1);
     let object = lensrunner::render::instances::DrawnObject { reach: 0.8, ..object };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = Default::default();
+    let settings = lensrunner::render::settings::Settings::finest();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 9e-4, aspect: None, settings: &settings };
     let instance = instances_of(&view, 0.0, &object, 1)[0].instance;
     let emission = -f64::from(instance.offset[3]);
@@ -127,7 +127,7 @@ fn a_ship_that_falls_inside_beside_the_camera_is_right_all_over() {
     let camera = Observer { momentum, ..static_camera(DVec3::Z * 2.0, DVec3::NEG_Z, DVec3::X, 1.7) };
     let camera = Observer { position: DVec3::Z * 0.6942, ..camera };
     let slice = lensrunner::lensing::Slice::new(bench.renderer.table(), camera.radius());
-    let settings = Default::default();
+    let settings = lensrunner::render::settings::Settings::finest();
     let view = lensrunner::render::instances::View { camera: &camera, slice: &slice, pixel: 1.9e-3, aspect: None, settings: &settings };
     let instance = instances_of(&view, 1.5, &object, 1)[0].instance;
     let emission = 1.5 - f64::from(instance.offset[3]);

@@ -2,10 +2,11 @@
 
 use glam::{DQuat, DVec3};
 
-use crate::render::instances::{View, against_static, departure, light_path};
+use crate::render::instances::{View, against_static, departure};
 use crate::scene::planet::Planet;
 use crate::sim::History;
 use crate::sim::flight::Command;
+use crate::sim::sight::light_path;
 use crate::spacetime::Observer;
 use crate::spacetime::light::{Branch, Order};
 use crate::spacetime::matter::{ShipState, gamma, velocity};

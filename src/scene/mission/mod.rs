@@ -1,0 +1,200 @@
+//! `[mission]`, `[[goal]]`, `[[gate]]` and `[difficulty.…]` in a scene file: what makes a scene a mission.
+//!
+//! ```toml
+//! [mission]
+//! title = "First pursuit"
+//! idea = "A lower orbit is a faster one."      # what the mission rests on, in one sentence
+//! brief = "…"                                  # what the player reads before it begins
+//! clock = "T"                                  # what is scored: "T", the far clock, or "tau", the player's own
+//! time_limit = 200.0                           # T in r_s/c: later it is lost
+//! proper_limit = 50.0                          # the player's own time in r_s/c: later it is lost; no limit if absent
+//! inside = false                               # whether the player's ship may cross the horizon
+//! caught_by = ["hunter"]                       # ships that win by holding the player's ship as [rules] say
+//! now_marker = true                            # whether the HUD shows where the target is at this moment
+//! bolts = 0                                    # how many bolts the player's ship may fire
+//!
+//! [[goal]]                                     # one after the other, see `goal`
+//! kind = "hold"
+//! ship = "quarry"
+//! text = "Stay with the quarry"
+//!
+//! [[gate]]                                     # in the order in which they are flown through, see `gate`
+//! position = [6.0, 0.0, 0.0]
+//! radius = 0.6
+//!
+//! [difficulty.easy]                            # also normal and hard: keys of game.toml that are otherwise than there
+//! stars = [60.0, 100.0]                        # at most so long on the mission's clock for three stars and for two
+//! enemy.thrust = 0.03
+//! ```
+
+mod difficulty;
+mod gate;
+mod goal;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use super::document::fault::{Fault, fault, in_range};
+use super::ship::ShipSpec;
+
+pub use difficulty::{Difficulty, Level, levels};
+pub use gate::{Gate, GateEntry};
+pub use goal::{Goal, GoalEntry, Task};
+
+/// A mission: goals, limits and words over a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mission {
+    /// What it is called.
+    pub title: String,
+    /// What it rests on, in one sentence.
+    pub idea: String,
+    /// What the player reads before it begins.
+    pub brief: String,
+    /// What is scored.
+    pub clock: ScoreClock,
+    /// T in r_s/c after which it is lost.
+    pub time_limit: f64,
+    /// Proper time of the player's ship in r_s/c after which it is lost; infinite if there is none.
+    pub proper_limit: f64,
+    /// The player's ship may cross the horizon.
+    pub inside: bool,
+    /// Indices of the ships that win by holding the player's ship.
+    pub caught_by: Vec<usize>,
+    /// The HUD shows where the target is at this moment.
+    pub now_marker: bool,
+    /// How many bolts the player's ship may fire.
+    pub bolts: u32,
+    /// What is to be done, one after the other.
+    pub goals: Vec<Goal>,
+    /// What is to be flown through, one after the other.
+    pub gates: Vec<Gate>,
+    /// What is otherwise on each difficulty, in the order of [`Difficulty::ALL`].
+    pub levels: [Level; 3],
+}
+
+/// The clock that a mission's score is read from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum ScoreClock {
+    /// Painlevé–Gullstrand T, the time far away.
+    #[default]
+    #[serde(rename = "T")]
+    Far,
+    /// The proper time of the player's ship.
+    #[serde(rename = "tau")]
+    Own,
+}
+
+/// `[mission]` as the file has it, before any check.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MissionEntry {
+    title: Spanned<String>,
+    idea: Spanned<String>,
+    brief: Spanned<String>,
+    #[serde(default)]
+    clock: ScoreClock,
+    time_limit: Spanned<f64>,
+    proper_limit: Option<Spanned<f64>>,
+    #[serde(default)]
+    inside: bool,
+    #[serde(default)]
+    caught_by: Vec<Spanned<String>>,
+    #[serde(default = "yes")]
+    now_marker: bool,
+    #[serde(default)]
+    bolts: u32,
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// The most characters of a title, an idea, a goal's text; of a briefing ten times as many.
+const MOST_LETTERS: usize = 120;
+/// The most goals and gates of a mission.
+const MOST_PARTS: usize = 64;
+
+/// The mission of a scene with these ships, checked. `levels` come from [`levels`].
+pub fn check_mission(
+    entry: &MissionEntry,
+    goals: &[Spanned<GoalEntry>],
+    gates: &[Spanned<GateEntry>],
+    ships: &[ShipSpec],
+    levels: [Level; 3],
+) -> Result<Mission, Fault> {
+    for (words, most) in [(&entry.title, MOST_LETTERS), (&entry.idea, MOST_LETTERS), (&entry.brief, 10 * MOST_LETTERS)] {
+        short(words, most)?;
+    }
+    if !ships.iter().any(|ship| ship.player) {
+        return fault(&entry.title, "a mission needs a [[ship]] with player = true".into());
+    }
+    for parts in [goals.iter().map(Spanned::span).collect::<Vec<_>>(), gates.iter().map(Spanned::span).collect()] {
+        if let Some(span) = parts.get(MOST_PARTS) {
+            return Err(Fault { span: span.clone(), message: format!("a mission has at most {MOST_PARTS} goals and as many gates") });
+        }
+    }
+    let mission = Mission {
+        title: entry.title.get_ref().clone(),
+        idea: entry.idea.get_ref().clone(),
+        brief: entry.brief.get_ref().trim().to_owned(),
+        clock: entry.clock,
+        time_limit: in_range(&entry.time_limit, "time_limit", 1.0..=1e6, "r_s/c")?,
+        proper_limit: entry
+            .proper_limit
+            .as_ref()
+            .map_or(Ok(f64::INFINITY), |limit| in_range(limit, "proper_limit", 0.1..=1e6, "r_s/c"))?,
+        inside: entry.inside,
+        caught_by: entry.caught_by.iter().map(|name| ship_named(name, ships)).collect::<Result<_, _>>()?,
+        now_marker: entry.now_marker,
+        bolts: entry.bolts,
+        goals: goals.iter().map(|goal| goal.get_ref().check(ships)).collect::<Result<_, _>>()?,
+        gates: gates.iter().map(|gate| gate.get_ref().check()).collect::<Result<_, _>>()?,
+        levels,
+    };
+    if mission.goals.is_empty() {
+        return fault(&entry.title, "a mission needs at least one [[goal]]".into());
+    }
+    for (goal, written) in mission.goals.iter().zip(goals) {
+        reachable(&mission, goal).map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
+    }
+    Ok(mission)
+}
+
+/// Whether a goal can be reached at all in its mission, else why not.
+fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
+    let late = |value: f64, limit: f64, key: &str, of: &str| {
+        if value > limit { Err(format!("{key} = {value} is later than the mission's {of} = {limit}: it cannot be reached")) } else { Ok(()) }
+    };
+    match goal.task {
+        Task::Survive { until } => late(until, mission.time_limit, "until", "time_limit")?,
+        Task::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
+        Task::Hit { times, .. } if mission.bolts < times => {
+            return Err(format!("times = {times} needs as many bolts; the mission has bolts = {}", mission.bolts));
+        }
+        Task::Reach { most, .. } if most < 1.0 && !mission.inside => {
+            return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
+        }
+        Task::Hold { span, .. } | Task::Reach { span, .. } | Task::Look { span, .. } | Task::Coast { span } => {
+            late(span, mission.time_limit.min(mission.proper_limit), "for", "limit")?;
+        }
+        _ => (),
+    }
+    late(goal.before.min(mission.time_limit), mission.time_limit, "before", "time_limit")
+}
+
+/// The index of the ship of that name.
+fn ship_named(name: &Spanned<String>, ships: &[ShipSpec]) -> Result<usize, Fault> {
+    match ships.iter().position(|ship| &ship.name == name.get_ref()) {
+        Some(index) => Ok(index),
+        None => {
+            let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).collect();
+            fault(name, format!("{:?} must be a ship of the scene: {names:?}", name.get_ref()))
+        }
+    }
+}
+
+/// Words that are there and fit.
+fn short(words: &Spanned<String>, most: usize) -> Result<(), Fault> {
+    let length = words.get_ref().chars().count();
+    if (1..=most).contains(&length) { Ok(()) } else { fault(words, format!("the text has {length} characters, allowed 1 to {most}")) }
+}

@@ -1,0 +1,39 @@
+//! What the player's autopilot is to do in a mission: the present goal as an order.
+
+use bevy::prelude::*;
+
+use crate::scene::mission::{Mission, Task};
+use crate::sim::goals::{ActiveMission, Progress};
+use crate::sim::ship::{Fleet, Order, Pilot};
+
+/// Orders of the present goal for the player's pilot.
+pub fn give_orders(mission: Option<Res<ActiveMission>>, progress: Option<Res<Progress>>, fleet: Res<Fleet>, mut pilots: Query<&mut Pilot>) {
+    let (Some(mission), Some(progress)) = (mission, progress) else { return };
+    let Ok(mut pilot) = pilots.get_mut(progress.own) else { return };
+    let order = order(&mission.0, &progress, &fleet);
+    if pilot.order != order {
+        pilot.order = order;
+    }
+}
+
+/// The order of the present goal.
+fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> Order {
+    let ship = |index: usize| fleet.0.get(index).copied();
+    let pursuer = mission.caught_by.first().and_then(|&index| ship(index));
+    let Some(goal) = mission.goals.get(progress.goal) else { return Order::Rest };
+    let order = match goal.task {
+        Task::Burn { .. } => Some(Order::Keep(BURN_TO)),
+        Task::Turn { .. } => Some(Order::Turn),
+        Task::Coast { .. } => Some(Order::Rest),
+        Task::Look { ship: index, .. } => ship(index).map(Order::Face),
+        Task::Hold { ship: index, .. } => ship(index).map(Order::Catch),
+        Task::Hit { ship: index, .. } => ship(index).map(Order::Hit),
+        Task::Reach { least, most, .. } | Task::Whirl { least, most, .. } => Some(Order::Keep(0.5 * (least + most))),
+        Task::Survive { .. } => pursuer.map(Order::Escape),
+        Task::Gates => mission.gates.get(progress.gates).map(|gate| Order::Pass(gate.position)),
+    };
+    order.unwrap_or(Order::Rest)
+}
+
+/// A radius far enough from any start, in r_s, that going there takes thrust.
+const BURN_TO: f64 = 15.0;
