@@ -11,6 +11,7 @@ use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
 use lensrunner::scene;
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::sim::{balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
@@ -34,6 +35,8 @@ enum Command {
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
+    Check(check::CheckArgs),
+    Balance(balance::BalanceArgs),
     Trace(TraceArgs),
 }
 
@@ -215,6 +218,15 @@ fn main() -> ExitCode {
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
+        Some(Command::Check(args)) => match check::run_command(&args, &mut io::stdout()) {
+            Ok(true) => ExitCode::SUCCESS,
+            Ok(false) => ExitCode::from(1),
+            Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
+        },
+        Some(Command::Balance(args)) => match balance::run_command(&args) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
+        },
         Some(Command::Trace(args)) => run_trace(&args),
     }
 }

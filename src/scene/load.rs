@@ -13,6 +13,7 @@ use super::config::{self, GameConfig};
 use super::document::error::{Complaints, SceneError};
 use super::document::fault::Fault;
 use super::document::{complain_all, one, parse, syntax};
+use super::expect::{Expect, ExpectEntry, check_expect};
 use super::mission::{Difficulty, GateEntry, GoalEntry, Mission, MissionEntry, check_mission, levels};
 use super::planet::{Planet, PlanetEntry, SkyEntry, SkySwitches, check_planet, check_sky};
 use super::prop::{Prop, PropEntry, check_props};
@@ -39,6 +40,8 @@ pub struct Scene {
     rules: RulesEntry,
     /// Goals and limits, if it is a mission.
     pub mission: Option<Arc<Mission>>,
+    /// What must become of it.
+    pub expect: Option<Expect>,
     /// A fingerprint of the file's text.
     pub fingerprint: u64,
 }
@@ -69,6 +72,7 @@ struct SceneFile {
     gate: Vec<Spanned<GateEntry>>,
     /// Read from the document, as its keys are those of `game.toml`.
     difficulty: Option<toml::Table>,
+    expect: Option<ExpectEntry>,
 }
 
 impl Scene {
@@ -128,6 +132,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
         disk: None,
         rules: entry.rules.clone(),
         mission: None,
+        expect: entry.expect.as_ref().map(check_expect).transpose()?,
         fingerprint: 0,
         ships,
     })
@@ -178,7 +183,7 @@ fn disk_keys(file: &Path, text: &str) -> Result<DiskKeys, Complaints> {
 pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
     let path = path(name_or_path);
     if !path.is_file() {
-        return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: names().join(", ") });
+        return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: [names(), mission_names()].concat().join(", ") });
     }
     let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
     Scene::from_toml(&path, &text).map_err(SceneError::Invalid)
@@ -187,12 +192,25 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
 /// The file that a name or path stands for, whether it exists or not.
 pub fn path(name_or_path: &str) -> PathBuf {
     let by_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-    if by_path { PathBuf::from(name_or_path) } else { scenes_folder().join(format!("{name_or_path}.toml")) }
+    if by_path {
+        return PathBuf::from(name_or_path);
+    }
+    let [scene, mission] = [scenes_folder(), missions_folder()].map(|folder| folder.join(format!("{name_or_path}.toml")));
+    if !scene.is_file() && mission.is_file() { mission } else { scene }
 }
 
 /// The names of the scenes in `assets/scenes/`, sorted.
 pub fn names() -> Vec<String> {
-    let files = std::fs::read_dir(scenes_folder()).into_iter().flatten().flatten();
+    names_in(scenes_folder())
+}
+
+/// The names of the missions in `assets/missions/`, sorted.
+pub fn mission_names() -> Vec<String> {
+    names_in(missions_folder())
+}
+
+fn names_in(folder: PathBuf) -> Vec<String> {
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let mut names: Vec<String> = files
         .map(|entry| entry.path())
         .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
@@ -204,9 +222,14 @@ pub fn names() -> Vec<String> {
 
 /// Help for an argument that takes a scene: what it is, and the names there are.
 pub fn help(what: &str) -> String {
-    format!("{what}\n\nScenes: {}", names().join(", "))
+    format!("{what}\n\nScenes: {}\n\nMissions: {}", names().join(", "), mission_names().join(", "))
 }
 
 fn scenes_folder() -> PathBuf {
     assets_folder().join("scenes")
+}
+
+/// Where the missions lie that the game comes with.
+pub fn missions_folder() -> PathBuf {
+    assets_folder().join("missions")
 }

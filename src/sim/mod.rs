@@ -5,7 +5,9 @@
 //! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
 
 pub mod assist;
+pub mod balance;
 pub mod bolts;
+pub mod check;
 pub mod clock;
 pub mod flight;
 pub mod goals;
@@ -16,6 +18,7 @@ pub mod moment;
 pub mod physics;
 pub mod pilot;
 pub mod rules;
+pub mod run;
 pub mod setup;
 pub mod ship;
 pub mod sight;

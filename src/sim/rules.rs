@@ -34,6 +34,19 @@ pub enum Outcome {
 }
 
 impl Outcome {
+    /// As `[expect]` and tables write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Outcome::Caught => "caught",
+            Outcome::HunterLost => "hunter-lost",
+            Outcome::QuarryLost => "quarry-lost",
+            Outcome::TimeOut => "time-out",
+            Outcome::Done => "done",
+            Outcome::Taken => "taken",
+            Outcome::ShipLost => "ship-lost",
+        }
+    }
+
     /// Whether the player has won.
     pub fn is_won(self) -> bool {
         matches!(self, Outcome::Caught | Outcome::Done)

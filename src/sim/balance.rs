@@ -1,0 +1,165 @@
+//! `lensrunner balance`: flies every mission on every difficulty by every crew, many times, and counts how they end.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use rayon::prelude::*;
+
+use super::check::{CommandError, outcome_name};
+use super::rules::Outcome;
+use super::run::{Report, RunRequest, run};
+use crate::scene::crew::Crew;
+use crate::scene::mission::{Difficulty, Mission};
+use crate::scene::{self, GameConfig, Scene};
+
+/// Flies missions on all difficulties by all pilots, for many seeds in parallel, and writes how they end: balance.csv, a row a flight, and
+/// balance.md.
+#[derive(clap::Args, Clone, Debug)]
+pub struct BalanceArgs {
+    /// Names or files of missions [default: all of assets/missions].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    pub missions: Vec<String>,
+    /// Flights of each.
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub seeds: u32,
+    /// The first seed.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub first: u64,
+    /// The game's configuration [default: game.toml here, else the one that the game comes with].
+    #[arg(long, value_name = "game.toml")]
+    pub config: Option<PathBuf>,
+    /// The folder for the tables.
+    #[arg(short, value_name = "DIR")]
+    pub output: PathBuf,
+}
+
+/// One flight.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Index of the mission.
+    pub mission: usize,
+    /// How hard.
+    pub difficulty: Difficulty,
+    /// Who flew.
+    pub crew: Crew,
+    /// For chance.
+    pub seed: u64,
+    /// What became of it.
+    pub report: Report,
+}
+
+/// Every difficulty and crew, in the order of the tables.
+fn pairs() -> impl Iterator<Item = (Difficulty, Crew)> {
+    Difficulty::ALL.into_iter().flat_map(|difficulty| Crew::ALL.into_iter().map(move |crew| (difficulty, crew)))
+}
+
+/// Flies them all; `done` is told of each.
+pub fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<Row> {
+    let all: Vec<_> = (0..missions.len())
+        .flat_map(|mission| pairs().map(move |(difficulty, crew)| (mission, difficulty, crew)))
+        .flat_map(|(mission, difficulty, crew)| seeds.clone().map(move |seed| (mission, difficulty, crew, seed)))
+        .collect();
+    all.into_par_iter()
+        .map(|(mission, difficulty, crew, seed)| {
+            let report = run(&missions[mission], config, &RunRequest { difficulty, crew, seed, until: None });
+            done();
+            Row { mission, difficulty, crew, seed, report }
+        })
+        .collect()
+}
+
+/// The share of wins among rows, of 1; 0 of none.
+pub fn wins<'a>(rows: impl Iterator<Item = &'a Row>) -> f64 {
+    let (won, all) = rows.fold((0u32, 0u32), |(won, all), row| (won + u32::from(row.report.outcome.is_some_and(Outcome::is_won)), all + 1));
+    f64::from(won) / f64::from(all.max(1))
+}
+
+/// Runs the command.
+pub fn run_command(args: &BalanceArgs) -> Result<(), CommandError> {
+    let config = scene::config::find(args.config.as_deref())?;
+    let names = if args.missions.is_empty() { scene::mission_names() } else { args.missions.clone() };
+    let missions = names.iter().map(|name| mission(name)).collect::<Result<Vec<_>, _>>()?;
+    std::fs::create_dir_all(&args.output).map_err(|error| named(&args.output, error))?;
+    let flights = missions.len() as u64 * 9 * u64::from(args.seeds);
+    let bar = indicatif::ProgressBar::new(flights);
+    let rows = fly_all(&missions, &config, args.first..args.first + u64::from(args.seeds), &|| bar.inc(1));
+    bar.finish_and_clear();
+    for (file, text) in [("balance.csv", csv(&missions, &rows)), ("balance.md", table(&missions, &rows, args.seeds))] {
+        let path = args.output.join(file);
+        std::fs::write(&path, text).map_err(|error| named(&path, error))?;
+    }
+    Ok(())
+}
+
+/// A scene that is a mission.
+fn mission(name: &str) -> Result<Scene, CommandError> {
+    let scene = scene::load(name)?;
+    if scene.mission.is_none() {
+        return Err(CommandError::Argument(format!("{name}: it is no mission; missions: {}", scene::mission_names().join(", "))));
+    }
+    Ok(scene)
+}
+
+fn named(path: &Path, error: std::io::Error) -> std::io::Error {
+    std::io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
+/// A row for each flight.
+fn csv(missions: &[Scene], rows: &[Row]) -> String {
+    let mut text = String::from("mission,difficulty,pilot,seed,outcome,T,tau,fuel,least_r,greatest_r,hash\n");
+    for row in rows {
+        let Report { outcome, time, proper_time, fuel, radius, hash, .. } = &row.report;
+        let (mission, outcome) = (&missions[row.mission].name, outcome_name(*outcome));
+        // Writing to a string never fails.
+        _ = writeln!(
+            text,
+            "{mission},{},{},{},{outcome},{time},{proper_time:.4},{fuel:.3},{:.3},{:.3},{hash}",
+            row.difficulty, row.crew, row.seed, radius[0], radius[1]
+        );
+    }
+    text
+}
+
+/// The table of the documents.
+fn table(missions: &[Scene], rows: &[Row], seeds: u32) -> String {
+    let mut text = format!(
+        "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
+         assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Times are medians of won flights on the mission's clock, in \
+         r_s/c.\n\nMade by `lensrunner balance --seeds {seeds} -o docs/balance`.\n\n| mission | difficulty | naive | apprentice | expert | \
+         time naive | time expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
+    );
+    for (index, scene) in missions.iter().enumerate() {
+        let Some(mission) = &scene.mission else { continue };
+        for difficulty in Difficulty::ALL {
+            let of = |crew: Crew| rows.iter().filter(move |row| row.mission == index && row.difficulty == difficulty && row.crew == crew);
+            let share = |crew: Crew| format!("{:.0} %", 100.0 * wins(of(crew)));
+            let [naive, apprentice, expert] = Crew::ALL.map(share);
+            let [slow, _, quick] = Crew::ALL.map(|crew| middle(of(crew), mission));
+            let ends = ends(rows.iter().filter(|row| row.mission == index && row.difficulty == difficulty));
+            _ = writeln!(text, "| {} | {difficulty} | {naive} | {apprentice} | {expert} | {slow} | {quick} | {ends} |", mission.title);
+        }
+    }
+    text
+}
+
+/// The median of the scores of won flights.
+fn middle<'a>(rows: impl Iterator<Item = &'a Row>, mission: &Mission) -> String {
+    let won = rows.filter(|row| row.report.outcome.is_some_and(Outcome::is_won));
+    let mut scores: Vec<f64> = won.map(|row| row.report.score(mission.clock)).collect();
+    scores.sort_by(f64::total_cmp);
+    scores.get(scores.len() / 2).map_or("–".into(), |score| format!("{score:.0}"))
+}
+
+/// How those end that are not won, the most frequent first.
+fn ends<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
+    let mut counts: Vec<(&str, u32)> = Vec::new();
+    for row in rows.filter(|row| !row.report.outcome.is_some_and(Outcome::is_won)) {
+        let name = outcome_name(row.report.outcome);
+        match counts.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((name, 1)),
+        }
+    }
+    counts.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
+    counts.iter().map(|(name, count)| format!("{name} {count}")).collect::<Vec<_>>().join(", ")
+}

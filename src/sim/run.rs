@@ -1,0 +1,167 @@
+//! One flight from beginning to end without graphics, and what became of it: what `check`, `balance` and `simulate --sweep` count.
+
+use bevy::prelude::*;
+
+use crate::scene::crew::Crew;
+use crate::scene::mission::{Difficulty, ScoreClock};
+use crate::scene::{GameConfig, Scene};
+use crate::spacetime::matter::{angular_momentum, energy};
+
+use super::hash::StateHash;
+use super::pilot::beginner::Beginner;
+use super::pilot::{Skill, Skills};
+use super::rules::Outcome;
+use super::ship::{Fleet, Fuel, Player, Ship, ShipMotion};
+use super::simulate::app_of;
+use super::{Clock, History, SimEvent, outcome};
+
+/// How well the autopilot of a crew flies.
+fn skill(crew: Crew) -> Skill {
+    match crew {
+        Crew::Naive | Crew::Expert => Skill::default(),
+        Crew::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
+    }
+}
+
+/// Puts a crew at the controls of the player's ship in a world that was just started.
+pub fn board(world: &mut World, crew: Crew) {
+    world.resource_mut::<Skills>().own = skill(crew);
+    if crew == Crew::Naive {
+        let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
+        for ship in own {
+            world.entity_mut(ship).insert(Beginner::default());
+        }
+    }
+}
+
+/// What is flown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RunRequest {
+    /// Of a mission.
+    pub difficulty: Difficulty,
+    /// At the player's ship.
+    pub crew: Crew,
+    /// For everything left to chance.
+    pub seed: u64,
+    /// T at which it ends undecided, in r_s/c; the scene's own time limit if none.
+    pub until: Option<f64>,
+}
+
+/// What became of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// How it ended; None if it was not decided.
+    pub outcome: Option<Outcome>,
+    /// T at the end, in r_s/c.
+    pub time: f64,
+    /// The proper time of the player's ship, or of the first, at the end, in r_s/c.
+    pub proper_time: f64,
+    /// What that ship has left of its Δv, in c; infinite for one without limits.
+    pub fuel: f64,
+    /// The least and the greatest radius that ship came to, in r_s.
+    pub radius: [f64; 2],
+    /// The largest change of any ship's energy and angular momentum per mass from its first value, in 1 and r_s c: 0 for what coasts, but
+    /// for rounding.
+    pub drift: [f64; 2],
+    /// Fixed steps.
+    pub steps: u64,
+    /// Of the final state of all ships, in scene order.
+    pub hash: StateHash,
+}
+
+impl Report {
+    /// What the mission scores: the time at the end on its clock, in r_s/c.
+    pub fn score(&self, clock: ScoreClock) -> f64 {
+        match clock {
+            ScoreClock::Far => self.time,
+            ScoreClock::Own => self.proper_time,
+        }
+    }
+}
+
+/// How much of the ships' histories a run keeps, in r_s/c: more than light and the longest reaction delay take within an arena.
+const KEEP: f64 = 150.0;
+
+/// Flies `scene` to its end. `config` is `game.toml`, to which the difficulty is applied.
+pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> Report {
+    let config = scene.config(config, request.difficulty);
+    let until = request.until.unwrap_or(scene.rules(&config).time_limit);
+    let mut app = app_of(scene, &config, request.seed);
+    let world = app.world_mut();
+    board(world, request.crew);
+    for mut history in world.query::<&mut History>().iter_mut(world) {
+        history.forget_beyond(KEEP);
+    }
+    fly_to_end(world, until)
+}
+
+/// Steps a started world to its end.
+pub fn fly_to_end(world: &mut World, until: f64) -> Report {
+    let own = player(world);
+    let mut watch = Watch::begin(world);
+    loop {
+        world.run_schedule(FixedUpdate);
+        watch.look(world, own);
+        world.clear_trackers();
+        world.resource_mut::<Messages<SimEvent>>().clear();
+        if outcome(world).is_some() || world.resource::<Clock>().time >= until {
+            return watch.report(world, own);
+        }
+    }
+}
+
+/// The player's ship, or the first.
+fn player(world: &mut World) -> Option<Entity> {
+    let marked = world.query_filtered::<Entity, With<Player>>().iter(world).next();
+    marked.or_else(|| world.resource::<Fleet>().0.first().copied())
+}
+
+/// What is watched during a flight.
+struct Watch {
+    radius: [f64; 2],
+    first: Vec<(f64, glam::DVec3)>,
+    drift: [f64; 2],
+}
+
+impl Watch {
+    fn begin(world: &World) -> Watch {
+        let first = states(world).map(|state| (energy(&state.0), angular_momentum(&state.0))).collect();
+        Watch { radius: [f64::INFINITY, 0.0], first, drift: [0.0; 2] }
+    }
+
+    fn look(&mut self, world: &World, own: Option<Entity>) {
+        if let Some(motion) = own.and_then(|own| world.get::<ShipMotion>(own)) {
+            let r = motion.0.position.length();
+            self.radius = [self.radius[0].min(r), self.radius[1].max(r)];
+        }
+        for (state, (e, l)) in states(world).zip(&self.first) {
+            self.drift[0] = self.drift[0].max((energy(&state.0) - e).abs());
+            self.drift[1] = self.drift[1].max(angular_momentum(&state.0).distance(*l));
+        }
+    }
+
+    fn report(&self, world: &World, own: Option<Entity>) -> Report {
+        let clock = world.resource::<Clock>();
+        let mut hash = StateHash::default();
+        for &ship in &world.resource::<Fleet>().0 {
+            if let (Some(ship), Some(motion)) = (world.get::<Ship>(ship), world.get::<ShipMotion>(ship)) {
+                hash.ship(&ship.name, &motion.0);
+            }
+        }
+        Report {
+            outcome: outcome(world).map(|(outcome, _)| outcome),
+            time: clock.time,
+            proper_time: own.and_then(|own| world.get::<ShipMotion>(own)).map_or(0.0, |motion| motion.0.proper_time),
+            fuel: own.and_then(|own| world.get::<Fuel>(own)).map_or(f64::INFINITY, |fuel| fuel.left),
+            radius: self.radius,
+            drift: self.drift,
+            steps: clock.tick,
+            hash,
+        }
+    }
+}
+
+/// The motion of all ships, in scene order.
+fn states(world: &World) -> impl Iterator<Item = &ShipMotion> {
+    world.resource::<Fleet>().0.iter().filter_map(|&ship| world.get::<ShipMotion>(ship))
+}
