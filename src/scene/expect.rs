@@ -24,8 +24,8 @@ use super::document::fault::{Fault, fault, in_range};
 use super::mission::Difficulty;
 
 /// The words for how a flight ends: `sim::Outcome` by name, and "undecided".
-pub const OUTCOMES: [&str; 8] =
-    ["caught", "hunter-lost", "quarry-lost", "time-out", "done", "taken", "ship-lost", "undecided"];
+pub const OUTCOMES: [&str; 9] =
+    ["caught", "hunter-lost", "quarry-lost", "time-out", "done", "taken", "ship-lost", "strayed", "undecided"];
 
 /// What must become of a flight. Ranges are from the least to the greatest allowed.
 #[derive(Clone, Debug, Default, PartialEq)]

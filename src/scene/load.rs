@@ -103,7 +103,7 @@ impl Scene {
         let base = Rules::from(&config.rules);
         // Checked when the scene was loaded.
         let rules = self.rules.check(base).unwrap_or(base);
-        let limit = self.mission.as_ref().map_or(rules.time_limit, |mission| mission.time_limit);
+        let limit = self.mission.as_ref().map_or(rules.time_limit, |mission| mission.time_limit.min(rules.time_limit));
         Rules { time_limit: limit, ..rules }
     }
 

@@ -8,6 +8,7 @@
 //! # or, instead of both:
 //! orbit = { radius = 5.0, inclination = 0.1, node = 0.0, phase = 0.0 }
 //! orbit = { semi_latus_rectum = 5.0, eccentricity = 0.5, anomaly = 3.14159, inclination = 0.1, node = 0.0, phase = 0.0 }
+//! scatter = { radius = 0.5, phase = 0.4, tilt = 0.1 }  # by chance it starts so much farther in or out (r_s), on or back (rad), tilted (rad)
 //! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
 //! ai = "none"                      # or "flee", "pursue"
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
@@ -76,6 +77,19 @@ pub struct Burn {
     pub acceleration: DVec3,
 }
 
+/// How much a start may differ from the scene's by chance: each evenly from −1 to 1 times this.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scatter {
+    /// Distance from the hole, in r_s. An orbit keeps its shape.
+    pub radius: f64,
+    /// Angle round the hole's z axis, in radians.
+    pub phase: f64,
+    /// Angle by which the orbit's plane is tilted about the line to the hole, in radians.
+    pub tilt: f64,
+    /// The orbit that is changed; None for a start by position and momentum.
+    elements: Option<Elements>,
+}
+
 /// A ship as a scene describes it, checked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShipSpec {
@@ -83,6 +97,8 @@ pub struct ShipSpec {
     pub name: String,
     /// Its state at T = 0.
     pub state: ShipState,
+    /// How much that differs by chance.
+    pub scatter: Option<Scatter>,
     /// Who flies it.
     pub ai: Ai,
     /// Whom its AI flees or pursues; the first other ship if none.
@@ -107,6 +123,7 @@ impl ShipSpec {
         ShipSpec {
             name: name.into(),
             state,
+            scatter: None,
             ai: Ai::None,
             target: None,
             sees: Sees::Now,
@@ -129,6 +146,7 @@ pub struct ShipEntry {
     #[serde(default, deserialize_with = "exactly_or_none")]
     momentum: Option<Spanned<[f64; 3]>>,
     orbit: Option<Spanned<OrbitEntry>>,
+    scatter: Option<Spanned<ScatterEntry>>,
     #[serde(default, deserialize_with = "exactly_or_none")]
     attitude: Option<Spanned<[f64; 4]>>,
     #[serde(default)]
@@ -154,6 +172,14 @@ struct OrbitEntry {
     inclination: Option<Spanned<f64>>,
     node: Option<Spanned<f64>>,
     phase: Option<Spanned<f64>>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct ScatterEntry {
+    radius: Option<Spanned<f64>>,
+    phase: Option<Spanned<f64>>,
+    tilt: Option<Spanned<f64>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -212,9 +238,11 @@ pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
         state.attitude = DQuat::from_xyzw(x, y, z, w) * (1.0 / attitude_length);
     }
     let programme = programme(entry)?;
+    let scatter = entry.scatter.as_ref().map(|scatter| check_scatter(scatter, entry, &state)).transpose()?;
     Ok(ShipSpec {
         name: name.clone(),
         state,
+        scatter,
         ai: entry.ai,
         target: entry.target.as_ref().map(|target| target.get_ref().clone()),
         sees: entry.sees,
@@ -255,6 +283,10 @@ fn start(entry: &ShipEntry, whole: Range<usize>) -> Result<ShipState, Fault> {
 }
 
 fn start_on_orbit(orbit: &Spanned<OrbitEntry>) -> Result<ShipState, Fault> {
+    elements(orbit)?.state().or_else(|error: OrbitError| fault(orbit, format!("orbit: {error}")))
+}
+
+fn elements(orbit: &Spanned<OrbitEntry>) -> Result<Elements, Fault> {
     let keys = orbit.get_ref();
     let angle = |value: &Option<Spanned<f64>>, key| optional(value, key, -1e6..=1e6, "rad").map(Option::unwrap_or_default);
     let (semi_latus_rectum, eccentricity, anomaly) = match (&keys.radius, &keys.semi_latus_rectum, &keys.eccentricity, &keys.anomaly) {
@@ -268,16 +300,54 @@ fn start_on_orbit(orbit: &Spanned<OrbitEntry>) -> Result<ShipState, Fault> {
             return fault(orbit, "orbit needs either radius, or semi_latus_rectum with eccentricity and anomaly (and not both)".into());
         }
     };
-    let elements = Elements {
+    Ok(Elements {
         semi_latus_rectum,
         eccentricity,
         inclination: optional(&keys.inclination, "inclination", 0.0..=PI, "rad")?.unwrap_or_default(),
         node: angle(&keys.node, "node")?,
         phase: angle(&keys.phase, "phase")?,
         anomaly,
-    };
-    elements.state().or_else(|error: OrbitError| fault(orbit, format!("orbit: {error}")))
+    })
 }
+
+fn check_scatter(written: &Spanned<ScatterEntry>, ship: &ShipEntry, state: &ShipState) -> Result<Scatter, Fault> {
+    let keys = written.get_ref();
+    let scatter = Scatter {
+        radius: optional(&keys.radius, "radius", 0.0..=MAX_START_RADIUS, "r_s")?.unwrap_or_default(),
+        phase: optional(&keys.phase, "phase", 0.0..=PI, "rad")?.unwrap_or_default(),
+        tilt: optional(&keys.tilt, "tilt", 0.0..=PI, "rad")?.unwrap_or_default(),
+        elements: ship.orbit.as_ref().map(elements).transpose()?,
+    };
+    // The nearest start to the hole is the one that may fail.
+    match scatter.apply(state, [-1.0, 0.0, 0.0]) {
+        Some(_) => Ok(scatter),
+        None => fault(written, format!("scatter.radius = {} leads to starts that there are not: too near to the hole", scatter.radius)),
+    }
+}
+
+impl Scatter {
+    /// The start `state` changed by `shares`, each from −1 to 1, of radius, phase and tilt; None if there is no such start.
+    pub fn apply(&self, state: &ShipState, shares: [f64; 3]) -> Option<ShipState> {
+        let farther = self.radius * shares[0];
+        let placed = match self.elements {
+            Some(elements) => Elements { semi_latus_rectum: elements.semi_latus_rectum + farther, ..elements }.state().ok()?,
+            None => {
+                let r = state.position.length();
+                let farther = state.position * ((r + farther) / r);
+                (r + self.radius * shares[0] > SINGULARITY_RADIUS).then(|| ShipState::new(farther, state.momentum))?
+            }
+        };
+        let turn = DQuat::from_axis_angle(placed.position.normalize(), self.tilt * shares[2]);
+        let turn = DQuat::from_rotation_z(self.phase * shares[1]) * turn;
+        Some(ShipState {
+            position: turn * placed.position,
+            momentum: turn * placed.momentum,
+            attitude: turn * state.attitude,
+            ..*state
+        })
+    }
+}
+
 
 fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
     let Some(burns) = &entry.thrust else { return Ok(Vec::new()) };

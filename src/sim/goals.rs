@@ -68,11 +68,14 @@ pub fn needed(task: &Task, mission: &Mission, rules: &ChaseRules) -> f64 {
         Task::Coast { span } | Task::Look { span, .. } | Task::Reach { span, .. } => span,
         Task::Hold { span, .. } => if span.is_nan() { rules.0.hold_time } else { span },
         Task::Hit { times, .. } => f64::from(times),
-        Task::Survive { until } => until,
+        Task::Survive { until, .. } => until,
         Task::Gates => mission.gates.len() as f64,
         Task::Whirl { turns, .. } => turns,
     }
 }
+
+/// A ship coasts with less than this share of its engine's thrust.
+const COASTING: f64 = 0.05;
 
 /// Judges missions.
 pub struct GoalsPlugin;
@@ -161,9 +164,13 @@ impl Step<'_, '_, '_, '_> {
         let gone = goal.task.ship().is_some_and(|ship| self.is_lost(ship) && !mission.inside);
         let late = self.clock.time >= self.rules.0.time_limit.min(goal.before) - 1e-9;
         // Who is to survive until the limit has done so when it comes.
-        let surviving = matches!(goal.task, Task::Survive { until } if self.clock.time >= until);
+        let surviving = matches!(goal.task, Task::Survive { until, .. } if self.clock.time >= until);
+        let r = own.0.position.length();
+        let strayed = matches!(goal.task, Task::Survive { least, most, .. } if !(least..=most).contains(&r));
         if gone {
             Some(Outcome::QuarryLost)
+        } else if strayed {
+            Some(Outcome::Strayed)
         } else if (late && !surviving) || own.0.proper_time > mission.proper_limit {
             Some(Outcome::TimeOut)
         } else {
@@ -181,7 +188,8 @@ impl Step<'_, '_, '_, '_> {
             Task::Burn { .. } if before.fuel.is_finite() => so_far + (before.fuel - fuel.left).max(0.0),
             Task::Burn { .. } => so_far + engine.limit(&controls.0).thrust.length() * self.clock.step,
             Task::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
-            Task::Coast { .. } => lasts(controls.0.thrust == DVec3::ZERO),
+            // The assist goes on with a little, as drift fades.
+            Task::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),
             Task::Look { ship, angle, .. } => lasts(self.hands.looking || self.is_ahead(&own, ship, angle)),
             Task::Reach { least, most, .. } => lasts((least..=most).contains(&r)),
             Task::Hold { ship, distance, .. } => {

@@ -31,6 +31,8 @@ pub enum Outcome {
     Taken,
     /// The player's ship is lost.
     ShipLost,
+    /// The player's ship has left where it was to stay.
+    Strayed,
 }
 
 impl Outcome {
@@ -44,6 +46,7 @@ impl Outcome {
             Outcome::Done => "done",
             Outcome::Taken => "taken",
             Outcome::ShipLost => "ship-lost",
+            Outcome::Strayed => "strayed",
         }
     }
 
@@ -63,6 +66,7 @@ impl std::fmt::Display for Outcome {
             Outcome::Done => "the mission is done",
             Outcome::Taken => "the ship is caught",
             Outcome::ShipLost => "the ship is lost",
+            Outcome::Strayed => "the ship strayed too far",
         })
     }
 }

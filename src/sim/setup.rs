@@ -1,6 +1,7 @@
 //! From a scene and `game.toml` to a world at T = 0.
 
 use bevy::prelude::*;
+use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
@@ -27,20 +28,35 @@ pub fn start(world: &mut World, scene: &Scene, config: &GameConfig, seed: u64) {
     world.insert_resource(Bolts::default());
     world.remove_resource::<Progress>();
     world.remove_resource::<ActiveMission>();
-    muster(world, &scene.ships, &defaults(config), 0.0);
+    muster(world, &scattered(&scene.ships, seed), &defaults(config), 0.0);
     begin_chase(world);
     if scene.mission.is_some() {
-        begin_mission(world, scene);
+        begin_mission(world, scene, config.ship.bolts);
     }
 }
 
+/// The ships, each where chance lets it start.
+fn scattered(specs: &[ShipSpec], seed: u64) -> Vec<ShipSpec> {
+    // Of its own, so that who starts where does not change what pilots draw.
+    let mut chance = StdRng::seed_from_u64(seed ^ SCATTER);
+    let one = |spec: &ShipSpec| {
+        let shares = [(); 3].map(|()| chance.random_range(-1.0..=1.0));
+        let state = spec.scatter.and_then(|scatter| scatter.apply(&spec.state, shares)).unwrap_or(spec.state);
+        ShipSpec { state, ..spec.clone() }
+    };
+    specs.iter().map(one).collect()
+}
+
+/// Keeps the chance of starts apart from that of pilots: any number does.
+const SCATTER: u64 = 0x5ca7_7e12;
+
 /// Arms the player's ship and puts the mission at its first goal.
-fn begin_mission(world: &mut World, scene: &Scene) {
+fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
     let Some(mission) = scene.mission.clone() else { return };
     let Some(own) = scene.ships.iter().position(|ship| ship.player).map(|index| world.resource::<Fleet>().0[index]) else { return };
     let (Some(&motion), Some(&fuel)) = (world.get::<ShipMotion>(own), world.get::<Fuel>(own)) else { return };
     let mut ship = world.entity_mut(own);
-    ship.insert((Gun { left: mission.bolts, ready: 0.0 }, Trigger::default()));
+    ship.insert((Gun { left: bolts, ready: 0.0 }, Trigger::default()));
     if !ship.contains::<Pilot>() {
         ship.insert((Pilot { order: Order::Rest, sees: Default::default() }, Mind::default()));
     }

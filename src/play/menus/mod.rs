@@ -284,6 +284,7 @@ fn headline(outcome: Outcome) -> (&'static str, Color32) {
         Outcome::TimeOut => ("TOO LATE", WARM),
         Outcome::Done => ("DONE", Color32::from_rgb(150, 240, 150)),
         Outcome::Taken => ("CAUGHT", Color32::from_rgb(255, 96, 80)),
+        Outcome::Strayed => ("TOO FAR", WARM),
         Outcome::ShipLost => ("LOST", Color32::from_rgb(255, 96, 80)),
     }
 }

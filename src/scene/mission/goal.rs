@@ -5,12 +5,12 @@
 //! kind = "hold"          # what is to be done, with its own keys:
 //! #   "burn"     amount (Δv in c): use the engine
 //! #   "turn"     angle (radians): turn the ship
-//! #   "coast"    for (r_s/c of T): fly without thrust
+//! #   "coast"    for (r_s/c of T): fly with less than a twentieth of the thrust
 //! #   "look"     ship, angle (radians, 0.2 if absent), for: have its image ahead, or look at it
 //! #   "reach"    radius = [least, most] (r_s), for (0 if absent): be between two radii
 //! #   "hold"     ship, distance (r_s), for (r_s/c of T): stay near a ship; absent: as [rules] say
 //! #   "hit"      ship, times (1 if absent): hit it with bolts
-//! #   "survive"  until (T in r_s/c): still be there
+//! #   "survive"  until (T in r_s/c), radius = [least, most] (any if absent): still be there, and never out of these radii
 //! #   "gates"    fly through every [[gate]] in order
 //! #   "whirl"    turns, radius = [least, most]: go round the hole so often between two radii
 //! text = "Stay with the quarry"   # what the HUD says
@@ -97,6 +97,10 @@ pub enum Task {
     Survive {
         /// T.
         until: f64,
+        /// The lower radius.
+        least: f64,
+        /// The upper: beyond it the mission is lost.
+        most: f64,
     },
     /// Fly through all gates in order.
     Gates,
@@ -147,7 +151,7 @@ impl Kind {
             Kind::Reach => (&["radius"], &["for"]),
             Kind::Hold => (&["ship"], &["distance", "for"]),
             Kind::Hit => (&["ship"], &["times"]),
-            Kind::Survive => (&["until"], &[]),
+            Kind::Survive => (&["until"], &["radius"]),
             Kind::Gates => (&[], &[]),
             Kind::Whirl => (&["turns", "radius"], &[]),
         }
@@ -248,7 +252,10 @@ impl GoalEntry {
                 Task::Hold { ship: ship()?, distance, span: span(f64::NAN)? }
             }
             Kind::Hit => Task::Hit { ship: ship()?, times: self.times()? },
-            Kind::Survive => Task::Survive { until: number(&self.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)? },
+            Kind::Survive => {
+                let [least, most] = self.radii()?;
+                Task::Survive { until: number(&self.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)?, least, most }
+            }
             Kind::Gates => Task::Gates,
             Kind::Whirl => {
                 let [least, most] = self.radii()?;

@@ -6,12 +6,11 @@
 //! idea = "A lower orbit is a faster one."      # what the mission rests on, in one sentence
 //! brief = "…"                                  # what the player reads before it begins
 //! clock = "T"                                  # what is scored: "T", the far clock, or "tau", the player's own
-//! time_limit = 200.0                           # T in r_s/c: later it is lost
+//! time_limit = 200.0                           # T in r_s/c: later it is lost (or than rules.time_limit, if that is sooner)
 //! proper_limit = 50.0                          # the player's own time in r_s/c: later it is lost; no limit if absent
 //! inside = false                               # whether the player's ship may cross the horizon
 //! caught_by = ["hunter"]                       # ships that win by holding the player's ship as [rules] say
 //! now_marker = true                            # whether the HUD shows where the target is at this moment
-//! bolts = 0                                    # how many bolts the player's ship may fire
 //!
 //! [[goal]]                                     # one after the other, see `goal`
 //! kind = "hold"
@@ -25,6 +24,7 @@
 //! [difficulty.easy]                            # also normal and hard: keys of game.toml that are otherwise than there
 //! stars = [60.0, 100.0]                        # at most so long on the mission's clock for three stars and for two
 //! enemy.thrust = 0.03
+//! ship.bolts = 12
 //! ```
 
 mod difficulty;
@@ -34,6 +34,7 @@ mod goal;
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::config::GameConfig;
 use super::document::fault::{Fault, fault, in_range};
 use super::ship::ShipSpec;
 
@@ -62,14 +63,21 @@ pub struct Mission {
     pub caught_by: Vec<usize>,
     /// The HUD shows where the target is at this moment.
     pub now_marker: bool,
-    /// How many bolts the player's ship may fire.
-    pub bolts: u32,
     /// What is to be done, one after the other.
     pub goals: Vec<Goal>,
     /// What is to be flown through, one after the other.
     pub gates: Vec<Gate>,
     /// What is otherwise on each difficulty, in the order of [`Difficulty::ALL`].
     pub levels: [Level; 3],
+}
+
+impl Mission {
+    /// How many bolts the player's ship may fire on a difficulty, if `game.toml` does not say.
+    fn bolts_on(&self, difficulty: Difficulty) -> u32 {
+        let mut config = GameConfig::default();
+        self.levels[difficulty as usize].apply(&mut config);
+        config.ship.bolts
+    }
 }
 
 /// The clock that a mission's score is read from.
@@ -101,8 +109,6 @@ pub struct MissionEntry {
     caught_by: Vec<Spanned<String>>,
     #[serde(default = "yes")]
     now_marker: bool,
-    #[serde(default)]
-    bolts: u32,
 }
 
 fn yes() -> bool {
@@ -146,7 +152,6 @@ pub fn check_mission(
         inside: entry.inside,
         caught_by: entry.caught_by.iter().map(|name| ship_named(name, ships)).collect::<Result<_, _>>()?,
         now_marker: entry.now_marker,
-        bolts: entry.bolts,
         goals: goals.iter().map(|goal| goal.get_ref().check(ships)).collect::<Result<_, _>>()?,
         gates: gates.iter().map(|gate| gate.get_ref().check()).collect::<Result<_, _>>()?,
         levels,
@@ -166,10 +171,13 @@ fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
         if value > limit { Err(format!("{key} = {value} is later than the mission's {of} = {limit}: it cannot be reached")) } else { Ok(()) }
     };
     match goal.task {
-        Task::Survive { until } => late(until, mission.time_limit, "until", "time_limit")?,
+        Task::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,
         Task::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
-        Task::Hit { times, .. } if mission.bolts < times => {
-            return Err(format!("times = {times} needs as many bolts; the mission has bolts = {}", mission.bolts));
+        Task::Hit { times, .. } => {
+            if let Some(difficulty) = Difficulty::ALL.into_iter().find(|&difficulty| mission.bolts_on(difficulty) < times) {
+                let bolts = mission.bolts_on(difficulty);
+                return Err(format!("times = {times} needs as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}"));
+            }
         }
         Task::Reach { most, .. } if most < 1.0 && !mission.inside => {
             return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));

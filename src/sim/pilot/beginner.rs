@@ -33,6 +33,9 @@ const ON_MARK: f64 = 0.35;
 /// A beginner fires within this angle, in radians.
 const FIRES: f64 = 0.03;
 
+/// Farther out than this, in r_s, one who flees does not go on outward.
+const OUT: f64 = 8.0;
+
 type Flown<'a> = (&'a Pilot, &'a mut Beginner, &'a mut Controls, &'a ShipMotion, &'a Engine, Option<&'a mut Trigger>);
 
 /// Sets the controls of every beginner's ship.
@@ -87,6 +90,11 @@ fn mark(state: &ShipState, time: f64, order: Order, other: Option<&History>, mar
     match order {
         Order::Catch(_) | Order::Hit(_) if marked_now => true_direction(&eye, other?.at(time).position),
         Order::Catch(_) | Order::Hit(_) | Order::Face(_) => Some(apparition(&eye, time, other?, ImageOrder::ALL[0])?.direction),
+        // Too far out there is no help: along the way it goes already.
+        Order::Escape(_) if position.length() > OUT => {
+            let outward = position / position.length();
+            Some(to_body * momentum.reject_from(outward).try_normalize()?)
+        }
         Order::Escape(_) => true_direction(&eye, other?.at(time).position).map(|there| -there),
         Order::Pass(place) => true_direction(&eye, place),
         // Outward or inward, along the line from the hole.

@@ -21,6 +21,9 @@ fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> Order {
     let ship = |index: usize| fleet.0.get(index).copied();
     let pursuer = mission.caught_by.first().and_then(|&index| ship(index));
     let Some(goal) = mission.goals.get(progress.goal) else { return Order::Rest };
+    // Below the horizon one comes by falling: what is to be done then is begun before.
+    let falls = matches!(goal.task, Task::Reach { most, .. } if most <= 1.0);
+    let goal = if falls { mission.goals.get(progress.goal + 1).unwrap_or(goal) } else { goal };
     let order = match goal.task {
         Task::Burn { .. } => Some(Order::Keep(BURN_TO)),
         Task::Turn { .. } => Some(Order::Turn),
