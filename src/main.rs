@@ -9,8 +9,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::judge::case;
 use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
-use lensrunner::scene;
+use lensrunner::scene::crew::Crew;
+use lensrunner::scene::{self, Difficulty};
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::sim::replay::{Replay, ReplayError};
+use lensrunner::sim::run::{RunRequest, record};
 use lensrunner::sim::{balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 
@@ -118,8 +121,20 @@ struct TraceArgs {
 #[derive(Args)]
 struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
-    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
-    scene: String,
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."), required_unless_present = "replay")]
+    scene: Option<String>,
+    /// Flies a replay again instead, and says whether it comes to the same end.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "until", "every", "seed", "output"])]
+    replay: Option<PathBuf>,
+    /// Of a mission: easy, normal or hard.
+    #[arg(long, value_name = "LEVEL", default_value_t)]
+    difficulty: Difficulty,
+    /// Who flies the player's ship: naive, apprentice or expert.
+    #[arg(long, value_name = "NAME", default_value_t)]
+    pilot: Crew,
+    /// Writes the flight as a replay.
+    #[arg(long, value_name = "FILE", conflicts_with = "replay")]
+    save_replay: Option<PathBuf>,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -272,6 +287,9 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
 }
 
 fn run_simulate(args: &SimulateArgs) -> ExitCode {
+    if let Some(path) = &args.replay {
+        return run_replay(path, args.config.as_deref());
+    }
     match simulate_scene(args) {
         Ok(()) => ExitCode::SUCCESS,
         Err(SimulateError::Io(error)) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
@@ -282,12 +300,35 @@ fn run_simulate(args: &SimulateArgs) -> ExitCode {
 
 fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     let config = scene::config::find(args.config.as_deref())?;
-    let scene = scene::load(&args.scene)?;
-    let request = simulate::SimulateRequest { until: args.until, every: args.every, seed: args.seed };
-    request.check(&scene, &config)?;
+    let scene = scene::load(args.scene.as_deref().unwrap_or_default())?;
+    let SimulateArgs { until, every, seed, difficulty, pilot: crew, .. } = *args;
+    let request = simulate::SimulateRequest { until, every, seed, crew };
+    let levelled = scene.config(&config, difficulty);
+    request.check(&scene, &levelled)?;
+    if let Some(path) = &args.save_replay {
+        let (report, replay) = record(&scene, &config, &RunRequest { difficulty, crew, seed, until });
+        write!(output(Some(path))?, "{}", replay.to_text())?;
+        eprintln!("{}: {} at T = {}", path.display(), replay.outcome, report.time);
+        return Ok(());
+    }
     let mut out = output(args.output.as_ref())?;
-    simulate::simulate(&scene, &config, &request, &mut out, &mut io::stderr())?;
+    simulate::simulate(&scene, &levelled, &request, &mut out, &mut io::stderr())?;
     Ok(())
+}
+
+fn run_replay(path: &Path, config: Option<&Path>) -> ExitCode {
+    let config = match scene::config::find(config) {
+        Ok(config) => config,
+        Err(error) => return fail(&error, 2),
+    };
+    match Replay::load(path).and_then(|replay| replay.verify(path, &config).map(|report| (replay, report))) {
+        Ok((replay, report)) => {
+            eprintln!("{}: {} at T = {}, state {}, as it was", replay.scene, replay.outcome, report.time, replay.hash);
+            ExitCode::SUCCESS
+        }
+        Err(error @ ReplayError::Differs { .. }) => fail(&error, 1),
+        Err(error) => fail(&error, 2),
+    }
 }
 
 fn run_project(args: &ProjectArgs) -> ExitCode {

@@ -17,6 +17,7 @@ pub mod history;
 pub mod moment;
 pub mod physics;
 pub mod pilot;
+pub mod replay;
 pub mod rules;
 pub mod run;
 pub mod setup;
@@ -35,6 +36,7 @@ pub use hands::{Hands, HandsPlugin};
 pub use history::{History, Sample};
 pub use moment::Moment;
 pub use physics::ShipPhysicsPlugin;
+pub use replay::PlaybackPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
 pub use setup::{outcome, start};
@@ -157,5 +159,6 @@ impl PluginGroup for SimulationPlugins {
             .add(BoltsPlugin)
             .add(ChaseRulesPlugin)
             .add(GoalsPlugin)
+            .add(PlaybackPlugin)
     }
 }

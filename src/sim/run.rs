@@ -10,6 +10,7 @@ use crate::spacetime::matter::{angular_momentum, energy};
 use super::hash::StateHash;
 use super::pilot::beginner::Beginner;
 use super::pilot::{Skill, Skills};
+use super::replay::{Recording, Replay};
 use super::rules::Outcome;
 use super::ship::{Fleet, Fuel, Player, Ship, ShipMotion};
 use super::simulate::app_of;
@@ -95,6 +96,20 @@ pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> Report {
     fly_to_end(world, until)
 }
 
+/// As [`run`], and the flight as a replay.
+pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Report, Replay) {
+    let begun = Replay::begin(scene, config, request.difficulty, request.crew, request.seed);
+    let config = scene.config(config, request.difficulty);
+    let until = request.until.unwrap_or(scene.rules(&config).time_limit);
+    let mut app = app_of(scene, &config, request.seed);
+    app.insert_resource(Recording(begun.clone()));
+    board(app.world_mut(), request.crew);
+    let report = fly_to_end(app.world_mut(), until);
+    let mut replay = app.world_mut().remove_resource::<Recording>().map_or(begun, |recording| recording.0);
+    replay.finish(app.world());
+    (report, replay)
+}
+
 /// Steps a started world to its end.
 pub fn fly_to_end(world: &mut World, until: f64) -> Report {
     let own = player(world);
@@ -142,12 +157,6 @@ impl Watch {
 
     fn report(&self, world: &World, own: Option<Entity>) -> Report {
         let clock = world.resource::<Clock>();
-        let mut hash = StateHash::default();
-        for &ship in &world.resource::<Fleet>().0 {
-            if let (Some(ship), Some(motion)) = (world.get::<Ship>(ship), world.get::<ShipMotion>(ship)) {
-                hash.ship(&ship.name, &motion.0);
-            }
-        }
         Report {
             outcome: outcome(world).map(|(outcome, _)| outcome),
             time: clock.time,
@@ -156,7 +165,7 @@ impl Watch {
             radius: self.radius,
             drift: self.drift,
             steps: clock.tick,
-            hash,
+            hash: state_hash(world),
         }
     }
 }
@@ -164,4 +173,15 @@ impl Watch {
 /// The motion of all ships, in scene order.
 fn states(world: &World) -> impl Iterator<Item = &ShipMotion> {
     world.resource::<Fleet>().0.iter().filter_map(|&ship| world.get::<ShipMotion>(ship))
+}
+
+/// A fingerprint of all ships, in scene order.
+pub fn state_hash(world: &World) -> StateHash {
+    let mut hash = StateHash::default();
+    for &ship in &world.resource::<Fleet>().0 {
+        if let (Some(ship), Some(motion)) = (world.get::<Ship>(ship), world.get::<ShipMotion>(ship)) {
+            hash.ship(&ship.name, &motion.0);
+        }
+    }
+    hash
 }

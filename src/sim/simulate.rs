@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::time::Instant;
 
+use crate::scene::crew::Crew;
 use crate::scene::ship::Ai;
 use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
@@ -11,6 +12,7 @@ use bevy::prelude::*;
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
+use super::run::board;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
 use super::{Clock, History, SimEvent, SimulationPlugins, outcome, start};
 
@@ -36,11 +38,13 @@ pub struct SimulateRequest {
     pub every: f64,
     /// For everything that is left to chance.
     pub seed: u64,
+    /// At the player's ship.
+    pub crew: Crew,
 }
 
 impl Default for SimulateRequest {
     fn default() -> Self {
-        SimulateRequest { until: None, every: DEFAULT_EVERY, seed: 0 }
+        SimulateRequest { until: None, every: DEFAULT_EVERY, seed: 0, crew: Crew::Expert }
     }
 }
 
@@ -114,6 +118,7 @@ pub fn simulate(
 ) -> Result<Summary, SimulateError> {
     let mut until = request.check(scene, config)?;
     let mut app = app_of(scene, config, request.seed);
+    board(app.world_mut(), request.crew);
     for mut history in app.world_mut().query::<&mut History>().iter_mut(app.world_mut()) {
         history.forget_beyond(KEEP);
     }

@@ -1,0 +1,511 @@
+//! Replays: a flight as the list of what the player's hands did, from which it is flown again to the same bits.
+//!
+//! A replay is a TOML file. Its `log` holds the records, packed (column by column, differences, DEFLATE, Base64); `check` is the CRC-32 of
+//! all lines before it. The same version of the program on the same kind of machine flies it to the same end; others may round another way.
+
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::*;
+use data_encoding::BASE64;
+use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
+use serde::{Deserialize, Serialize};
+
+use super::hands::{Hands, choose_pilot};
+use super::run::{Report, board, fly_to_end, state_hash};
+use super::simulate::app_of;
+use super::{Clock, SimSet, outcome};
+use crate::scene::config::{self, Value};
+use crate::scene::crew::Crew;
+use crate::scene::mission::Difficulty;
+use crate::scene::{self, GameConfig, Scene, SceneError};
+
+/// The version of the format.
+const FORMAT: u32 = 1;
+/// The most bytes of a file, and of its records unpacked: hours of flight.
+const MOST_BYTES: u64 = 16 << 20;
+/// The sections of `game.toml` that a flight depends on.
+const SECTIONS: [&str; 5] = ["clock", "ship", "enemy", "assist", "rules"];
+
+/// What the hands did from a step on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Record {
+    /// The step, counted from 0.
+    pub tick: u64,
+    /// From then on.
+    pub hands: Hands,
+}
+
+/// A flight, ready to be flown again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replay {
+    /// Name of the scene or mission.
+    pub scene: String,
+    /// [`Scene::fingerprint`] of its file.
+    pub fingerprint: u64,
+    /// Of the mission.
+    pub difficulty: Difficulty,
+    /// Who flies while the autopilot does.
+    pub crew: Crew,
+    /// For everything left to chance.
+    pub seed: u64,
+    /// The settings that the flight depends on, before the difficulty: dotted keys and values.
+    pub settings: Vec<(String, Value)>,
+    /// What the hands did.
+    pub records: Vec<Record>,
+    /// Steps flown.
+    pub ticks: u64,
+    /// [`super::Outcome::name`], or "undecided".
+    pub outcome: String,
+    /// Of the end state.
+    pub hash: String,
+}
+
+/// Why a replay cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ReplayError {
+    /// The file cannot be read.
+    #[error("{path}: {source}")]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// It is no replay, or damaged.
+    #[error("{path}: {problem}")]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Its scene is wrong or not there.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// Its scene is another one now.
+    #[error("{path}: {scene} was another file when this was flown")]
+    OtherScene {
+        /// The replay.
+        path: PathBuf,
+        /// The scene.
+        scene: String,
+    },
+    /// It was flown to another end.
+    #[error("{path}: flown again it ends in the state {found}, not {expected}")]
+    Differs {
+        /// The replay.
+        path: PathBuf,
+        /// What came.
+        found: String,
+        /// What it says.
+        expected: String,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ReplayFile {
+    replay: u32,
+    version: String,
+    scene: String,
+    fingerprint: String,
+    difficulty: String,
+    pilot: String,
+    seed: u64,
+    ticks: u64,
+    outcome: String,
+    hash: String,
+    settings: toml::Table,
+    log: String,
+    check: String,
+}
+
+impl Replay {
+    /// A flight that begins now: nothing is recorded yet.
+    pub fn begin(scene: &Scene, config: &GameConfig, difficulty: Difficulty, crew: Crew, seed: u64) -> Replay {
+        let settings = config::settings().iter().filter(|setting| SECTIONS.contains(&setting.section));
+        Replay {
+            scene: scene.name.clone(),
+            fingerprint: scene.fingerprint,
+            difficulty,
+            crew,
+            seed,
+            settings: settings.map(|setting| (setting.path(), setting.get(config))).collect(),
+            records: Vec::new(),
+            ticks: 0,
+            outcome: "undecided".into(),
+            hash: String::new(),
+        }
+    }
+
+    /// `game.toml` as it was flown by, but for the difficulty; what the flight does not depend on is as in `config`.
+    pub fn config(&self, config: &GameConfig) -> GameConfig {
+        let mut config = config.clone();
+        for (path, value) in &self.settings {
+            if let Some(setting) = config::setting(path) {
+                // Checked as it was read.
+                let _ = setting.set(&mut config, value.clone());
+            }
+        }
+        config
+    }
+
+    /// Its text.
+    pub fn to_text(&self) -> String {
+        let value = |value: &Value| match value.clone() {
+            Value::Number(number) => toml::Value::Float(number),
+            Value::Integer(number) => toml::Value::Integer(number.into()),
+            Value::Switch(on) => toml::Value::Boolean(on),
+            Value::Word(word) => toml::Value::String(word),
+        };
+        let quoted = |word: &str| toml::Value::String(word.to_owned()).to_string();
+        let mut text = format!(
+            "replay = {FORMAT}\nversion = {}\nscene = {}\nfingerprint = \"{:016x}\"\ndifficulty = \"{}\"\npilot = \"{}\"\nseed = {}\nticks = {}\n\
+             outcome = {}\nhash = {}\nsettings = {{ ",
+            quoted(env!("CARGO_PKG_VERSION")),
+            quoted(&self.scene),
+            self.fingerprint,
+            self.difficulty,
+            self.crew,
+            self.seed,
+            self.ticks,
+            quoted(&self.outcome),
+            quoted(&self.hash),
+        );
+        let settings: Vec<String> = self.settings.iter().map(|(path, found)| format!("\"{path}\" = {}", value(found))).collect();
+        text += &settings.join(", ");
+        text += &format!(" }}\nlog = \"{}\"\n", BASE64.encode(&pack(&self.records)));
+        let check = crc32fast::hash(text.as_bytes());
+        text + &format!("check = \"{check:08x}\"\n")
+    }
+
+    /// Reads the text of a replay; `path` is only named in complaints.
+    pub fn from_text(path: &Path, text: &str) -> Result<Replay, ReplayError> {
+        let damaged = |problem: String| ReplayError::Damaged { path: path.to_path_buf(), problem };
+        let file: ReplayFile = toml::from_str(text).map_err(|_| damaged("it is no replay, or damaged".into()))?;
+        if file.replay != FORMAT || file.version != env!("CARGO_PKG_VERSION") {
+            let made = format!("it was made by version {} (format {}), this is {} ({FORMAT})", file.version, file.replay, env!("CARGO_PKG_VERSION"));
+            return Err(damaged(made));
+        }
+        let before = text.find("check = ").map_or(text, |end| &text[..end]);
+        if file.check != format!("{:08x}", crc32fast::hash(before.as_bytes())) {
+            return Err(damaged("it is damaged: its checksum is another one".into()));
+        }
+        let log = BASE64.decode(file.log.as_bytes()).map_err(|_| damaged("its log is damaged".into()))?;
+        Ok(Replay {
+            scene: file.scene,
+            fingerprint: u64::from_str_radix(&file.fingerprint, 16).map_err(|_| damaged("its fingerprint is damaged".into()))?,
+            difficulty: file.difficulty.parse().map_err(damaged)?,
+            crew: file.pilot.parse().map_err(damaged)?,
+            seed: file.seed,
+            settings: settings(file.settings).map_err(damaged)?,
+            records: unpack(&log).ok_or_else(|| damaged("its log is damaged".into()))?,
+            ticks: file.ticks,
+            outcome: file.outcome,
+            hash: file.hash,
+        })
+    }
+
+    /// Reads a file.
+    pub fn load(path: &Path) -> Result<Replay, ReplayError> {
+        let read = |source| ReplayError::Read { path: path.to_path_buf(), source };
+        let mut text = String::new();
+        let file = std::fs::File::open(path).map_err(read)?;
+        file.take(MOST_BYTES).read_to_string(&mut text).map_err(read)?;
+        Replay::from_text(path, &text)
+    }
+
+    /// Its scene, if that is still the same file.
+    pub fn scene(&self, path: &Path) -> Result<Scene, ReplayError> {
+        let scene = scene::load(&self.scene)?;
+        if scene.fingerprint == self.fingerprint {
+            Ok(scene)
+        } else {
+            Err(ReplayError::OtherScene { path: path.to_path_buf(), scene: self.scene.clone() })
+        }
+    }
+
+    /// An app in which it is flown again: run `FixedUpdate` to go on.
+    pub fn app(&self, scene: &Scene, config: &GameConfig) -> App {
+        let config = scene.config(&self.config(config), self.difficulty);
+        let mut app = app_of(scene, &config, self.seed);
+        app.insert_resource(Playback::of(self));
+        board(app.world_mut(), self.crew);
+        app
+    }
+
+    /// Flies it again, without graphics, and sees whether it comes to the same end.
+    pub fn verify(&self, path: &Path, config: &GameConfig) -> Result<Report, ReplayError> {
+        let scene = self.scene(path)?;
+        let mut app = self.app(&scene, config);
+        let step = app.world().resource::<Clock>().step;
+        let report = fly_to_end(app.world_mut(), (self.ticks as f64 - 0.5) * step);
+        let found = report.hash.to_string();
+        if found == self.hash && report.steps == self.ticks {
+            Ok(report)
+        } else {
+            Err(ReplayError::Differs { path: path.to_path_buf(), found, expected: self.hash.clone() })
+        }
+    }
+
+    /// Closes the log of the flight in `world`.
+    pub fn finish(&mut self, world: &World) {
+        self.ticks = world.resource::<Clock>().tick;
+        self.outcome = outcome(world).map_or("undecided", |(outcome, _)| outcome.name()).into();
+        self.hash = state_hash(world).to_string();
+    }
+}
+
+/// Checked settings of a file.
+fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
+    let one = |(path, value): (String, toml::Value)| {
+        let setting = config::setting(&path).ok_or_else(|| format!("{path}: unknown setting"))?;
+        let value = match value {
+            toml::Value::Float(number) => Value::Number(number),
+            toml::Value::Integer(number) => Value::Integer(u32::try_from(number).map_err(|_| format!("{path} = {number} is out of range"))?),
+            toml::Value::Boolean(on) => Value::Switch(on),
+            toml::Value::String(word) => Value::Word(word),
+            _ => return Err(format!("{path} has the wrong type")),
+        };
+        Ok((path, setting.check(value)?))
+    };
+    table.into_iter().map(one).collect()
+}
+
+/// Records what the hands do, as a [`Replay`] that grows.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Recording(pub Replay);
+
+impl Recording {
+    fn note(&mut self, tick: u64, hands: &Hands) {
+        if self.0.records.last().is_none_or(|last| last.hands != *hands) {
+            self.0.records.push(Record { tick, hands: *hands });
+        }
+    }
+}
+
+/// A replay that is flown: its hands are the player's.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Playback {
+    records: Vec<Record>,
+    next: usize,
+}
+
+impl Playback {
+    /// From the beginning.
+    pub fn of(replay: &Replay) -> Playback {
+        Playback { records: replay.records.clone(), next: 0 }
+    }
+}
+
+/// Moves the hands of a [`Playback`], and keeps what they do in a [`Recording`], where there is one.
+pub struct PlaybackPlugin;
+
+impl Plugin for PlaybackPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_systems(
+            FixedUpdate,
+            (
+                play_back.run_if(resource_exists::<Playback>).before(choose_pilot).in_set(SimSet::Input),
+                record.run_if(resource_exists::<Recording>).after(choose_pilot).in_set(SimSet::Input),
+            ),
+        );
+    }
+}
+
+/// The hands of this step.
+pub fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: ResMut<Hands>) {
+    while let Some(record) = playback.records.get(playback.next).filter(|record| record.tick <= clock.tick).copied() {
+        *hands = record.hands;
+        playback.next += 1;
+    }
+}
+
+fn record(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<Recording>) {
+    recording.note(clock.tick, &hands);
+}
+
+/// Numbers of a record besides its pace: steps since the one before, six sticks, four switches.
+const COLUMNS: usize = 8;
+
+/// Packs records: column by column, each number less the one before, so that what stays the same is zero.
+fn pack(records: &[Record]) -> Vec<u8> {
+    let mut raw = Vec::new();
+    raw.extend((records.len() as u64).to_le_bytes());
+    for column in 0..COLUMNS {
+        let mut before = 0u64;
+        for record in records {
+            let value = column_of(record, column);
+            let change = value.wrapping_sub(before);
+            before = value;
+            if column == 0 { varint(&mut raw, change) } else { raw.push(change as u8) }
+        }
+    }
+    let mut before = 0u64;
+    for record in records {
+        let bits = record.hands.pace.to_bits();
+        varint(&mut raw, bits ^ before);
+        before = bits;
+    }
+    let mut packed = Vec::new();
+    // Reading from memory does not fail.
+    _ = ZlibEncoder::new(&raw[..], Compression::best()).read_to_end(&mut packed);
+    packed
+}
+
+/// The records of a log; None if it is damaged.
+fn unpack(packed: &[u8]) -> Option<Vec<Record>> {
+    let mut raw = Vec::new();
+    ZlibDecoder::new(packed).take(MOST_BYTES).read_to_end(&mut raw).ok()?;
+    let count = usize::try_from(u64::from_le_bytes(raw.get(..8)?.try_into().ok()?)).ok()?;
+    // Each takes a byte a column at least.
+    if count > raw.len() / COLUMNS {
+        return None;
+    }
+    let mut rest = &raw[8..];
+    let mut columns = vec![[0u64; COLUMNS]; count];
+    for column in 0..COLUMNS {
+        let mut before = 0u64;
+        for row in &mut columns {
+            let change = if column == 0 {
+                read_varint(&mut rest)?
+            } else {
+                let (&byte, after) = rest.split_first()?;
+                rest = after;
+                u64::from(byte)
+            };
+            before = if column == 0 { before.checked_add(change)? } else { before.wrapping_add(change) & 0xff };
+            row[column] = before;
+        }
+    }
+    let mut before = 0u64;
+    let mut records = Vec::with_capacity(count);
+    for row in columns {
+        before ^= read_varint(&mut rest)?;
+        let pace = f64::from_bits(before);
+        if !(pace > 0.0 && pace.is_finite()) {
+            return None;
+        }
+        records.push(record_of(row, pace));
+    }
+    rest.is_empty().then_some(records)
+}
+
+/// One number of a record; sticks as their bytes.
+fn column_of(record: &Record, column: usize) -> u64 {
+    let hands = &record.hands;
+    let byte = |stick: i8| u64::from(stick as u8);
+    match column {
+        0 => record.tick,
+        1..=3 => byte(hands.thrust[column - 1]),
+        4..=6 => byte(hands.turn[column - 4]),
+        _ => [hands.assist, hands.autopilot, hands.looking, hands.fire].iter().rev().fold(0, |bits, &on| 2 * bits + u64::from(on)),
+    }
+}
+
+/// The inverse of [`column_of`].
+fn record_of(row: [u64; COLUMNS], pace: f64) -> Record {
+    let stick = |column: usize| row[column] as u8 as i8;
+    let switch = |bit: u64| row[7] >> bit & 1 == 1;
+    Record {
+        tick: row[0],
+        hands: Hands {
+            thrust: [stick(1), stick(2), stick(3)],
+            turn: [stick(4), stick(5), stick(6)],
+            assist: switch(0),
+            autopilot: switch(1),
+            looking: switch(2),
+            fire: switch(3),
+            pace,
+        },
+    }
+}
+
+/// Seven bits a byte, the low ones first (LEB128).
+fn varint(out: &mut Vec<u8>, mut number: u64) {
+    while number >= 0x80 {
+        out.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    out.push(number as u8);
+}
+
+fn read_varint(bytes: &mut &[u8]) -> Option<u64> {
+    let mut number = 0u64;
+    for place in 0..10 {
+        let (&byte, rest) = bytes.split_first()?;
+        *bytes = rest;
+        number |= u64::from(byte & 0x7f) << (7 * place);
+        if byte < 0x80 {
+            return Some(number);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{RngExt, SeedableRng, rngs::StdRng};
+
+    fn replay(records: Vec<Record>) -> Replay {
+        let scene = scene::load("02-first-pursuit").expect("a mission of the game");
+        let mut replay = Replay::begin(&scene, &GameConfig::default(), Difficulty::Hard, Crew::Naive, 7);
+        replay.records = records;
+        replay.hash = "0123456789abcdef".into();
+        replay
+    }
+
+    /// Ten minutes with the mouse never at rest.
+    fn restless() -> Vec<Record> {
+        let mut chance = StdRng::seed_from_u64(1);
+        let mut turn = [0f64; 2];
+        let ticks = (600.0 * 1.5 / GameConfig::default().clock.step) as u64;
+        let one = |tick: u64| {
+            for axis in &mut turn {
+                *axis = 0.9 * *axis + chance.random_range(-12.0..12.0);
+            }
+            let thrust = [0, 0, if tick / 200 % 3 == 0 { -76 } else { 0 }];
+            Record { tick, hands: Hands { thrust, turn: [turn[0] as i8, turn[1] as i8, 0], assist: true, ..Hands::default() } }
+        };
+        (0..ticks).map(one).collect()
+    }
+
+    #[test]
+    fn a_text_gives_the_replay_back() {
+        let mut records = restless();
+        records.truncate(500);
+        records[300].hands = Hands { pace: 0.375, fire: true, looking: true, autopilot: true, ..records[300].hands };
+        let before = replay(records);
+        assert_eq!(Replay::from_text(Path::new("x"), &before.to_text()).expect("a replay"), before);
+        let empty = replay(vec![]);
+        assert_eq!(Replay::from_text(Path::new("x"), &empty.to_text()).expect("a replay"), empty);
+    }
+
+    /// Measured 67 kB.
+    #[test]
+    fn ten_minutes_take_less_than_200_kib() {
+        let text = replay(restless()).to_text();
+        println!("{} bytes", text.len());
+        assert!(text.len() < 200 << 10, "{}", text.len());
+    }
+
+    #[test]
+    fn a_damaged_or_foreign_file_is_refused_in_a_sentence() {
+        let good = replay(restless()).to_text();
+        let middle = good.len() / 2;
+        let mut wrong = vec![String::new(), "x".into(), good[..middle].to_owned(), good.replace("seed = 7", "seed = 8")];
+        wrong.push(good.replace("version = \"", "version = \"9"));
+        wrong.push(good.replace("replay = 1", "replay = 2"));
+        for (place, text) in wrong.iter().enumerate() {
+            let said = Replay::from_text(Path::new("a.toml"), text).expect_err("refused").to_string();
+            assert!(said.starts_with("a.toml: ") && !said.contains('\n'), "{place}: {said}");
+        }
+        // Any byte of the log.
+        let at = good.find("log = ").expect("a log") + 40;
+        let mut flipped = good.into_bytes();
+        flipped[at] = if flipped[at] == b'A' { b'B' } else { b'A' };
+        assert!(Replay::from_text(Path::new("a.toml"), &String::from_utf8(flipped).expect("ASCII")).is_err());
+    }
+}
