@@ -231,6 +231,8 @@ impl Case {
                     let line = *ships.get(index)?;
                     (Motion::Flying(line), line.at(self.time).position)
                 }
+                // These are the game's: no scene has any at its start.
+                Body::Bolt(_) | Body::Ghost => return None,
                 Body::Planet => {
                     let planet: &dyn Worldline = self.scene.planet.as_ref()?;
                     (Motion::Flying(planet), planet.at(self.time).position)

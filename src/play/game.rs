@@ -7,6 +7,7 @@ use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
 use crate::sim::hands::choose_pilot;
+use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, outcome, start};
 use crate::spacetime::matter::gamma;
@@ -15,6 +16,8 @@ use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::{Bindings, MouseTurn, PlayerInput};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
+use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
+use crate::play::picture::{Staged, restage};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
 use crate::play::window::record;
@@ -33,7 +36,7 @@ impl Plugin for GamePlugin {
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
-            .add_systems(FixedUpdate, (move_hands, note_pilot).chain().in_set(SimSet::Input).before(choose_pilot));
+            .add_systems(FixedUpdate, (move_hands.run_if(not(resource_exists::<Playback>)), note_pilot).chain().in_set(SimSet::Input).before(choose_pilot));
     }
 }
 
@@ -41,10 +44,11 @@ fn begin_title(world: &mut World) {
     begin(world, Screen::Title);
 }
 
-/// Starts the chase anew for a screen: by hand in play, unless the autopilot was asked for.
-fn begin(world: &mut World, screen: Screen) {
+/// Starts a flight anew for a screen: by hand in play, unless the autopilot was asked for. On the title the home scene is flown.
+pub fn begin(world: &mut World, screen: Screen) {
+    choose_scene(world, screen);
     let session = world.resource::<Session>().clone();
-    start(world, &session.scene, &session.config, session.seed);
+    start(world, &session.scene, &session.effective(), session.seed);
     let ship = world.resource::<Fleet>().0[session.player()];
     world.entity_mut(ship).insert(Player);
     let mut player = world.resource_mut::<PlayerState>();
@@ -54,6 +58,36 @@ fn begin(world: &mut World, screen: Screen) {
     player.flown = Flown::default();
     player.assist = None;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
+    begin_log(world, screen);
+}
+
+/// Puts the scene of a screen into the session, with its seed, and has its models made if it is another one than before.
+fn choose_scene(world: &mut World, screen: Screen) {
+    let Some(catalogue) = world.get_resource::<Catalogue>().cloned() else { return };
+    let choice = world.resource::<PlayerState>().choice;
+    let watched = world.get_resource::<Watched>().map(|watched| watched.0.clone()).filter(|_| screen == Screen::Playing);
+    let mut session = world.resource_mut::<Session>();
+    let before = (session.scene.name.clone(), session.scene.fingerprint);
+    match (&watched, screen) {
+        (Some(replay), _) => {
+            if let Some(scene) = catalogue.find(&replay.scene) {
+                session.scene = scene.clone();
+            }
+            session.config = replay.config(&session.config);
+            (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
+        }
+        (None, Screen::Playing) => {
+            session.scene = catalogue.scene(choice).clone();
+            if !session.seed_stays {
+                session.seed += 1;
+            }
+        }
+        (None, _) => session.scene = catalogue.home.clone(),
+    }
+    let is_other = before != (session.scene.name.clone(), session.scene.fingerprint);
+    if is_other && world.contains_resource::<Staged>() {
+        restage(world);
+    }
 }
 
 /// Keys that switch something.
@@ -63,6 +97,7 @@ fn read_keys(
     screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
     mut player: ResMut<PlayerState>,
+    missions: Option<Res<Catalogue>>,
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
@@ -78,6 +113,11 @@ fn read_keys(
         return;
     }
     let enter = hands.keys.any_just_pressed([KeyCode::Enter, KeyCode::NumpadEnter]);
+    let choices = missions.as_ref().map_or(1, |missions| missions.len());
+    let moved = [(KeyCode::ArrowDown, 1), (KeyCode::ArrowUp, choices - 1)].into_iter().find(|(key, _)| hands.keys.just_pressed(*key));
+    if let (Screen::Title, Some((_, by))) = (screen.get(), moved) {
+        actions.write(MenuAction::Choose((player.choice + by) % choices));
+    }
     match screen.get() {
         Screen::Title if enter => _ = actions.write(MenuAction::Start),
         Screen::Result if enter => _ = actions.write(MenuAction::Start),
@@ -115,8 +155,23 @@ fn read_keys(
 fn answer_menus(world: &mut World) {
     let actions: Vec<MenuAction> = world.resource_mut::<Messages<MenuAction>>().drain().collect();
     for action in actions {
-        if action == MenuAction::Quit {
-            world.write_message(AppExit::Success);
+        match action {
+            MenuAction::Quit => _ = world.write_message(AppExit::Success),
+            MenuAction::Choose(choice) => world.resource_mut::<PlayerState>().choice = choice,
+            MenuAction::Level(difficulty) => world.resource_mut::<Session>().difficulty = difficulty,
+            MenuAction::Next => {
+                let count = world.get_resource::<Catalogue>().map_or(1, Catalogue::len);
+                let mut player = world.resource_mut::<PlayerState>();
+                player.choice = (player.choice + 1) % count;
+                world.remove_resource::<Watched>();
+            }
+            MenuAction::Watch => {
+                if let Some(replay) = world.get_resource::<LastFlight>().and_then(|last| last.replay.clone()) {
+                    world.insert_resource(Watched(replay));
+                }
+            }
+            MenuAction::Start | MenuAction::Title => _ = world.remove_resource::<Watched>(),
+            MenuAction::Pause => (),
         }
         let screen = *world.resource::<State<Screen>>().get();
         if let Some((next, anew)) = answer(screen, action) {
@@ -206,7 +261,7 @@ mod tests {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, StatesPlugin, InputPlugin, SimulationPlugins, GamePlugin, LivePlugin))
             .insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)))
-            .insert_resource(Session::load(None, Some("chase"), 1).expect("the game's own files"))
+            .insert_resource(Session::load(None, Some("chase"), Some(1)).expect("the game's own files"))
             .init_resource::<PlayerState>();
         app.update();
         app.update();

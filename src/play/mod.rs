@@ -10,9 +10,11 @@ pub mod game;
 pub mod hud;
 pub mod input;
 pub mod menus;
+pub mod missions;
 pub mod overlay;
 pub mod picture;
 pub mod player_state;
+pub mod records;
 pub mod schedule;
 pub mod session;
 pub mod window;
@@ -22,6 +24,7 @@ use std::process::ExitCode;
 
 use crate::render::Gpu;
 use demonstration::Flight;
+use crate::sim::replay::Replay;
 use session::Session;
 
 /// Plays the chase: in a window, or without a display as a demonstration flight to PNG files.
@@ -30,13 +33,22 @@ pub struct PlayArgs {
     /// The game's configuration [default: game.toml where there is one].
     #[arg(long, value_name = "game.toml")]
     pub config: Option<PathBuf>,
-    /// The scene: a TOML file, or the name of one in assets/scenes [default: chase].
-    #[arg(long, value_name = "NAME|FILE")]
+    /// The scene or mission: a TOML file, or the name of one in assets/scenes or assets/missions [default: chase].
+    #[arg(long, alias = "mission", value_name = "NAME|FILE")]
     #[arg(long_help = crate::scene::help("The scene: a TOML file, or the name of one in assets/scenes [default: chase]."))]
     pub scene: Option<String>,
     /// Seed for everything left to chance [default: 0].
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+    /// Of a mission: easy, normal or hard [default: normal].
+    #[arg(long, value_name = "LEVEL")]
+    pub difficulty: Option<crate::scene::Difficulty>,
+    /// Flies at once, without the title.
+    #[arg(long)]
+    pub at_once: bool,
+    /// Shows the flight of a replay.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "seed", "difficulty", "headless"])]
+    pub replay: Option<PathBuf>,
     /// The autopilot flies the player's ship.
     #[arg(long)]
     pub autopilot: bool,
@@ -112,10 +124,17 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         eprintln!("error: {error}");
         ExitCode::from(code)
     };
-    let session = match Session::load(args.config.as_deref(), args.scene.as_deref(), args.seed.unwrap_or(0)) {
+    let replay = match args.replay.as_deref().map(|path| Replay::load(path).and_then(|replay| replay.scene(path).map(|_| replay))) {
+        None => None,
+        Some(Ok(replay)) => Some(replay),
+        Some(Err(error)) => return fail(&error, 2),
+    };
+    let scene = args.scene.as_deref().or(replay.as_ref().map(|replay| replay.scene.as_str()));
+    let mut session = match Session::load(args.config.as_deref(), scene, args.seed) {
         Ok(session) => session,
         Err(error) => return fail(&error, 2),
     };
+    session.difficulty = args.difficulty.unwrap_or_default();
     let without_window = args.headless || !has_display();
     if without_window && !args.headless {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
@@ -127,7 +146,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     if !without_window {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
-        let options = window::Options { autopilot: args.autopilot, size: args.size, frames: args.frames, record: args.record.clone() };
+        let options = window::Options { autopilot: args.autopilot, size: args.size, frames: args.frames, record: args.record.clone(), replay, at_once: args.at_once };
         return match window::run(session, &options) {
             bevy::app::AppExit::Success => ExitCode::SUCCESS,
             bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),

@@ -30,6 +30,8 @@ pub struct PlayerState {
     pub hinted: f64,
     /// The key that turns the camera to the target is held.
     pub looking: bool,
+    /// Which mission is chosen on the title.
+    pub choice: usize,
     /// How far the camera has turned to the target.
     pub gaze: Gaze,
 }

@@ -6,7 +6,7 @@ use bevy::prelude::Resource;
 use thiserror::Error;
 
 use crate::scene::ship::Ai;
-use crate::scene::{self, ConfigError, GameConfig, Scene, SceneError};
+use crate::scene::{self, ConfigError, Difficulty, GameConfig, Scene, SceneError};
 
 /// The scene where none is named.
 pub const SCENE: &str = "chase";
@@ -36,18 +36,27 @@ pub struct Session {
     pub config_file: Option<PathBuf>,
     /// For everything left to chance.
     pub seed: u64,
+    /// The seed was asked for: it stays. Otherwise each flight has the next.
+    pub seed_stays: bool,
+    /// Of a mission.
+    pub difficulty: Difficulty,
 }
 
 impl Session {
     /// Reads configuration and scene. Without a named configuration, `game.toml` is read where there is one.
-    pub fn load(config: Option<&Path>, scene: Option<&str>, seed: u64) -> Result<Session, SessionError> {
+    pub fn load(config: Option<&Path>, scene: Option<&str>, seed: Option<u64>) -> Result<Session, SessionError> {
         let config_file = scene::config::file(config);
         let config = config_file.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
         let scene = scene::load(scene.unwrap_or(SCENE))?;
         if scene.ships.is_empty() {
             return Err(SessionError::NoShip(scene.name));
         }
-        Ok(Session { scene, config, config_file, seed })
+        Ok(Session { scene, config, config_file, seed: seed.unwrap_or(0), seed_stays: seed.is_some(), difficulty: Difficulty::default() })
+    }
+
+    /// The configuration as the mission has it on the chosen difficulty.
+    pub fn effective(&self) -> GameConfig {
+        self.scene.config(&self.config, self.difficulty)
     }
 
     /// Index of the ship that the player flies: the one marked so, else the first.

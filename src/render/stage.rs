@@ -156,7 +156,8 @@ impl Stage {
         Some(said.unwrap_or(if flees { fleeing } else { hunting }))
     }
 
-    /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order. `hidden` is a ship that is not
+    /// A frame seen by `camera` at T = `time`; `histories` are the worldlines of the ships in scene order, then
+    /// that of the ghost and those of the bolts. `hidden` is a ship that is not
     /// drawn (the cockpit's own); `size` is that of the picture in pixels.
     pub fn frame(
         &self,
@@ -184,7 +185,8 @@ impl Stage {
             if ship.is_some() && ship == hidden {
                 continue;
             }
-            let Some((motion, position)) = motion(&object.body, time, histories, globe.as_ref()) else { continue };
+            let line = self.worldline(&object.body, histories, globe.as_ref());
+            let Some((motion, position)) = motion(&object.body, time, line) else { continue };
             let object = DrawnObject {
                 model: model.model,
                 coarse: model.coarse,
@@ -209,6 +211,18 @@ impl Stage {
         }
         let aurora = self.aurora(&view, time, back);
         FrameInput { camera, time, placed, aurora, settings: Settings { unmetered, ..self.with_sky(settings) } }
+    }
+
+    /// The worldline of a body that flies.
+    fn worldline<'a>(&self, body: &Body, histories: &[&'a History], globe: Option<&'a History>) -> Option<&'a History> {
+        match *body {
+            Body::Held { .. } => None,
+            Body::Ship(index) if index < self.engines.len() => histories.get(index).copied(),
+            Body::Ship(_) => None,
+            Body::Ghost => histories.get(self.engines.len()).copied(),
+            Body::Bolt(number) => histories.get(self.engines.len() + 1 + number).copied(),
+            Body::Planet => globe,
+        }
     }
 
     /// The planet's aurora at T = `time`, if it has one and that is seen; light comes from `back` r_s/c before at most.
@@ -237,14 +251,12 @@ impl Stage {
     }
 }
 
-/// How a body moves, and where it is at T = `time`; None for a ship or a planet whose worldline is not known.
-fn motion<'a>(body: &Body, time: f64, ships: &[&'a History], globe: Option<&'a History>) -> Option<(Motion<'a>, DVec3)> {
-    let history = match body {
-        &Body::Held { position, attitude } => return Some((Motion::Held { position, attitude }, position)),
-        Body::Ship(index) => ships.get(*index).copied()?,
-        Body::Planet => globe?,
-    };
-    Some((Motion::Flying(history), history.at(time).position))
+/// How a body moves, and where it is at T = `time`; None for one that flies if its worldline is not known.
+fn motion<'a>(body: &Body, time: f64, line: Option<&'a History>) -> Option<(Motion<'a>, DVec3)> {
+    match *body {
+        Body::Held { position, attitude } => Some((Motion::Held { position, attitude }, position)),
+        Body::Ship(_) | Body::Planet | Body::Ghost | Body::Bolt(_) => line.map(|line| (Motion::Flying(line), line.at(time).position)),
+    }
 }
 
 /// Lets the nozzles in the images of a ship at T = `time` shine by its thrust; `full` (c²/r_s) is all that it has.

@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use super::config::GameConfig;
 use super::load::Scene;
 use super::model::import::load_or_placeholder;
-use super::model::{Model, SHIP_MODELS};
+use super::model::{Material, Model, SHIP_MODELS, shapes};
 use super::prop::Shape;
 use super::ship::{Ai, ShipSpec};
 
@@ -16,7 +16,7 @@ use super::ship::{Ai, ShipSpec};
 pub struct Assembly {
     /// Distinct models, in units of their own.
     pub models: Vec<Model>,
-    /// Every visible thing: ships first, in the scene's order, then props, then the planet.
+    /// Every visible thing: ships first, in the scene's order, then props, the planet, a mission's gates, and room for bolts.
     pub objects: Vec<Object>,
     /// What was wrong with a model; a placeholder stands in its place.
     pub warnings: Vec<String>,
@@ -49,7 +49,24 @@ pub enum Body {
     Ship(usize),
     /// The scene's planet, in its rest frame and the axes of [`super::planet::Planet::state`].
     Planet,
+    /// The ship of an earlier flight that flies along, if there is one.
+    Ghost,
+    /// The bolt with this number among those that are kept, if there is one.
+    Bolt(usize),
 }
+
+/// Bolts that are kept, flying or seen by their light.
+pub const MOST_BOLTS: usize = 24;
+/// Diameter of a bolt, in r_s.
+const BOLT_SIZE: f64 = 0.07;
+/// Light of a bolt, of 1 for a white surface in full light: as bright as engines.
+const BOLT_LIGHT: [f32; 3] = [9.0, 3.5, 0.8];
+/// Light of a gate.
+const GATE_LIGHT: [f32; 3] = [0.1, 0.9, 0.6];
+/// Light of a ghost.
+const GHOST_LIGHT: [f32; 3] = [0.02, 0.05, 0.09];
+/// Diameter of a gate's tube over that of the gate.
+const GATE_THICKNESS: f64 = 0.035;
 
 impl Scene {
     /// Makes the scene's models and lists its objects. Never fails: what cannot be read becomes a placeholder with a warning.
@@ -79,8 +96,49 @@ impl Scene {
             let model = assembly.models.len() - 1;
             assembly.objects.push(Object { name: "planet".into(), model, scale: 2.0 * planet.radius, body: Body::Planet });
         }
+        self.assemble_mission(config, &mut assembly);
         assembly
     }
+
+    /// Adds a mission's gates and bolts.
+    fn assemble_mission(&self, config: &GameConfig, assembly: &mut Assembly) {
+        let Some(mission) = &self.mission else { return };
+        if !mission.gates.is_empty() {
+            let model = assembly.add(shapes::torus(48, 8, GATE_THICKNESS, glowing(GATE_LIGHT)));
+            for (number, gate) in mission.gates.iter().enumerate() {
+                let body = Body::Held { position: gate.position, attitude: DQuat::from_rotation_arc(DVec3::Z, gate.normal) };
+                assembly.objects.push(Object { name: format!("gate {}", number + 1), model, scale: 2.0 * gate.radius, body });
+            }
+        }
+        if let Some(own) = self.ships.iter().find(|ship| ship.player) {
+            let mut files = HashMap::new();
+            let solid = assembly.file(&mut files, own.model.as_deref().unwrap_or(default_model(own)));
+            // A file of its own in the list, as it shines otherwise.
+            let ghost = ghostly(&assembly.models[solid]);
+            assembly.models[solid] = ghost;
+            assembly.objects.push(Object { name: "ghost".into(), model: solid, scale: config.ship.size, body: Body::Ghost });
+        }
+        if config.ship.bolts > 0 {
+            let model = assembly.add(shapes::icosphere(80, glowing(BOLT_LIGHT)));
+            let bolt = |number| Object { name: format!("bolt {number}"), model, scale: BOLT_SIZE, body: Body::Bolt(number) };
+            assembly.objects.extend((0..MOST_BOLTS).map(bolt));
+        }
+    }
+}
+
+/// A ship that shines by itself, faintly, and mirrors little: not to be taken for a real one.
+fn ghostly(model: &Model) -> Model {
+    let mut model = model.clone();
+    for material in &mut model.materials {
+        let [r, g, b, a] = material.base_colour;
+        *material = Material { base_colour: [0.2 * r, 0.2 * g, 0.2 * b, a], emissive: GHOST_LIGHT, drive: false, ..material.clone() };
+    }
+    model
+}
+
+/// What only shines.
+fn glowing(emissive: [f32; 3]) -> Material {
+    Material { base_colour: [0.0, 0.0, 0.0, 1.0], metallic: 1.0, roughness: 1.0, emissive, ..Material::default() }
 }
 
 /// The quarry's model for a ship that flees, the hunter's for every other.
@@ -90,6 +148,11 @@ fn default_model(ship: &ShipSpec) -> &'static str {
 }
 
 impl Assembly {
+    fn add(&mut self, model: Model) -> usize {
+        self.models.push(model);
+        self.models.len() - 1
+    }
+
     fn file(&mut self, files: &mut HashMap<String, usize>, name: &str) -> usize {
         *files.entry(name.to_owned()).or_insert_with(|| {
             let (model, error) = load_or_placeholder(name);

@@ -9,6 +9,7 @@ use super::flight::{Command, Flight, fly};
 use super::history::History;
 use super::ship::{Ended, Fleet, Ship, ShipMotion};
 use super::{SimEvent, SimSet};
+pub use crate::scene::assembly::MOST_BOLTS;
 use crate::spacetime::frames::rest_to_rain;
 use crate::spacetime::matter::{ShipState, has_ended};
 
@@ -22,8 +23,6 @@ pub const HIT_RADIUS: f64 = 0.3;
 pub const LIFE: f64 = 40.0;
 /// T between two bolts of a ship, in r_s/c.
 pub const RELOAD: f64 = 0.75;
-/// Bolts that are kept, flying or seen by their light: the next takes the place of the oldest.
-pub const MOST_BOLTS: usize = 24;
 
 /// A ship's gun.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
@@ -65,6 +64,7 @@ pub struct Bolt {
 pub struct Bolts(pub Vec<Bolt>);
 
 impl Bolts {
+    /// The next takes the place of the oldest where there are [`MOST_BOLTS`].
     fn add(&mut self, bolt: Bolt) {
         if self.0.len() < MOST_BOLTS {
             self.0.push(bolt);
@@ -107,7 +107,9 @@ fn fire(
             gun.left -= 1;
             gun.ready = clock.time + RELOAD;
             let state = fired_by(&motion.0);
-            bolts.add(Bolt { owner: entity, state, fired: clock.time, ended: None, history: History::new(clock.time, &state) });
+            let mut history = History::new(clock.time, &state);
+            history.begins(clock.time);
+            bolts.add(Bolt { owner: entity, state, fired: clock.time, ended: None, history });
         }
     }
 }
@@ -145,6 +147,9 @@ fn fly_bolts(
         }
         if bolt.ended.is_none() && (has_ended(&end.state) || to - bolt.fired > LIFE) {
             bolt.ended = Some(reached);
+        }
+        if let Some(ended) = bolt.ended {
+            bolt.history.ends(ended);
         }
     }
 }

@@ -145,12 +145,14 @@ pub struct History {
     past: Vec<Node>,
     /// How far back from the latest node is surely kept, in r_s/c.
     keep: f64,
+    /// From which T to which there is such a thing at all, in r_s/c.
+    exists: [f64; 2],
 }
 
 impl History {
     /// A ship that has this state at T = `time` and coasted before, or hovered.
     pub fn new(time: f64, state: &ShipState) -> Self {
-        History { nodes: vec![Node::coasting(time, state)], past: Vec::new(), keep: f64::INFINITY }
+        History { nodes: vec![Node::coasting(time, state)], past: Vec::new(), keep: f64::INFINITY, exists: [f64::NEG_INFINITY, f64::INFINITY] }
     }
 
     /// Adds the state at `time`, later than all before, reached under `command`.
@@ -172,6 +174,21 @@ impl History {
     /// orbit through the oldest node kept, or has it hover there.
     pub fn forget_beyond(&mut self, keep: f64) {
         self.keep = keep;
+    }
+
+    /// There was nothing before T = `time`.
+    pub fn begins(&mut self, time: f64) {
+        self.exists[0] = time;
+    }
+
+    /// There is nothing after T = `time`.
+    pub fn ends(&mut self, time: f64) {
+        self.exists[1] = time;
+    }
+
+    /// Whether there is such a thing at T = `time`.
+    pub fn exists_at(&self, time: f64) -> bool {
+        (self.exists[0]..=self.exists[1]).contains(&time)
     }
 
     /// The latest T known, in r_s/c.

@@ -107,7 +107,7 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, Flig
     let frames_folder = flight.folder.join("frames");
     empty_folder(&frames_folder)?;
     let mut renderer = Renderer::new(gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, flight.size);
-    let stage = Stage::new(&mut renderer, &session.scene, &session.config);
+    let stage = Stage::new(&mut renderer, &session.scene, &session.effective());
     let (texture, view) = target(&gpu.device, "flight", flight.size, wgpu::TextureFormat::Rgba8UnormSrgb);
     let mut settings = settings(&session.config);
     settings.own_ship = Some(session.player());
@@ -174,8 +174,9 @@ fn progress(frames: u32) -> ProgressBar {
 
 /// Plays the chase to its end; the app, the span to show, and how it ended.
 fn play(session: &Session) -> (App, [f64; 2], String) {
-    let mut app = app_of(&session.scene, &session.config, session.seed);
-    let limit = session.scene.rules(&session.config).time_limit;
+    let config = session.effective();
+    let mut app = app_of(&session.scene, &config, session.seed);
+    let limit = session.scene.rules(&config).time_limit;
     loop {
         app.world_mut().run_schedule(FixedUpdate);
         let now = app.world().resource::<Clock>().time;

@@ -81,6 +81,17 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
         board.takes(rect.center(), 18.0);
     }
 
+    let colours = [OWN, SEEN, ALARM];
+    for (line, colour) in panel.lines.iter().zip(colours) {
+        let points: Vec<Option<Pos2>> = line
+            .iter()
+            .map(|direction| match direction.map(find) {
+                Some(MarkerPosition::On(at)) => Some(point(at)),
+                _ => None,
+            })
+            .collect();
+        dotted(painter, &points, colour);
+    }
     let [first, second] = panel.images.map(|image| image.map(|image| (find(image.direction), image.age)));
     let truth = panel.truth.map(find);
     let heading = panel.heading.map(find);
@@ -114,6 +125,16 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
         diamond(painter, at, 7.0, Stroke::new(1.2, SEEN));
         board.takes(at, 7.0);
         board.name("2nd image".into(), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
+    }
+    match panel.gate.map(|(direction, number)| (find(direction), number)) {
+        Some((MarkerPosition::On(at), number)) => {
+            let at = point(at);
+            rimmed(painter, Stroke::new(1.8, TRUE), |stroke| Shape::circle_stroke(at, 16.0, stroke));
+            board.takes(at, 16.0);
+            board.name(format!("gate {number}"), 13.0, TRUE, at + vec2(20.0, 0.0), Align2::LEFT_CENTER);
+        }
+        Some((MarkerPosition::Edge(at, towards), number)) => board.arrow(at, towards, &format!("gate {number}"), TRUE),
+        None => (),
     }
     if let Some((MarkerPosition::Edge(at, towards), _)) = first {
         board.arrow(at, towards, "target", SEEN);
@@ -167,6 +188,15 @@ impl Board<'_> {
             let wanted = name.anchor.anchor_size(name.at, galley.size() + 2.0 * NAME_PAD);
             let place = settle(wanted, self.free(), &self.taken);
             self.taken.push(text(self.painter, place.min, Align2::LEFT_TOP, &name.words, name.size, name.colour));
+        }
+    }
+}
+
+/// A line of dots, with gaps where a place is not on the screen.
+fn dotted(painter: &Painter, points: &[Option<Pos2>], colour: Color32) {
+    for pair in points.windows(2) {
+        if let [Some(from), Some(to)] = *pair {
+            painter.line_segment([from, from + (to - from) * 0.5], Stroke::new(1.4, colour.gamma_multiply(0.8)));
         }
     }
 }

@@ -1,7 +1,9 @@
 //! The HUD: dials, painted with egui, and the messages. The numbers come from [`crate::play::hud::instruments`], the markers from
 //! [`crate::play::hud::markers`].
 
+pub mod ahead;
 pub mod dials;
+pub mod goals;
 pub mod instruments;
 pub mod layout;
 pub mod markers;
@@ -15,7 +17,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::hands::Avoiding;
-use crate::sim::{Chase, ChaseRules};
+use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
 use crate::play::camera::CameraView;
 use crate::play::hud::instruments::{Countdown, Scale, hold_words};
@@ -56,6 +58,8 @@ fn draw(
     panel: Res<Panel>,
     (notice, real): (Res<Notice>, Res<Time<Real>>),
     staged: Option<Res<Staged>>,
+    (mission, progress): (Option<Res<ActiveMission>>, Option<Res<Progress>>),
+    mut slow: Local<goals::Slow>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -84,11 +88,25 @@ fn draw(
     let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read);
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
-        if chase.held > 0.0 {
-            taken.push(hold(&painter, rect.center(), chase.held, rules.hold_time));
+        let holds = match (&mission, &progress) {
+            (Some(mission), Some(progress)) => goals::is_held(&mission.0, progress),
+            _ => true,
+        };
+        if chase.held > 0.0 && holds {
+            taken.push(hold(&painter, rect.center(), chase.held, goals::whole(mission.as_deref(), progress.as_deref(), &rules)));
         }
         let scale = Scale::of(session.config.hole.mass_solar);
         text_boxes.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
+    }
+    if let (Some(mission), Some(progress)) = (&mission, &progress) {
+        let below = text_boxes.last().map_or(rect.top() + MARGIN, |countdown| countdown.frame.bottom() + BETWEEN);
+        let seconds = real.elapsed_secs_f64();
+        let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules) };
+        text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
+    }
+    if let Some(words) = extra(&panel) {
+        let at = pos2(rect.right() - MARGIN, rect.bottom() - MARGIN - ABOVE_TARGET);
+        text_boxes.push(TextBox::lay(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
     }
     taken.extend(text_boxes.iter().map(|text_box| text_box.frame));
     if player.view == CameraView::ThirdPerson {
@@ -128,6 +146,17 @@ fn lay_in(context: &egui::Context, painter: &Painter) {
         // Kept by the fonts as long as it is asked for.
         let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
     }
+}
+
+/// Space below for what is said of the target, in points.
+const ABOVE_TARGET: f32 = 130.0;
+
+/// Bolts left, and how near one comes.
+fn extra(panel: &Panel) -> Option<String> {
+    let bolts = panel.bolts.map(|left| format!("{left} bolts"));
+    let near = panel.closest.map(|(distance, when)| format!("nearest {distance:.1} r_s in {when:.0} r_s/c"));
+    let words: Vec<String> = bolts.into_iter().chain(near).collect();
+    (!words.is_empty()).then(|| words.join("\n"))
 }
 
 /// What is left out of the picture's physics, for the player to know.
@@ -203,7 +232,7 @@ mod tests {
     /// Clocks, time, hole, speed, range, who flies: none lies on another in the narrowest window and at 16:9, however full the tanks.
     #[test]
     fn dials_do_not_overlap() {
-        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let session = Session::load(None, Some("chase"), Some(0)).expect("the game's own files");
         let scale = Scale::of(session.config.hole.mass_solar);
         let state = ShipState::new(DVec3::X * 9.0, DVec3::ZERO);
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));

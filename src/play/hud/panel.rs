@@ -2,13 +2,16 @@
 
 use bevy::prelude::*;
 
-use crate::sim::sight::{Apparition, apparition, true_direction};
+use crate::sim::sight::{Apparition, apparition, direction, true_direction};
 use crate::play::camera::state_of;
+use crate::play::hud::ahead::{self, Line};
 use crate::play::hud::instruments::Instruments;
 use crate::play::picture::CurrentShot;
 use crate::play::picture::now::Now;
 use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
+use crate::scene::mission::Task;
+use crate::sim::Outcome;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
@@ -32,6 +35,19 @@ pub struct Panel {
     pub field_of_view: f64,
     /// The camera has turned from where the ship points.
     pub aside: bool,
+    /// The next gate, in camera axes, and its number from 1.
+    pub gate: Option<(glam::DVec3, usize)>,
+    /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
+    pub lines: [Line; 3],
+    /// How near one comes to the target by falling on, in r_s, and in how many r_s/c.
+    pub closest: Option<(f64, f64)>,
+    /// Bolts left, in a mission that has some.
+    pub bolts: Option<u32>,
+}
+
+/// Whether the lines of what is to come are of use: in flight.
+fn camera_is_own(player: &PlayerState, outcome: Option<(Outcome, f64)>) -> bool {
+    !player.hud_off && outcome.is_none()
 }
 
 /// Reads the numbers of the frame that is drawn.
@@ -43,15 +59,33 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
     let there = target.map(|history| state_of(&history.at(time)));
     let thrust = engine.limit(&controls.0).thrust.length();
     let resting = static_momentum(state.position).unwrap_or_default();
+    let is_own = camera_is_own(&player, now.chase.as_deref().and_then(|chase| chase.outcome));
+    let gate = now.mission.as_ref().zip(now.progress.as_ref()).and_then(|(mission, progress)| {
+        let is_next = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == Task::Gates);
+        let gate = mission.0.gates.get(progress.gates).filter(|_| is_next)?;
+        Some((direction(&camera, gate.position, Order::ALL[0], 0.0)?, progress.gates + 1))
+    });
+    let gun = now.gun().filter(|gun| gun.left > 0 || now.session.effective().ship.bolts > 0);
+    let lines = if is_own {
+        let target_line = target.map(|history| ahead::target_course(&camera, time, history)).unwrap_or_default();
+        [ahead::course(&camera, &state), target_line, gun.map(|_| ahead::shot(&camera, &state)).unwrap_or_default()]
+    } else {
+        Default::default()
+    };
+    let marked_now = now.mission.as_ref().is_none_or(|mission| mission.0.now_marker);
     let moving = -relative_momentum(state.momentum, resting);
     *panel = Panel {
         instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), there.as_ref())),
         images: [0, 1].map(|order| target.and_then(|history| apparition(&camera, time, history, Order::ALL[order]))),
-        truth: there.and_then(|there| true_direction(&camera, there.position)),
+        truth: there.filter(|_| marked_now).and_then(|there| true_direction(&camera, there.position)),
         hole: camera.position.try_normalize().map(|out| camera.seen_direction(-out)),
         decided: now.chase.as_ref().and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view: now.session.config.video.fov.to_radians(),
         aside: player.gaze.aside(),
+        gate,
+        lines,
+        closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&state, &there)),
+        bolts: gun.map(|gun| gun.left),
     };
 }

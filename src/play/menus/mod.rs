@@ -6,6 +6,8 @@ use bevy::prelude::*;
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
+use crate::scene::Difficulty;
+use crate::scene::mission::ScoreClock;
 use crate::sim::{Chase, Clock, Outcome};
 
 use crate::play::hud::instruments::Scale;
@@ -13,7 +15,9 @@ use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{OWN, SEEN, SHADE, TRUE};
 use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::{MenuAction, Screen};
+use crate::play::missions::{Catalogue, LastFlight};
 use crate::play::player_state::{Flown, PlayerState};
+use crate::play::records::Records;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
 
@@ -38,13 +42,18 @@ fn draw(
     chase: Option<Res<Chase>>,
     panel: Res<Panel>,
     player: Res<PlayerState>,
+    (catalogue, records, last): (Option<Res<Catalogue>>, Res<Records>, Res<LastFlight>),
     mut actions: MessageWriter<MenuAction>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let mut ask = |action| _ = actions.write(action);
     match screen.get() {
         Screen::Playing => (),
-        Screen::Title => card(context, "title", WIDE, |ui| title(ui, &mut session, &mut ask)),
+        Screen::Title => card(context, "title", TITLE, |ui| {
+            if let Some(catalogue) = &catalogue {
+                title(ui, &mut session, &Title { catalogue, records: &records, choice: player.choice }, &mut ask);
+            }
+        }),
         // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             ui.label(RichText::new("Paused").size(34.0).color(PALE));
@@ -65,7 +74,16 @@ fn draw(
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
             result(ui, &session, chase.as_deref(), &panel, player.flown);
-            buttons(ui, &mut ask, &[("Once more", MenuAction::Start), ("Title", MenuAction::Title), ("Quit", MenuAction::Quit)]);
+            score(ui, &session, &last);
+            let mut choices = vec![("Again  (Enter)", MenuAction::Start)];
+            if session.scene.mission.is_some() && last.won.is_some() {
+                choices.push(("Next mission", MenuAction::Next));
+            }
+            if last.replay.is_some() {
+                choices.push(("Watch", MenuAction::Watch));
+            }
+            choices.extend([("Title", MenuAction::Title), ("Quit", MenuAction::Quit)]);
+            buttons(ui, &mut ask, &choices);
         }),
     }
     Ok(())
@@ -75,7 +93,9 @@ fn draw(
 const ASIDE: f32 = 24.0;
 /// Between a card's edge and what it says, in points.
 const INSIDE: f32 = 24.0;
-/// Width of what the title and the pause say, in points.
+/// Width of what the title says, in points.
+const TITLE: f32 = LIST + 16.0 + ABOUT + 8.0;
+/// Width of what the pause says, in points.
 const WIDE: f32 = 470.0;
 /// Width of what the result says, in points: it leaves the middle of the narrowest window free.
 const NARROW: f32 = 330.0;
@@ -102,19 +122,104 @@ fn buttons(ui: &mut Ui, ask: &mut impl FnMut(MenuAction), choices: &[(&str, Menu
     }
 }
 
-fn title(ui: &mut Ui, session: &mut Session, ask: &mut impl FnMut(MenuAction)) {
-    ui.label(RichText::new("LENSRUNNER").size(42.0).color(PALE).strong());
-    ui.label(RichText::new("a chase in the spacetime of a black hole").size(15.0).color(FAINT));
-    ui.add_space(8.0);
+/// What the title is made of.
+struct Title<'a> {
+    catalogue: &'a Catalogue,
+    records: &'a Records,
+    choice: usize,
+}
+
+/// Width of the list of missions, in points.
+const LIST: f32 = 270.0;
+/// Width of what is said of the chosen one, in points.
+const ABOUT: f32 = 330.0;
+
+fn title(ui: &mut Ui, session: &mut Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
+    ui.label(RichText::new("LENSRUNNER").size(38.0).color(PALE).strong());
+    ui.label(RichText::new("flights in the spacetime of a black hole").size(14.0).color(FAINT));
+    ui.add_space(4.0);
     ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
     calm(ui, session);
-    ui.add_space(6.0);
-    ui.label(RichText::new(goal(session)).size(15.0).color(PALE));
-    ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
     ui.add_space(8.0);
-    buttons(ui, ask, &[("Start  (Enter)", MenuAction::Start), ("Quit", MenuAction::Quit)]);
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| {
+            ui.set_width(LIST);
+            list(ui, session, title, ask);
+        });
+        ui.add_space(16.0);
+        ui.vertical(|ui| {
+            ui.set_width(ABOUT);
+            about(ui, session, title, ask);
+        });
+    });
+    ui.add_space(8.0);
+    let keys = format!("{} pauses and shows the keys", key(&session.config.controls.pause));
+    ui.label(RichText::new(keys).size(12.5).color(FAINT));
+}
+
+/// The missions, each with its stars on the chosen difficulty.
+fn list(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
+    ui.horizontal(|ui| {
+        for difficulty in Difficulty::ALL {
+            let words = RichText::new(difficulty.name()).size(14.0);
+            if ui.selectable_label(session.difficulty == difficulty, words).clicked() {
+                ask(MenuAction::Level(difficulty));
+            }
+        }
+    });
     ui.add_space(4.0);
-    controls(ui, session);
+    for choice in 0..title.catalogue.len() {
+        let scene = title.catalogue.scene(choice);
+        let words = match &scene.mission {
+            Some(mission) if choice < title.catalogue.missions.len() => {
+                let best = title.records.best(&scene.name, session.difficulty);
+                format!("{}  {}  {}", choice + 1, mission.title, stars(best.map_or(0, |best| best.stars)))
+            }
+            _ => format!("Free flight: {}", scene.name),
+        };
+        let label = egui::Button::selectable(title.choice == choice, RichText::new(words).size(15.0)).min_size(egui::vec2(LIST, 24.0));
+        let entry = ui.add(label);
+        if entry.clicked() {
+            ask(MenuAction::Choose(choice));
+        }
+        if entry.double_clicked() {
+            ask(MenuAction::Start);
+        }
+    }
+}
+
+/// Stars that were won, of three.
+fn stars(won: u32) -> String {
+    (1..=3).map(|star| if star <= won { '★' } else { '☆' }).collect()
+}
+
+/// What the chosen mission is about, and the way into it.
+fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
+    let scene = title.catalogue.scene(title.choice);
+    match &scene.mission {
+        Some(mission) => {
+            ui.label(RichText::new(&mission.title).size(22.0).color(PALE));
+            ui.label(RichText::new(&mission.idea).size(14.0).color(TRUE));
+            ui.add_space(4.0);
+            ui.label(RichText::new(&mission.brief).size(13.0).color(PALE));
+            ui.add_space(6.0);
+            let scale = Scale::of(session.config.hole.mass_solar);
+            let clock = if mission.clock == ScoreClock::Far { "the far clock" } else { "your own clock" };
+            let best = title.records.best(&scene.name, session.difficulty);
+            let best = best.map_or("not yet won".to_owned(), |best| format!("{:.1} r_s/c ({})", best.score, scale.span(best.score)));
+            ui.label(RichText::new(format!("Best on {clock}, {}: {best}", session.difficulty)).size(12.5).color(FAINT));
+            if let Some([three, two]) = mission.levels[session.difficulty as usize].stars.filter(|[_, two]| *two < mission.time_limit) {
+                ui.label(RichText::new(format!("★★★ by {three} r_s/c  ·  ★★☆ by {two} r_s/c")).size(12.5).color(FAINT));
+            }
+        }
+        None => {
+            ui.label(RichText::new("Free flight").size(22.0).color(PALE));
+            ui.label(RichText::new(goal(session)).size(13.0).color(PALE));
+            ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
+        }
+    }
+    ui.add_space(10.0);
+    buttons(ui, ask, &[("Fly  (Enter)", MenuAction::Start), ("Quit", MenuAction::Quit)]);
 }
 
 /// The switch of `video.reduced_motion`, until the game ends or `game.toml` says otherwise.
@@ -151,7 +256,8 @@ fn welcome(
         player.hinted += real.delta_secs_f64();
         player.begun = player.hinted > HINTED;
     }
-    let goal = (clock.time < SHOWN || !player.begun).then(|| goal(&session));
+    // A mission says its goals by itself.
+    let goal = ((clock.time < SHOWN || !player.begun) && session.scene.mission.is_none()).then(|| goal(&session));
     let hint = (!player.begun).then(|| hint(&session));
     let words: Vec<String> = goal.into_iter().chain(hint).collect();
     if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
@@ -266,6 +372,20 @@ fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, 
     ui.add_space(14.0);
 }
 
+/// The stars and the score of a mission.
+fn score(ui: &mut Ui, session: &Session, last: &LastFlight) {
+    let Some(won) = last.won.filter(|_| session.scene.mission.is_some()) else { return };
+    ui.label(RichText::new(stars(won.stars)).size(30.0).color(TRUE));
+    let words = match (last.is_best, last.before) {
+        (true, Some(before)) => format!("{:.1} r_s/c: your best, before {:.1}", won.score, before.score),
+        (true, None) => format!("{:.1} r_s/c: your first", won.score),
+        (false, Some(before)) => format!("{:.1} r_s/c, your best {:.1}", won.score, before.score),
+        (false, None) => format!("{:.1} r_s/c", won.score),
+    };
+    ui.label(RichText::new(words).size(14.0).color(PALE));
+    ui.add_space(8.0);
+}
+
 /// What the result says of the autopilot, if it flew.
 fn pilot(flown: Flown) -> Option<&'static str> {
     match (flown.by_autopilot, flown.by_hand) {
@@ -317,7 +437,7 @@ mod tests {
     /// A line never ends between a number and its unit, and what a unit is long is said.
     #[test]
     fn the_goal_keeps_numbers_and_units_together() {
-        let session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let session = Session::load(None, Some("chase"), Some(0)).expect("the game's own files");
         let said = goal(&session);
         for words in ["0.5\u{a0}r_s", "T\u{a0}=\u{a0}400\u{a0}r_s/c\u{a0}(456\u{a0}days)"] {
             assert!(said.contains(words), "{said}");
@@ -327,7 +447,7 @@ mod tests {
 
     #[test]
     fn the_hint_names_the_keys_as_bound() {
-        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let mut session = Session::load(None, Some("chase"), Some(0)).expect("the game's own files");
         assert!(hint(&session).contains("hold\u{a0}V"), "{}", hint(&session));
         session.config.controls.look_at_target = "KeyL".into();
         assert!(hint(&session).contains("hold\u{a0}L"), "{}", hint(&session));
@@ -336,12 +456,13 @@ mod tests {
     /// The title, the highest of the cards, is no higher than the lowest window the interface is laid out for.
     #[test]
     fn the_title_fits() {
-        let mut session = Session::load(None, Some("chase"), 0).expect("the game's own files");
+        let mut session = Session::load(None, Some("chase"), Some(0)).expect("the game's own files");
+        let catalogue = Catalogue::read(session.scene.clone()).0;
         let mut height = f32::INFINITY;
         crate::play::hud::paint::tests::on_canvas(INTERFACE, |painter, _| {
             // The first picture of an area only measures it.
-            card(painter.ctx(), "title", WIDE, |ui| {
-                title(ui, &mut session, &mut |_| ());
+            card(painter.ctx(), "title", TITLE, |ui| {
+                title(ui, &mut session, &Title { catalogue: &catalogue, records: &Records::default(), choice: 3 }, &mut |_| ());
                 height = ui.min_rect().height() + 2.0 * INSIDE;
             });
         });

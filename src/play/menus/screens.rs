@@ -2,6 +2,8 @@
 
 use bevy::prelude::*;
 
+use crate::scene::Difficulty;
+
 /// What is before the player.
 #[derive(States, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Screen {
@@ -26,8 +28,16 @@ impl Screen {
 /// What a player can ask of the menus.
 #[derive(Message, Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MenuAction {
-    /// A new chase.
+    /// A new flight of what is chosen; where one is flown, of the same again.
     Start,
+    /// The next mission.
+    Next,
+    /// The last flight, to look at.
+    Watch,
+    /// This entry of the title's list: a mission, or the last for free flight.
+    Choose(usize),
+    /// How hard it is to be.
+    Level(Difficulty),
     /// Stop, or go on.
     Pause,
     /// Back to the title.
@@ -40,6 +50,7 @@ pub enum MenuAction {
 pub fn answer(screen: Screen, action: MenuAction) -> Option<(Screen, bool)> {
     match (screen, action) {
         (_, MenuAction::Start) => Some((Screen::Playing, true)),
+        (Screen::Result, MenuAction::Next | MenuAction::Watch) => Some((Screen::Playing, true)),
         (Screen::Playing, MenuAction::Pause) => Some((Screen::Paused, false)),
         (Screen::Paused, MenuAction::Pause) => Some((Screen::Playing, false)),
         (Screen::Paused | Screen::Result, MenuAction::Title) => Some((Screen::Title, true)),

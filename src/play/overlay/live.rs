@@ -9,6 +9,8 @@ use bevy::prelude::*;
 use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::ship::Ai;
+use crate::sim::hands::HandsRule;
+use crate::sim::replay::Recording;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
@@ -86,14 +88,24 @@ fn changes_models(before: &GameConfig, now: &GameConfig) -> bool {
     before.ship.size != now.ship.size || before.enemy.size != now.enemy.size || before.render.ambient != now.render.ambient
 }
 
+/// Whether ships fly otherwise with another configuration.
+fn flies_otherwise(before: &GameConfig, now: &GameConfig) -> bool {
+    before.ship != now.ship || before.enemy != now.enemy || before.assist != now.assist || before.rules != now.rules
+}
+
 fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     let session = world.resource::<Session>();
     if before.as_ref() == Some(&session.config) {
         return;
     }
     let session = session.clone();
-    let config = &session.config;
+    // The last flight's log is that of the settings it began with.
+    if before.as_ref().is_some_and(|before| flies_otherwise(before, &session.config)) {
+        world.remove_resource::<Recording>();
+    }
+    let config = &session.effective();
     world.insert_resource(Bindings::of(config));
+    world.insert_resource(HandsRule::from(config));
     world.insert_resource::<Skills>(skills(config));
     world.insert_resource(ChaseRules(session.scene.rules(config)));
     // The clock counts steps: a change of the step takes effect with the next chase, so that T never jumps.
@@ -102,7 +114,6 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
         if let Some(mut engine) = world.get_mut::<Engine>(ship) {
             let thrust = if spec.ai != Ai::None && !spec.player { config.enemy.thrust } else { config.ship.thrust };
             engine.max_thrust = spec.max_thrust.unwrap_or(thrust);
-            engine.max_rate = config.ship.turn_rate / config.clock.pace;
         }
     }
     // The key switches for the chase; a change of the configuration is newer.

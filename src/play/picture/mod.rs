@@ -16,6 +16,7 @@ use crate::play::session::Session;
 use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
 use crate::render::settings::ANY_FILL;
 use crate::render::stage::{Stage, settings};
+use crate::sim::replay::Playback;
 use now::Now;
 use sight::{FrameCamera, ScreenContent, is_cut};
 
@@ -52,7 +53,7 @@ fn load_scene(world: &mut World, mut frames: Local<u32>) {
 /// Makes models and disk of the session's scene anew.
 pub fn restage(world: &mut World) {
     let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
-    let (scene, config) = (&session.scene, &session.config);
+    let (scene, config) = (&session.scene, &session.effective());
     let (stage, upload) = Stage::prepare(&table.0, scene, scene.assemble(config), config, None);
     world.insert_resource(Staged(stage.watched()));
     world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
@@ -69,6 +70,7 @@ fn point_camera(
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
+    playback: Option<Res<Playback>>,
     mut player: ResMut<PlayerState>,
     mut shot: ResMut<CurrentShot>,
 ) {
@@ -85,7 +87,9 @@ fn point_camera(
     // All of the player's state goes on, whatever is shown.
     let rigid = player.view == CameraView::Cockpit || video.reduced_motion;
     let attitude = player.follower.follow(state.attitude, seconds, rigid);
-    let sought = now.target().filter(|_| player.looking && sight == ScreenContent::Own);
+    // Who does not fly by hand sees where the flight is to lead.
+    let watches = player.autopilot || playback.is_some();
+    let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);
     let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
     shot.0 = Some(match (sight, now.target()) {

@@ -3,8 +3,10 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 
+use crate::play::missions::Ghost;
 use crate::play::session::Session;
-use crate::sim::{Chase, Clock, Controls, Engine, Fleet, Fuel, History};
+use crate::sim::bolts::Gun;
+use crate::sim::{ActiveMission, Bolts, Chase, Clock, Controls, Engine, Fleet, Fuel, History, Progress};
 
 /// What the picture and the HUD are made of.
 #[derive(SystemParam)]
@@ -16,6 +18,13 @@ pub struct Now<'w, 's> {
     clock: Res<'w, Clock>,
     fixed: Res<'w, Time<Fixed>>,
     fleet: Res<'w, Fleet>,
+    bolts: Res<'w, Bolts>,
+    ghost: Option<Res<'w, Ghost>>,
+    /// The mission and how far it has come.
+    pub mission: Option<Res<'w, ActiveMission>>,
+    /// See `mission`.
+    pub progress: Option<Res<'w, Progress>>,
+    guns: Query<'w, 's, &'static Gun>,
     ships: Query<'w, 's, (&'static History, &'static Engine, &'static Controls, &'static Fuel)>,
 }
 
@@ -30,9 +39,10 @@ impl Now<'_, '_> {
         self.clock.time
     }
 
-    /// The ships' worldlines, in scene order.
+    /// The ships' worldlines, in scene order, then the ghost's and the bolts'.
     pub fn histories(&self) -> Vec<&History> {
-        self.fleet.0.iter().filter_map(|&ship| self.ships.get(ship).ok()).map(|ship| ship.0).collect()
+        let ships = self.fleet.0.iter().filter_map(|&ship| self.ships.get(ship).ok()).map(|ship| ship.0);
+        ships.chain(self.ghost.iter().map(|ghost| &ghost.0)).chain(self.bolts.0.iter().map(|bolt| &bolt.history)).collect()
     }
 
     /// The player's worldline, engine, controls and tank; None before the chase has begun.
@@ -40,9 +50,19 @@ impl Now<'_, '_> {
         self.fleet.0.get(self.session.player()).and_then(|&ship| self.ships.get(ship).ok())
     }
 
+    /// The player's gun, in a mission.
+    pub fn gun(&self) -> Option<Gun> {
+        self.fleet.0.get(self.session.player()).and_then(|&ship| self.guns.get(ship).ok()).copied()
+    }
+
     /// The worldline of the ship that the player is after, and its index.
     pub fn target(&self) -> Option<(usize, &History)> {
-        let index = self.session.target()?;
+        let chased = self.chase.as_ref().and_then(|chase| chase.quarry);
+        let index = match (&self.mission, chased) {
+            (Some(_), Some(quarry)) => self.fleet.0.iter().position(|&ship| ship == quarry)?,
+            (Some(_), None) => return None,
+            (None, _) => self.session.target()?,
+        };
         let ship = self.fleet.0.get(index)?;
         Some((index, self.ships.get(*ship).ok()?.0))
     }

@@ -9,16 +9,20 @@ use bevy::prelude::*;
 use bevy::window::{MonitorSelection, PresentMode, WindowMode};
 use bevy_egui::EguiPlugin;
 
-use crate::play::game::GamePlugin;
+use crate::play::game::{GamePlugin, begin};
 use crate::play::hud::HudPlugin;
 use crate::play::menus::MenusPlugin;
+use crate::play::menus::screens::Screen;
+use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
-use crate::play::picture::PicturePlugin;
+use crate::play::picture::{PicturePlugin, Staged};
 use crate::play::player_state::PlayerState;
+use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::render::plugin::RelativisticRenderPlugin;
 use crate::render::shot::surroundings;
 use crate::sim::SimulationPlugins;
+use crate::sim::replay::Replay;
 use interface::InterfacePlugin;
 
 /// What the command line asked for beyond the session.
@@ -32,6 +36,10 @@ pub struct Options {
     pub frames: Option<u32>,
     /// Writes every frame here.
     pub record: Option<std::path::PathBuf>,
+    /// Shows this flight instead of the title.
+    pub replay: Option<Replay>,
+    /// Flies at once, without the title.
+    pub at_once: bool,
 }
 
 /// Opens the window and plays until it closes.
@@ -45,6 +53,11 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         mode: if video.fullscreen { WindowMode::BorderlessFullscreen(MonitorSelection::Primary) } else { WindowMode::Windowed },
         ..default()
     };
+    let (catalogue, wrong) = Catalogue::read(session.scene.clone());
+    for words in wrong {
+        eprintln!("{words}");
+    }
+    let choice = catalogue.missions.iter().position(|mission| mission.name == session.scene.name).unwrap_or(0);
     let mut app = App::new();
     app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
         filter: "warn,lensrunner=info,wgpu_hal=error,bevy_egui=error".into(),
@@ -52,9 +65,22 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         ..default()
     }))
     .add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
-    .add_plugins((SimulationPlugins, GamePlugin, PicturePlugin, HudPlugin, MenusPlugin, OverlayPlugin, InterfacePlugin))
+    .add_plugins((SimulationPlugins, GamePlugin, MissionsPlugin, PicturePlugin, HudPlugin, MenusPlugin, OverlayPlugin, InterfacePlugin))
     .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
-    .insert_resource(PlayerState { always_autopilot: options.autopilot, ..default() })
+    .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
+    .insert_resource(catalogue)
     .insert_resource(session);
+    if let Some(replay) = &options.replay {
+        app.insert_resource(Watched(replay.clone()));
+    }
+    if options.replay.is_some() || options.at_once {
+        app.add_systems(Update, fly_at_once.run_if(resource_exists::<Staged>).run_if(run_once).before(GameSet::Answer));
+    }
     app.run()
+}
+
+/// Goes from the title to play.
+fn fly_at_once(world: &mut World) {
+    begin(world, Screen::Playing);
+    world.resource_mut::<NextState<Screen>>().set(Screen::Playing);
 }

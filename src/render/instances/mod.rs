@@ -244,7 +244,7 @@ const ACCELERATES: f64 = 1.5;
 /// The instance, the object's position at the emission time, and the age of its light.
 fn flying(view: &View, time: f64, history: &History, order: Order, object: &DrawnObject) -> Option<(Instance, DVec3, f64)> {
     let camera = view.camera;
-    let emission = departure(view, time, history, order)?;
+    let emission = departure(view, time, history, order).filter(|&emission| history.exists_at(emission))?;
     let sample = history.at(emission);
     let turn = DMat3::from_quat(sample.attitude);
     let swing = Swing::new(history, emission, object.reach);

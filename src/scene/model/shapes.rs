@@ -62,6 +62,33 @@ pub fn uv_sphere(triangles: u32, material: Material) -> Model {
     model
 }
 
+/// A ring in the plane z = 0: its middle line is a circle of diameter 1, its tube has the diameter `thickness`. `around` × `across` × 2
+/// triangles, closed.
+pub fn torus(around: u32, across: u32, thickness: f64, material: Material) -> Model {
+    let mut model = Model { materials: vec![material], ..Model::default() };
+    for step in 0..around {
+        let (sine, cosine) = (TAU * f64::from(step) / f64::from(around)).sin_cos();
+        let outward = DVec3::new(cosine, sine, 0.0);
+        for turn in 0..across {
+            let (rise, reach) = (TAU * f64::from(turn) / f64::from(across)).sin_cos();
+            let normal = outward * reach + DVec3::Z * rise;
+            let position = (outward * 0.5 + normal * (0.5 * thickness)).as_vec3();
+            let uv = [step as f32 / around as f32, turn as f32 / across as f32];
+            model.vertices.push(Vertex { position: position.to_array(), normal: normal.as_vec3().to_array(), uv });
+        }
+    }
+    for step in 0..around {
+        for turn in 0..across {
+            let [here, next] = [step, (step + 1) % around].map(|step| step * across);
+            let over = (turn + 1) % across;
+            model.triangles.push([here + turn, next + turn, next + over]);
+            model.triangles.push([here + turn, next + over, here + over]);
+        }
+    }
+    model.triangle_materials = vec![0; model.triangles.len()];
+    model
+}
+
 fn sphere_vertex(normal: Vec3, uv: [f32; 2]) -> Vertex {
     Vertex { position: (0.5 * normal).to_array(), normal: normal.to_array(), uv }
 }

@@ -157,7 +157,7 @@ pub fn is_fair(scene: &Scene, config: &GameConfig, at: f64) -> bool {
                 let state = &scene.ships[ship].state;
                 state.position.distance(eye) > reach.max(0.3) && (state.position.length() > 1.0 || energy(state) > 0.0)
             }
-            Body::Planet => true,
+            Body::Planet | Body::Bolt(_) | Body::Ghost => true,
         }
     });
     let planet = scene.planet.as_ref().is_none_or(|planet| {

@@ -1,0 +1,82 @@
+//! Lines of what is to come, drawn through the lensing: one's own course, the target's from what its light shows, and the way of a bolt
+//! fired now. Each is the line of the places, as things held there would be seen.
+
+use glam::DVec3;
+
+use crate::sim::bolts::bolt_momentum;
+use crate::sim::pilot::rollout::{Point, advance};
+use crate::sim::sight::{direction, emission_time};
+use crate::sim::History;
+use crate::spacetime::Observer;
+use crate::spacetime::light::Order;
+use crate::spacetime::matter::ShipState;
+
+/// How far ahead a course is shown, in r_s/c, and in how many pieces.
+const COURSE: (f64, usize) = (24.0, 32);
+/// The same for a bolt.
+const SHOT: (f64, usize) = (20.0, 32);
+
+/// Directions in camera axes, one after the other; None where a place is not seen.
+pub type Line = Vec<Option<DVec3>>;
+
+/// The free fall of a ship from its state.
+pub fn course(camera: &Observer, state: &ShipState) -> Line {
+    seen(camera, places(Point::from(state), COURSE))
+}
+
+/// The free fall of the target from where its light left it.
+pub fn target_course(camera: &Observer, time: f64, history: &History) -> Line {
+    let Some(emitted) = emission_time(camera, time, history, Order::ALL[0]) else { return Line::new() };
+    let sample = history.at(emitted);
+    seen(camera, places(Point { x: sample.position, p: sample.momentum }, COURSE))
+}
+
+/// The way of a bolt fired now.
+pub fn shot(camera: &Observer, state: &ShipState) -> Line {
+    let bolt = Point { x: state.position, p: bolt_momentum(state.momentum, state.attitude * DVec3::NEG_Z) };
+    seen(camera, places(bolt, SHOT))
+}
+
+/// Where and when two ships that coast come nearest: the distance in r_s, and in how many r_s/c of T. None if they part from now on.
+pub fn closest(own: &ShipState, target: &ShipState) -> Option<(f64, f64)> {
+    let [a, b] = [own, target].map(|state| places(Point::from(state), COURSE));
+    let step = COURSE.0 / COURSE.1 as f64;
+    let distances = a.iter().zip(&b).map(|(a, b)| a.distance(*b));
+    let (index, nearest) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    (index > 0).then_some((nearest, (index as f64 + 1.0) * step))
+}
+
+/// The places of a free fall, from the end of the first piece on.
+fn places(start: Point, (span, pieces): (f64, usize)) -> Vec<DVec3> {
+    let step = span / pieces as f64;
+    let mut now = start;
+    (0..pieces)
+        .map(|_| {
+            now = advance(&now, step, 1.0, |_| DVec3::ZERO);
+            now.x
+        })
+        .collect()
+}
+
+/// Each place as a camera sees what is held there.
+fn seen(camera: &Observer, places: Vec<DVec3>) -> Line {
+    places.into_iter().map(|place| (place.length() > 1.0).then(|| direction(camera, place, Order::ALL[0], 0.0)).flatten()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::orbit::circular_orbit;
+
+    #[test]
+    fn ships_that_meet_come_nearest_where_they_meet() {
+        let own = circular_orbit(8.0, 0.0).expect("a circle");
+        // The other way round, a quarter ahead: they meet after an eighth.
+        let mut other = circular_orbit(8.0, std::f64::consts::FRAC_PI_2).expect("a circle");
+        let rain = other.position / other.position.length() * (other.momentum.dot(other.position) / other.position.length());
+        other.momentum = 2.0 * rain - other.momentum;
+        let (nearest, when) = closest(&own, &other).expect("they meet");
+        let eighth = std::f64::consts::FRAC_PI_4 / crate::spacetime::orbit::orbital_frequency(8.0);
+        assert!(nearest < 0.5 && (when - eighth).abs() < 1.0, "{nearest} {when} {eighth}");
+    }
+}

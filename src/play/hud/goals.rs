@@ -1,0 +1,60 @@
+//! The goals of a mission on the screen: which it is, what is to be done, how much of it is done, and how, for those who are slow.
+
+use bevy_egui::egui::{Align2, Painter, Rect, pos2};
+
+use crate::play::hud::paint::{FAINT, OWN, TEXT, TRUE, TextBox};
+use crate::scene::mission::{Mission, Task};
+use crate::scene::rules::Rules;
+use crate::sim::goals::needed;
+use crate::sim::{ActiveMission, ChaseRules, Progress};
+
+/// Who has not done a goal after this time, in seconds of wall time, is told how.
+const SLOW: f64 = 6.0;
+/// The widest that goals are written, in points.
+const WIDEST: f32 = 460.0;
+
+/// Since when (wall time in seconds) the present goal is to be done.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Slow {
+    goal: Option<usize>,
+    since: f64,
+}
+
+/// What is known of the goals.
+#[derive(Clone, Copy, Debug)]
+pub struct Goals<'a> {
+    /// The mission.
+    pub mission: &'a Mission,
+    /// How far it has come.
+    pub progress: &'a Progress,
+    /// The rules in force.
+    pub rules: ChaseRules,
+}
+
+/// Lays out the present goal below `top`, `seconds` of wall time after the start of the game; nothing when all are done.
+pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Slow, seconds: f64) -> Option<TextBox> {
+    let Goals { mission, progress, rules } = *goals;
+    let goal = mission.goals.get(progress.goal)?;
+    if slow.goal != Some(progress.goal) {
+        *slow = Slow { goal: Some(progress.goal), since: seconds };
+    }
+    let count = mission.goals.len();
+    let number = if count > 1 { format!("GOAL {} OF {count}", progress.goal + 1) } else { "GOAL".to_owned() };
+    let hint = goal.hint.as_deref().filter(|_| seconds - slow.since > SLOW);
+    let mut lines = vec![(number.as_str(), 11.0, FAINT), (goal.text.as_str(), 15.0, TRUE)];
+    lines.extend(hint.map(|hint| (hint, 12.0, TEXT)));
+    let at = pos2(rect.center().x, top);
+    let share = progress.share(mission, &rules);
+    Some(TextBox::lay(painter, at, Align2::CENTER_TOP, WIDEST, &lines).over_bar(share as f32, OWN))
+}
+
+/// Whether the present goal is a ship to be held, which is shown by a ring.
+pub fn is_held(mission: &Mission, progress: &Progress) -> bool {
+    mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, Task::Hold { .. }))
+}
+
+/// For how long a ship must be held, in r_s/c.
+pub fn whole(mission: Option<&ActiveMission>, progress: Option<&Progress>, rules: &Rules) -> f64 {
+    let goal = mission.zip(progress).and_then(|(mission, progress)| mission.0.goals.get(progress.goal).map(|goal| (goal, mission)));
+    goal.map_or(rules.hold_time, |(goal, mission)| needed(&goal.task, &mission.0, &ChaseRules(*rules)))
+}

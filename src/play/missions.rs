@@ -1,0 +1,190 @@
+//! The missions that can be chosen, and what a flight of one leaves behind: its score, its replay, its ghost.
+
+use std::sync::Arc;
+
+use bevy::prelude::*;
+
+use crate::play::hud::notice::Notice;
+use crate::play::menus::screens::Screen;
+use crate::play::player_state::PlayerState;
+use crate::play::records::{Best, Records};
+use crate::play::schedule::GameSet;
+use crate::play::session::Session;
+use crate::scene::crew::Crew;
+use crate::scene::mission::{Mission, ScoreClock};
+use crate::scene::{self, Scene};
+use crate::sim::replay::{Playback, Recording, Replay};
+use crate::sim::{Fleet, History, ShipMotion, outcome};
+
+/// The missions in the order in which they are shown, and the scene that the game was started with.
+#[derive(Resource, Clone, Debug)]
+pub struct Catalogue {
+    /// Their scenes.
+    pub missions: Vec<Scene>,
+    /// What is behind the title, and flown freely.
+    pub home: Scene,
+}
+
+impl Catalogue {
+    /// Reads `assets/missions`; missions that are wrong are left out and said.
+    pub fn read(home: Scene) -> (Catalogue, Vec<String>) {
+        let (mut missions, mut wrong) = (Vec::new(), Vec::new());
+        for name in scene::mission_names() {
+            match scene::load(&name) {
+                Ok(scene) if scene.mission.is_some() => missions.push(scene),
+                Ok(_) => wrong.push(format!("{name}: it is no mission")),
+                Err(error) => wrong.push(error.to_string()),
+            }
+        }
+        (Catalogue { missions, home }, wrong)
+    }
+
+    /// The scene of a choice: a mission, or past the last the home scene.
+    pub fn scene(&self, choice: usize) -> &Scene {
+        self.missions.get(choice).unwrap_or(&self.home)
+    }
+
+    /// The scene of that name.
+    pub fn find(&self, name: &str) -> Option<&Scene> {
+        self.missions.iter().chain([&self.home]).find(|scene| scene.name == name)
+    }
+
+    /// How many choices there are.
+    pub fn len(&self) -> usize {
+        self.missions.len() + 1
+    }
+
+    /// Never: the home scene is always there.
+    pub fn is_empty(&self) -> bool {
+        false
+    }
+}
+
+/// The replay that is watched instead of flying.
+#[derive(Resource, Clone, Debug)]
+pub struct Watched(pub Replay);
+
+/// The best flight so far of the mission that is flown, as a ship among the others.
+#[derive(Resource, Clone, Debug)]
+pub struct Ghost(pub History);
+
+/// How the last flight came out.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct LastFlight {
+    /// Its score, if it was won.
+    pub won: Option<Best>,
+    /// It is the best so far.
+    pub is_best: bool,
+    /// What was best before it.
+    pub before: Option<Best>,
+    /// Its replay.
+    pub replay: Option<Replay>,
+}
+
+/// Records flights and keeps the best.
+pub struct MissionsPlugin;
+
+impl Plugin for MissionsPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<LastFlight>()
+            .init_resource::<Records>()
+            .add_systems(Startup, read_records)
+            .add_systems(Update, keep_score.in_set(GameSet::Window).run_if(resource_exists::<Recording>));
+    }
+}
+
+fn read_records(mut records: ResMut<Records>, mut notice: Option<ResMut<Notice>>, real: Res<Time<Real>>) {
+    let (found, said) = Records::load();
+    *records = found;
+    if let (Some(text), Some(notice)) = (said, &mut notice) {
+        **notice = Notice { text, until: real.elapsed_secs_f64() + 10.0 };
+    }
+}
+
+/// Begins to record the flight that was just started; or, if a replay is watched, to play that. Brings the ghost of the best flight.
+pub fn begin_log(world: &mut World, screen: Screen) {
+    world.remove_resource::<Recording>();
+    world.remove_resource::<Playback>();
+    let session = world.resource::<Session>().clone();
+    let ghost = ghost(world, &session);
+    world.insert_resource(Ghost(ghost.unwrap_or_else(nobody)));
+    if screen != Screen::Playing {
+        return;
+    }
+    if let Some(watched) = world.get_resource::<Watched>() {
+        let playback = Playback::of(&watched.0);
+        let crew = watched.0.crew;
+        world.insert_resource(playback);
+        crate::sim::run::board(world, crew);
+    } else {
+        let replay = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
+        world.insert_resource(Recording(replay));
+    }
+}
+
+/// The worldline of nothing.
+fn nobody() -> History {
+    let place = glam::DVec3::new(1e3, 0.0, 0.0);
+    let mut history = History::new(0.0, &crate::spacetime::matter::ShipState::new(place, glam::DVec3::ZERO));
+    history.begins(f64::INFINITY);
+    history
+}
+
+/// Flies the best flight of this mission again and takes the player's worldline from it.
+fn ghost(world: &World, session: &Session) -> Option<History> {
+    session.scene.mission.as_ref()?;
+    if world.contains_resource::<Watched>() {
+        return None;
+    }
+    let replay = world.get_resource::<Records>()?.replay(&session.scene.name, session.difficulty)?;
+    if replay.fingerprint != session.scene.fingerprint {
+        return None;
+    }
+    let mut app = replay.app(&session.scene, &session.config);
+    for _ in 0..replay.ticks {
+        app.world_mut().run_schedule(FixedUpdate);
+    }
+    let ship = *app.world().resource::<Fleet>().0.get(session.player())?;
+    let mut history = app.world().get::<History>(ship)?.clone();
+    history.begins(0.0);
+    history.ends(history.latest());
+    Some(history)
+}
+
+/// When the mission is decided: its score, and the replay.
+fn keep_score(world: &mut World) {
+    let Some((outcome, time)) = outcome(world) else { return };
+    let Some(mut recording) = world.remove_resource::<Recording>() else { return };
+    recording.0.finish(world);
+    let session = world.resource::<Session>().clone();
+    let mut last = LastFlight { replay: Some(recording.0.clone()), ..LastFlight::default() };
+    if let Some(mission) = &session.scene.mission {
+        last.before = world.resource::<Records>().best(&session.scene.name, session.difficulty);
+        let flown_by_hand = !world.resource::<PlayerState>().flown.by_autopilot;
+        if outcome.is_won() {
+            let best = score(world, &session, mission, time);
+            last.won = Some(best);
+            // The autopilot's flights are nobody's best.
+            if flown_by_hand {
+                let mut records = world.resource_mut::<Records>();
+                let (is_best, wrong) = records.take(&session.scene.name, session.difficulty, best, &recording.0);
+                last.is_best = is_best;
+                if let Some(text) = wrong {
+                    let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 8.0;
+                    world.insert_resource(Notice { text, until });
+                }
+            }
+        }
+    }
+    world.insert_resource(last);
+}
+
+/// The score of a won flight.
+fn score(world: &World, session: &Session, mission: &Arc<Mission>, time: f64) -> Best {
+    let own = world.resource::<Fleet>().0.get(session.player()).and_then(|&ship| world.get::<ShipMotion>(ship));
+    let score = match mission.clock {
+        ScoreClock::Far => time,
+        ScoreClock::Own => own.map_or(time, |motion| motion.0.proper_time),
+    };
+    Best { score, stars: mission.levels[session.difficulty as usize].stars_at(score) }
+}

@@ -1,0 +1,166 @@
+//! The player's best scores and the replays of them, kept in the user's data folder.
+//!
+//! Everything is written at once and whole: to a file beside, which then takes the place of the old one. A file that cannot be read is set
+//! aside, never overwritten.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::Resource;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::Difficulty;
+use crate::sim::replay::Replay;
+
+/// Names another folder than the user's own.
+pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
+
+/// The best flight of a mission on a difficulty.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Best {
+    /// Time on the mission's clock, in r_s/c.
+    pub score: f64,
+    /// One to three.
+    pub stars: u32,
+}
+
+/// All best flights: by mission, then by difficulty.
+type Table = BTreeMap<String, BTreeMap<String, Best>>;
+
+/// The best flights, and where they are kept.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Records {
+    table: Table,
+    /// None where there is no folder to write to: then they last as long as the game.
+    folder: Option<PathBuf>,
+}
+
+impl Records {
+    /// Those of the user, and what is to be said of them.
+    pub fn load() -> (Records, Option<String>) {
+        let named = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
+        let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.data_dir().to_path_buf());
+        match named.or_else(own) {
+            Some(folder) => Records::load_from(&folder),
+            None => (Records::default(), Some("There is no folder for best scores: they are kept until the game ends.".into())),
+        }
+    }
+
+    /// Those of a folder, which need not be there yet.
+    pub fn load_from(folder: &Path) -> (Records, Option<String>) {
+        let file = folder.join("records.toml");
+        let records = |table| Records { table, folder: Some(folder.to_path_buf()) };
+        let text = match std::fs::read_to_string(&file) {
+            Ok(text) => text,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(Table::new()), None),
+            Err(error) => return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display()))),
+        };
+        match toml::from_str(&text) {
+            Ok(table) => (records(table), None),
+            Err(_) => {
+                let aside = (1..).map(|n| folder.join(format!("records.damaged-{n}.toml"))).find(|aside| !aside.exists());
+                let moved = aside.as_ref().map(|aside| std::fs::rename(&file, aside));
+                match (moved, aside) {
+                    (Some(Ok(())), Some(aside)) => {
+                        let said = format!("{} was damaged; it is set aside as {}.", file.display(), aside.display());
+                        (records(Table::new()), Some(said))
+                    }
+                    _ => (Records::default(), Some(format!("{} is damaged. New scores are kept until the game ends.", file.display()))),
+                }
+            }
+        }
+    }
+
+    /// The best flight of a mission.
+    pub fn best(&self, mission: &str, difficulty: Difficulty) -> Option<Best> {
+        self.table.get(mission)?.get(difficulty.name()).copied()
+    }
+
+    /// The replay of it, if it is there and can be flown.
+    pub fn replay(&self, mission: &str, difficulty: Difficulty) -> Option<Replay> {
+        Replay::load(&self.replay_file(mission, difficulty)?).ok()
+    }
+
+    fn replay_file(&self, mission: &str, difficulty: Difficulty) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join("replays").join(format!("{mission}-{difficulty}.toml")))
+    }
+
+    /// Takes a won flight. Whether it is the best so far, which is then written; and what went wrong.
+    pub fn take(&mut self, mission: &str, difficulty: Difficulty, won: Best, replay: &Replay) -> (bool, Option<String>) {
+        let is_best = self.best(mission, difficulty).is_none_or(|best| won.score < best.score);
+        if !is_best {
+            return (false, None);
+        }
+        self.table.entry(mission.to_owned()).or_default().insert(difficulty.name().to_owned(), won);
+        let written = self.write().and_then(|()| match self.replay_file(mission, difficulty) {
+            Some(file) => write_whole(&file, &replay.to_text()),
+            None => Ok(()),
+        });
+        (true, written.err().map(|error| format!("The score could not be written: {error}")))
+    }
+
+    fn write(&self) -> std::io::Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        let text = toml::to_string(&self.table).map_err(std::io::Error::other)?;
+        write_whole(&folder.join("records.toml"), &text)
+    }
+}
+
+/// Writes a file so that it is either the old one or the new, whatever happens.
+fn write_whole(file: &Path, text: &str) -> std::io::Result<()> {
+    let named = |error: std::io::Error| std::io::Error::new(error.kind(), format!("{}: {error}", file.display()));
+    let beside = file.with_extension("new");
+    std::fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).map_err(named)?;
+    std::fs::write(&beside, text).map_err(named)?;
+    std::fs::rename(&beside, file).map_err(named)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::crew::Crew;
+    use crate::scene::{self, GameConfig};
+
+    fn folder(name: &str) -> PathBuf {
+        let folder = std::env::temp_dir().join(format!("lensrunner-records-{name}-{}", std::process::id()));
+        _ = std::fs::remove_dir_all(&folder);
+        folder
+    }
+
+    fn flight() -> Replay {
+        let scene = scene::load("01-training").expect("a mission of the game");
+        Replay::begin(&scene, &GameConfig::default(), Difficulty::Easy, Crew::Expert, 1)
+    }
+
+    #[test]
+    fn a_better_score_is_kept_and_found_again() {
+        let folder = folder("kept");
+        let (mut records, said) = Records::load_from(&folder);
+        assert_eq!(said, None);
+        let best = |score| Best { score, stars: 2 };
+        assert_eq!(records.take("01-training", Difficulty::Easy, best(50.0), &flight()), (true, None));
+        assert_eq!(records.take("01-training", Difficulty::Easy, best(60.0), &flight()), (false, None));
+        let (again, said) = Records::load_from(&folder);
+        assert_eq!(said, None);
+        assert_eq!(again.best("01-training", Difficulty::Easy), Some(best(50.0)));
+        assert_eq!(again.best("01-training", Difficulty::Hard), None);
+        assert_eq!(again.replay("01-training", Difficulty::Easy), Some(flight()));
+        _ = std::fs::remove_dir_all(&folder);
+    }
+
+    #[test]
+    fn a_damaged_file_is_set_aside_and_said() {
+        let folder = folder("damaged");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        for n in 1..=2 {
+            std::fs::write(folder.join("records.toml"), format!("[broken {n}")).expect("a file");
+            let (records, said) = Records::load_from(&folder);
+            assert!(said.is_some_and(|said| said.contains(&format!("damaged-{n}"))));
+            assert_eq!(records.best("01-training", Difficulty::Easy), None);
+            let aside = std::fs::read_to_string(folder.join(format!("records.damaged-{n}.toml"))).expect("set aside");
+            assert_eq!(aside, format!("[broken {n}"));
+        }
+        _ = std::fs::remove_dir_all(&folder);
+    }
+}
