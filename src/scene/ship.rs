@@ -8,6 +8,7 @@
 //! # or, instead of both:
 //! orbit = { radius = 5.0, inclination = 0.1, node = 0.0, phase = 0.0 }
 //! orbit = { semi_latus_rectum = 5.0, eccentricity = 0.5, anomaly = 3.14159, inclination = 0.1, node = 0.0, phase = 0.0 }
+//! facing = "quarry"                # or: it looks at where it sees that ship at the start
 //! scatter = { radius = 0.5, phase = 0.4, tilt = 0.1 }  # by chance it starts so much farther in or out (r_s), on or back (rad), tilted (rad)
 //! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
 //! ai = "none"                      # or "flee", "pursue"
@@ -99,6 +100,8 @@ pub struct ShipSpec {
     pub state: ShipState,
     /// How much that differs by chance.
     pub scatter: Option<Scatter>,
+    /// The ship that it looks at at the start, whatever its attitude.
+    pub facing: Option<String>,
     /// Who flies it.
     pub ai: Ai,
     /// Whom its AI flees or pursues; the first other ship if none.
@@ -124,6 +127,7 @@ impl ShipSpec {
             name: name.into(),
             state,
             scatter: None,
+            facing: None,
             ai: Ai::None,
             target: None,
             sees: Sees::Now,
@@ -147,6 +151,7 @@ pub struct ShipEntry {
     momentum: Option<Spanned<[f64; 3]>>,
     orbit: Option<Spanned<OrbitEntry>>,
     scatter: Option<Spanned<ScatterEntry>>,
+    facing: Option<Spanned<String>>,
     #[serde(default, deserialize_with = "exactly_or_none")]
     attitude: Option<Spanned<[f64; 4]>>,
     #[serde(default)]
@@ -203,12 +208,12 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
     }
     for entry in entries {
         let entry = entry.get_ref();
-        if let Some(target) = &entry.target
+        if let Some(target) = entry.target.as_ref().or(entry.facing.as_ref())
             && (target.get_ref() == entry.name.get_ref() || !ships.iter().any(|ship| &ship.name == target.get_ref()))
         {
             let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).filter(|name| name != entry.name.get_ref()).collect();
             let others = if names.is_empty() { "there is none".into() } else { format!("{names:?}") };
-            return fault(target, format!("target = {:?} must be another ship of the scene: {others}", target.get_ref()));
+            return fault(target, format!("{:?} must be another ship of the scene: {others}", target.get_ref()));
         }
         if entry.ai != Ai::None && ships.len() < 2 {
             return fault(&entry.name, "ai = \"flee\" and \"pursue\" need another ship in the scene".into());
@@ -243,6 +248,7 @@ pub fn check_ship(entry: &Spanned<ShipEntry>) -> Result<ShipSpec, Fault> {
         name: name.clone(),
         state,
         scatter,
+        facing: entry.facing.as_ref().map(|facing| facing.get_ref().clone()),
         ai: entry.ai,
         target: entry.target.as_ref().map(|target| target.get_ref().clone()),
         sees: entry.sees,

@@ -5,6 +5,8 @@ use rand::{RngExt, SeedableRng, rngs::StdRng};
 
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
+use crate::spacetime::Observer;
+use crate::spacetime::matter::ShipState;
 
 use super::bolts::{Bolts, Gun, Hits, Trigger};
 use super::clock::Clock;
@@ -13,6 +15,7 @@ use super::hands::{Hands, HandsRule};
 use super::history::History;
 use super::pilot::{Chance, Mind, Skill, Skills};
 use super::rules::{Chase, ChaseRules, begin_chase};
+use super::sight;
 use super::ship::{Controls, Engine, Fleet, Fuel, Order, Pilot, Player, Programme, Ship, ShipMotion};
 
 /// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
@@ -44,7 +47,17 @@ fn scattered(specs: &[ShipSpec], seed: u64) -> Vec<ShipSpec> {
         let state = spec.scatter.and_then(|scatter| scatter.apply(&spec.state, shares)).unwrap_or(spec.state);
         ShipSpec { state, ..spec.clone() }
     };
-    specs.iter().map(one).collect()
+    let placed: Vec<ShipSpec> = specs.iter().map(one).collect();
+    placed.iter().map(|spec| ShipSpec { state: facing(spec, &placed), ..spec.clone() }).collect()
+}
+
+/// The start of a ship, turned to the one that it faces.
+fn facing(spec: &ShipSpec, all: &[ShipSpec]) -> ShipState {
+    let state = spec.state;
+    let Some(other) = spec.facing.as_ref().and_then(|name| all.iter().find(|other| &other.name == name)) else { return state };
+    let eye = Observer { position: state.position, momentum: state.momentum, attitude: state.attitude, field_of_view: 1.0 };
+    let seen = sight::facing(&eye, 0.0, &History::new(0.0, &other.state), glam::DVec3::Z);
+    ShipState { attitude: seen.unwrap_or(state.attitude), ..state }
 }
 
 /// Keeps the chance of starts apart from that of pilots: any number does.

@@ -18,9 +18,10 @@ use crate::play::overlay::OverlayPlugin;
 use crate::play::picture::{PicturePlugin, Staged};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
-use crate::play::session::Session;
+use crate::play::session::{SCENE, Session};
 use crate::render::plugin::RelativisticRenderPlugin;
 use crate::render::shot::surroundings;
+use crate::scene;
 use crate::sim::SimulationPlugins;
 use crate::sim::replay::Replay;
 use interface::InterfacePlugin;
@@ -53,7 +54,9 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         mode: if video.fullscreen { WindowMode::BorderlessFullscreen(MonitorSelection::Primary) } else { WindowMode::Windowed },
         ..default()
     };
-    let (catalogue, wrong) = Catalogue::read(session.scene.clone());
+    // Behind the title nothing is to be won.
+    let home = if session.scene.mission.is_some() { scene::load(SCENE).unwrap_or(session.scene.clone()) } else { session.scene.clone() };
+    let (catalogue, wrong) = Catalogue::read(home);
     for words in wrong {
         eprintln!("{words}");
     }
@@ -74,13 +77,16 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         app.insert_resource(Watched(replay.clone()));
     }
     if options.replay.is_some() || options.at_once {
-        app.add_systems(Update, fly_at_once.run_if(resource_exists::<Staged>).run_if(run_once).before(GameSet::Answer));
+        app.add_systems(Update, fly_at_once.run_if(resource_exists::<Staged>).before(GameSet::Answer));
     }
     app.run()
 }
 
-/// Goes from the title to play.
-fn fly_at_once(world: &mut World) {
+/// Goes from the title to play, once.
+fn fly_at_once(world: &mut World, mut done: Local<bool>) {
+    if std::mem::replace(&mut *done, true) {
+        return;
+    }
     begin(world, Screen::Playing);
     world.resource_mut::<NextState<Screen>>().set(Screen::Playing);
 }
