@@ -6,10 +6,11 @@ use std::time::Instant;
 
 use glam::{Mat3, Vec3};
 
+use crate::aurora::engine::draw::{Job, TOLERANCE, Timed};
 use crate::aurora::engine::lattice::Lattice;
 use crate::aurora::engine::splat::Picture;
 use crate::aurora::engine::walk::across;
-use crate::aurora::experiment::{Job, Runner, TOLERANCE, Timed};
+use crate::aurora::experiment::Runner;
 use crate::aurora::race::{Electron, Experiment, Race, Scene, Walk};
 use crate::aurora::sheet::{FALLS, Falls, LEVELS, TOP, row_reach};
 use lensrunner::render::Gpu;

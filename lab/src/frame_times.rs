@@ -2,12 +2,13 @@
 
 use std::fmt;
 use std::io::Write;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use lensrunner::scene::{self, GameConfig, Scene};
 
 use lensrunner::render::aurora::ration::shares;
 use lensrunner::render::disk::types::DiskCounters;
+use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::gpu::types::Counters;
@@ -101,83 +102,110 @@ pub fn run(request: &FrameTimesRequest, config: &GameConfig, out: &mut impl Writ
         Ok((scene, moment))
     };
     let scenes: Vec<_> = request.scenes.iter().map(played).collect::<Result<_, _>>()?;
-    let gpu = Gpu::headless()?;
-    let surroundings = surroundings();
+    let bench = Bench { gpu: Gpu::headless()?, surroundings: surroundings(), request, config };
     let [width, height] = request.size;
     let say = |error: std::io::Error| PictureError::Write { path: "standard output".into(), reason: error.to_string() };
-    writeln!(out, "{}, {width}x{height}, {} frames", gpu.adapter.name, request.frames).map_err(say)?;
+    writeln!(out, "{}, {width}x{height}, {} frames", bench.gpu.adapter.name, request.frames).map_err(say)?;
     for (name, (scene, moment)) in request.scenes.iter().zip(&scenes) {
-        let times = frame_times(&gpu, &surroundings, name, scene, moment, request, config)?;
+        let times = bench.time(name, scene, moment)?;
         writeln!(out, "{times}").map_err(say)?;
     }
     Ok(())
 }
 
-/// Draws a scene at a moment again and again and times the frames one by one: a frame is submitted when the one before is done.
-fn frame_times(
-    gpu: &Gpu,
-    surroundings: &Surroundings,
-    name: &str,
-    scene: &Scene,
-    moment: &Moment,
-    request: &FrameTimesRequest,
-    config: &GameConfig,
-) -> Result<FrameTimes, ShotError> {
-    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-    let (_, view) = target(&gpu.device, "bench", request.size, format);
-    let start = Instant::now();
-    let mut renderer = Renderer::new(gpu, surroundings, format, request.size);
-    let stage = Stage::new(&mut renderer, scene, config);
-    let camera = stage.camera(moment.time(), &moment.ships());
-    let mut whole = Vec::new();
-    let mut prepared = Vec::new();
-    let mut passes: Vec<(&'static str, Vec<f64>)> = Vec::new();
-    let mut first = 0.0;
-    let mut spent = None;
-    let settling = 2 + if request.rationed { SETTLING } else { 0 };
-    for number in 0..request.frames + settling {
-        let begin = Instant::now();
-        let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
-        renderer.timing().set_counting(number < settling);
-        renderer.prepare(&frame);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        renderer.encode(&mut encoder, &view);
-        let ready = begin.elapsed();
-        gpu.queue.submit([encoder.finish()]);
-        gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-        let latest = renderer.timing().latest();
-        if request.rationed {
-            stage.ration_aurora(latest);
+/// What all scenes are timed with.
+struct Bench<'a> {
+    gpu: Gpu,
+    surroundings: Surroundings,
+    request: &'a FrameTimesRequest,
+    config: &'a GameConfig,
+}
+
+impl Bench<'_> {
+    /// Draws a scene at a moment again and again and times the frames one by one: a frame is submitted when the one before is done.
+    fn time(&self, name: &str, scene: &Scene, moment: &Moment) -> Result<FrameTimes, ShotError> {
+        let Bench { gpu, request, config, .. } = self;
+        let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+        let (_, view) = target(&gpu.device, "bench", request.size, format);
+        let start = Instant::now();
+        let mut renderer = Renderer::new(gpu, &self.surroundings, format, request.size);
+        let stage = Stage::new(&mut renderer, scene, config);
+        let camera = stage.camera(moment.time(), &moment.ships());
+        let mut taken = Taken::default();
+        let mut first = 0.0;
+        let mut spent = None;
+        let settling = 2 + if request.rationed { SETTLING } else { 0 };
+        for number in 0..request.frames + settling {
+            let begin = Instant::now();
+            let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
+            renderer.timing().set_counting(number < settling);
+            let ready = self.draw(&mut renderer, &frame, &view)?;
+            let latest = renderer.timing().latest();
+            if request.rationed {
+                stage.ration_aurora(latest);
+            }
+            if number == 0 {
+                first = milliseconds(start.elapsed());
+            }
+            if number < settling {
+                spent = processor_time();
+            } else {
+                taken.add(begin.elapsed(), ready - begin, latest);
+            }
         }
-        if number == 0 {
-            first = start.elapsed().as_secs_f64() * 1e3;
-        }
-        if number < settling {
-            spent = processor_time();
-            continue;
-        }
-        whole.push(begin.elapsed().as_secs_f64() * 1e3);
-        prepared.push(ready.as_secs_f64() * 1e3);
-        for (label, time) in latest.iter().map(|&(label, time)| (label, f64::from(time))) {
-            match passes.iter_mut().find(|(known, _)| *known == label) {
+        let processor = processor_time().zip(spent).map(|(now, then)| (now - then) / f64::from(request.frames));
+        let Taken { mut whole, mut prepared, passes } = taken;
+        Ok(FrameTimes {
+            scene: name.to_owned(),
+            first,
+            whole: [0.0, 0.5, 1.0].map(|q| quantile(&mut whole, q)),
+            prepare: quantile(&mut prepared, 0.5),
+            processor,
+            passes: passes.into_iter().map(|(label, mut times)| (label, [0.5, 0.0].map(|q| quantile(&mut times, q)))).collect(),
+            fragments: renderer.timing().latest_fragments().to_vec(),
+            counters: renderer.counters()?,
+            disk: renderer.disk_counters()?,
+            strokes: renderer.aurora_strokes()?,
+        })
+    }
+
+    /// Draws one frame to its end, and says when it was handed to the GPU.
+    fn draw(&self, renderer: &mut Renderer, frame: &FrameInput, view: &wgpu::TextureView) -> Result<Instant, PictureError> {
+        renderer.prepare(frame);
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        renderer.encode(&mut encoder, view);
+        let ready = Instant::now();
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+        Ok(ready)
+    }
+}
+
+/// Times of frames, in milliseconds.
+#[derive(Default)]
+struct Taken {
+    whole: Vec<f64>,
+    /// Before submission.
+    prepared: Vec<f64>,
+    /// Of each pass.
+    passes: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl Taken {
+    fn add(&mut self, whole: Duration, prepared: Duration, passes: &[(&'static str, f32)]) {
+        self.whole.push(milliseconds(whole));
+        self.prepared.push(milliseconds(prepared));
+        for (label, time) in passes.iter().map(|&(label, time)| (label, f64::from(time))) {
+            match self.passes.iter_mut().find(|(known, _)| *known == label) {
                 Some((_, times)) => times.push(time),
-                None => passes.push((label, vec![time])),
+                None => self.passes.push((label, vec![time])),
             }
         }
     }
-    let processor = processor_time().zip(spent).map(|(now, then)| (now - then) / f64::from(request.frames));
-    Ok(FrameTimes {
-        scene: name.to_owned(),
-        first,
-        whole: [quantile(&mut whole, 0.0), quantile(&mut whole, 0.5), quantile(&mut whole, 1.0)],
-        prepare: quantile(&mut prepared, 0.5),
-        processor,
-        passes: passes.into_iter().map(|(label, mut times)| (label, [0.5, 0.0].map(|q| quantile(&mut times, q)))).collect(),
-        fragments: renderer.timing().latest_fragments().to_vec(),
-        counters: renderer.counters()?,
-        disk: renderer.disk_counters()?,
-        strokes: renderer.aurora_strokes()?,
-    })
+}
+
+fn milliseconds(time: Duration) -> f64 {
+    time.as_secs_f64() * 1e3
 }
 
 fn quantile(values: &mut [f64], q: f64) -> f64 {

@@ -111,58 +111,105 @@ const LEAST_DIFFERENCE: f64 = 1e-7;
 /// Three rows of panels, a column for each view: time against electrons at the middle radius, error against time for all, and against time
 /// the difference from the particle method with the same random numbers.
 pub fn draw(sheet: &Sheet) -> Figure {
-    let (methods, radii, counts) = (distinct(sheet, "method"), distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
-    let middle = radii.get(radii.len() / 2).cloned().unwrap_or_default();
-    let most = counts.last().cloned().unwrap_or_default();
-    let views: Vec<&str> =
-        View::ALL.iter().map(|(_, name)| *name).filter(|name| distinct(sheet, "view").iter().any(|v| v == name)).collect();
-    let rows_of = |view: &str| sheet.rows.iter().filter(move |row| sheet.text(row, "view") == view).collect::<Vec<_>>();
-    let times = |view: &&str| {
-        let lines = methods.iter().map(|method| Line {
+    let shown = Shown::new(sheet);
+    let measured = distinct(sheet, "view");
+    let views: Vec<&str> = View::ALL.iter().map(|(_, name)| *name).filter(|name| measured.iter().any(|view| view == name)).collect();
+    let mut panels: Vec<Panel> = views.iter().map(|view| shown.times(view)).collect();
+    panels.extend(views.iter().map(|view| shown.errors(view)));
+    // A sheet of before has no such column.
+    let known = sheet.column("difference").is_ok();
+    if known {
+        panels.extend(views.iter().map(|view| shown.differences(view)));
+    }
+    Figure {
+        title: "Aurora: walks on the screen against particles in space".into(),
+        subtitle:
+            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads, or the graphics adapter (-gpu). “bent” is seen through the lensing of a hole."
+                .into(),
+        panels,
+        columns: views.len().max(1),
+        size: [1900, if known { 1600 } else { 1100 }],
+        footer: Provenance::footer(&sheet.notes),
+    }
+}
+
+/// What the panels show of the table.
+struct Shown<'a> {
+    sheet: &'a Sheet,
+    methods: Vec<String>,
+    /// The middle one of the radii.
+    radius: String,
+    /// The greatest number of electrons.
+    most: String,
+}
+
+impl<'a> Shown<'a> {
+    fn new(sheet: &'a Sheet) -> Shown<'a> {
+        let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
+        Shown {
+            sheet,
+            methods: distinct(sheet, "method"),
+            radius: radii.get(radii.len() / 2).cloned().unwrap_or_default(),
+            most: counts.last().cloned().unwrap_or_default(),
+        }
+    }
+
+    /// The rows of a view at the radius shown.
+    fn rows(&self, view: &str) -> impl Iterator<Item = &'a Vec<String>> {
+        let sheet = self.sheet;
+        sheet.rows.iter().filter(move |row| sheet.text(row, "view") == view && sheet.text(row, "radius_km") == self.radius)
+    }
+
+    /// Time against electrons, a line for each method.
+    fn times(&self, view: &str) -> Panel {
+        let lines = self.methods.iter().map(|method| Line {
             name: method.clone(),
-            points: rows_of(view)
-                .iter()
-                .filter(|row| sheet.text(row, "method") == method && sheet.text(row, "radius_km") == middle)
-                .map(|row| [sheet.number(row, "electrons"), sheet.number(row, "total_ms")])
+            points: self
+                .rows(view)
+                .filter(|row| self.sheet.text(row, "method") == method)
+                .map(|row| [self.sheet.number(row, "electrons"), self.sheet.number(row, "total_ms")])
                 .collect(),
             dashed: method.ends_with(THREADS) || method.ends_with(ADAPTER),
             dots: true,
-            color: Some(family(&methods, method)),
+            color: Some(family(&self.methods, method)),
         });
         Panel::Lines(Lines {
-            title: format!("{view}: splats of {middle} km"),
+            title: format!("{view}: splats of {} km", self.radius),
             x: Axis::log("electrons"),
             y: Axis::log("time of a frame, ms"),
             lines: lines.collect(),
             ..Lines::default()
         })
-    };
-    let points = |view: &&str, column: &str| -> Vec<Point> {
-        let chosen = rows_of(view).into_iter().filter(|row| sheet.text(row, "electrons") == most && sheet.text(row, "radius_km") == middle);
+    }
+
+    /// A column against time, a point for each method with the most electrons.
+    fn points(&self, view: &str, column: &str) -> Vec<Point> {
         let point = |row: &Vec<String>| Point {
-            x: sheet.number(row, "total_ms"),
-            y: sheet.number(row, column),
-            label: sheet.text(row, "method").to_owned(),
-            family: family(&methods, sheet.text(row, "method")),
+            x: self.sheet.number(row, "total_ms"),
+            y: self.sheet.number(row, column),
+            label: self.sheet.text(row, "method").to_owned(),
+            family: family(&self.methods, self.sheet.text(row, "method")),
             failed: false,
             chosen: false,
         };
-        chosen.map(point).collect()
-    };
-    let errors = |view: &&str| {
+        self.rows(view).filter(|row| self.sheet.text(row, "electrons") == self.most).map(point).collect()
+    }
+
+    fn errors(&self, view: &str) -> Panel {
         Panel::Scatter(Scatter {
-            title: format!("{view}: {most} electrons"),
+            title: format!("{view}: {} electrons", self.most),
             x: Axis::log("time of a frame, ms"),
             // Through bent light there is no line integral to judge by.
-            y: Axis::linear(if *view == "bent" { "error against many more electrons" } else { "error against the line integral" }),
-            points: points(view, "error"),
+            y: Axis::linear(if view == "bent" { "error against many more electrons" } else { "error against the line integral" }),
+            points: self.points(view, "error"),
             pareto: true,
             ..Scatter::default()
         })
-    };
-    // The particle method itself, on one thread, is no point: it differs by nothing.
-    let differences = |view: &&str| {
-        let mut points = points(view, "difference");
+    }
+
+    fn differences(&self, view: &str) -> Panel {
+        // The particle method itself, on one thread, is no point: it differs by nothing.
+        let mut points = self.points(view, "difference");
         points.retain(|point| point.y > 0.0);
         points.iter_mut().for_each(|point| point.y = point.y.max(LEAST_DIFFERENCE));
         Panel::Scatter(Scatter {
@@ -172,26 +219,13 @@ pub fn draw(sheet: &Sheet) -> Figure {
             points,
             ..Scatter::default()
         })
-    };
-    // A sheet of before has no such column.
-    let known = sheet.column("difference").is_ok();
-    Figure {
-        title: "Aurora: walks on the screen against particles in space".into(),
-        subtitle:
-            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads, or the graphics adapter (-gpu). “bent” is seen through the lensing of a hole."
-                .into(),
-        panels: views.iter().map(times).chain(views.iter().map(errors)).chain(views.iter().filter(|_| known).map(differences)).collect(),
-        columns: views.len().max(1),
-        size: [1900, if known { 1600 } else { 1100 }],
-        footer: Provenance::footer(&sheet.notes),
     }
 }
 
 /// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown
 /// table: milliseconds of the particle method and of the exact walk, and how many times less the walk takes.
 pub fn ratios(sheet: &Sheet) -> String {
-    let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
-    let (middle, most) = (radii.get(radii.len() / 2).cloned().unwrap_or_default(), counts.last().cloned().unwrap_or_default());
+    let Shown { radius, most, .. } = Shown::new(sheet);
     let mut text = String::from(
         "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the same on all threads | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear | difference from the particle method: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
@@ -199,7 +233,7 @@ pub fn ratios(sheet: &Sheet) -> String {
         let of = |method: &str, column: &str| {
             let found = sheet.rows.iter().find(|row| {
                 let is = |column: &str, text: &str| sheet.text(row, column) == text;
-                is("view", &view) && is("method", method) && is("radius_km", &middle) && is("electrons", &most)
+                is("view", &view) && is("method", method) && is("radius_km", &radius) && is("electrons", &most)
             });
             found.map_or(f64::NAN, |row| sheet.number(row, column))
         };

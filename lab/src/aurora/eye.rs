@@ -20,6 +20,17 @@ pub struct Eye {
     pub bent: Option<Bent>,
 }
 
+/// A planet by a hole, in the hole's axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Planet {
+    /// Where its centre is, r_s from the hole.
+    pub at: DVec3,
+    /// Its radius, r_s.
+    pub radius: f64,
+    /// The direction that the side with the patch in its middle faces, of any length.
+    pub facing: DVec3,
+}
+
 /// The patch as it lies by a hole.
 #[derive(Clone, Debug)]
 pub struct Bent {
@@ -58,12 +69,11 @@ impl Eye {
         }
     }
 
-    #[allow(clippy::too_many_arguments, reason = "hole, planet and camera, each said once")]
-    /// On a planet of radius `planet` r_s at `at` (r_s from the hole), seen by a camera at (0, 0, `radius`). The patch is in the middle of
-    /// the side that faces `facing`, and the camera looks where the patch's point 110 km up is seen.
-    pub fn bent(slice: Slice, radius: f64, at: DVec3, planet: f64, facing: DVec3, field_of_view: f64, size: [usize; 2], order: u32) -> Eye {
-        let scale = planet / PLANET_RADIUS;
-        let up = facing.normalize();
+    /// On a planet, seen in an image order by a camera at (0, 0, `radius`) r_s, for which `slice` is the table, with a horizontal field of
+    /// view in radians. The camera looks where the patch's point 150 km up is seen.
+    pub fn bent(slice: Slice, radius: f64, planet: &Planet, field_of_view: f64, size: [usize; 2], order: u32) -> Eye {
+        let scale = planet.radius / PLANET_RADIUS;
+        let up = planet.facing.normalize();
         let north = (DVec3::Y - up * up.y).try_normalize().unwrap_or_else(|| up.any_orthonormal_vector());
         let axes = DMat3::from_cols(north.cross(up), north, up);
         let mut eye = Eye {
@@ -74,7 +84,7 @@ impl Eye {
             bent: Some(Bent {
                 slice,
                 radius: radius as f32,
-                origin: (at + up * planet - DVec3::Z * radius).as_vec3(),
+                origin: (planet.at + up * planet.radius - DVec3::Z * radius).as_vec3(),
                 place: (axes * scale).as_mat3(),
                 axes: Mat3::IDENTITY,
                 scale: scale as f32,

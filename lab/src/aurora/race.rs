@@ -118,6 +118,14 @@ pub struct Race {
     warm: [[bool; 2]; 2],
 }
 
+/// A scene as the passes read it.
+struct Bound {
+    walk: wgpu::BindGroup,
+    splat: wgpu::BindGroup,
+    /// How many points are drawn, which the walk says.
+    draws: wgpu::Buffer,
+}
+
 impl Race {
     /// Compiles the passes; None if the adapter cannot add up full floats.
     pub fn new(gpu: &Gpu) -> Option<Race> {
@@ -157,30 +165,47 @@ impl Race {
         if !std::mem::replace(&mut self.warm[which.0][which.1], true) {
             self.draw(scene, walk)?;
         }
-        let gpu = &self.gpu;
-        let device = &gpu.device;
-        let uniform = buffer(device, "aurora race", size_of::<Experiment>() as u64, BufferUsages::UNIFORM);
-        gpu.queue.write_buffer(&uniform, 0, bytemuck::bytes_of(&scene.uniform));
-        let slice = TableTexture::of(gpu, "aurora race slice", scene.slice.unwrap_or(&[[0.0; 4]]));
-        let electrons = storage(gpu, "aurora race electrons", scene.electrons);
-        let [air, light] = [("aurora race air", scene.air), ("aurora race light", scene.light)].map(|(label, levels)| {
-            let uniform = buffer(device, label, size_of_val(levels) as u64, BufferUsages::UNIFORM);
-            gpu.queue.write_buffer(&uniform, 0, bytemuck::cast_slice(levels));
-            uniform
-        });
-        let falls = TableTexture::of(gpu, "aurora race falls", scene.falls);
-        let nodes = TableTexture::of(gpu, "aurora race nodes", scene.nodes);
-        let room = 16 * POINTS * scene.electrons.len() as u64;
+        self.make_room(scene.electrons.len())?;
+        let bound = self.bind(scene);
+        let (texture, view) = target(&self.gpu.device, "aurora race light", scene.size, FORMAT);
+        let walk = self.walk(&self.walks[which.0][which.1], &bound, scene.electrons.len())?;
+        let splat = self.splat(&bound, &view)?;
+        Ok(Drawn { pixels: readback::floats(&self.gpu, &texture)?, walk, splat })
+    }
+
+    /// Makes the buffer of points large enough for so many electrons.
+    fn make_room(&mut self, electrons: usize) -> Result<(), PictureError> {
+        let device = &self.gpu.device;
+        let room = 16 * POINTS * electrons as u64;
         let most = device.limits().max_storage_buffer_binding_size;
         if room > most {
-            let asked =
-                format!("the points of {} electrons take {room} bytes, a buffer of this adapter {most} at most", scene.electrons.len());
+            let asked = format!("the points of {electrons} electrons take {room} bytes, a buffer of this adapter {most} at most");
             return Err(PictureError::Device(asked));
         }
         if self.points.size() < room {
             self.points = buffer(device, "aurora race points", room, BufferUsages::STORAGE);
         }
-        let points = &self.points;
+        Ok(())
+    }
+
+    /// A uniform buffer with these bytes.
+    fn uniform(&self, label: &str, bytes: &[u8]) -> wgpu::Buffer {
+        let uniform = buffer(&self.gpu.device, label, bytes.len() as u64, BufferUsages::UNIFORM);
+        self.gpu.queue.write_buffer(&uniform, 0, bytes);
+        uniform
+    }
+
+    /// Hands the scene to the adapter.
+    fn bind(&self, scene: &Scene) -> Bound {
+        let gpu = &self.gpu;
+        let device = &gpu.device;
+        let uniform = self.uniform("aurora race", bytemuck::bytes_of(&scene.uniform));
+        let slice = TableTexture::of(gpu, "aurora race slice", scene.slice.unwrap_or(&[[0.0; 4]]));
+        let electrons = storage(gpu, "aurora race electrons", scene.electrons);
+        let air = self.uniform("aurora race air", bytemuck::cast_slice(scene.air));
+        let light = self.uniform("aurora race light", bytemuck::cast_slice(scene.light));
+        let falls = TableTexture::of(gpu, "aurora race falls", scene.falls);
+        let nodes = TableTexture::of(gpu, "aurora race nodes", scene.nodes);
         let draws = buffer(device, "aurora race draws", 16, BufferUsages::STORAGE | BufferUsages::INDIRECT);
         gpu.queue.write_buffer(&draws, 0, bytemuck::cast_slice(&[3u32, 0, 0, 0]));
         let resources = [
@@ -190,27 +215,35 @@ impl Race {
             air.as_entire_binding(),
             falls.binding(),
             nodes.binding(),
-            points.as_entire_binding(),
+            self.points.as_entire_binding(),
             draws.as_entire_binding(),
         ];
-        let walk_group = bind(device, "aurora race walk", &self.walk_layout, &resources);
-        let resources = [&uniform, points, &light].map(|buffer| buffer.as_entire_binding());
-        let splat_group = bind(device, "aurora race splat", &self.splat_layout, &resources);
-        let (texture, view) = target(device, "aurora race light", scene.size, FORMAT);
-        let walk = self.run(|encoder, watch| {
+        let walk = bind(device, "aurora race walk", &self.walk_layout, &resources);
+        let resources = [&uniform, &self.points, &light].map(|buffer| buffer.as_entire_binding());
+        let splat = bind(device, "aurora race splat", &self.splat_layout, &resources);
+        Bound { walk, splat, draws }
+    }
+
+    /// Seconds from electrons to points.
+    fn walk(&self, pipeline: &wgpu::ComputePipeline, bound: &Bound, electrons: usize) -> Result<f64, PictureError> {
+        self.run(|encoder, watch| {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: Some("aurora race walk"),
                 timestamp_writes: watch.map(Stopwatch::compute),
             });
-            pass.set_pipeline(&self.walks[which.0][which.1]);
-            pass.set_bind_group(0, &walk_group, &[]);
-            pass.dispatch_workgroups(scene.electrons.len().div_ceil(64) as u32, 1, 1);
-        })?;
-        let splat = self.run(|encoder, watch| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, &bound.walk, &[]);
+            pass.dispatch_workgroups(electrons.div_ceil(64) as u32, 1, 1);
+        })
+    }
+
+    /// Seconds from points to the picture in `view`.
+    fn splat(&self, bound: &Bound, view: &wgpu::TextureView) -> Result<f64, PictureError> {
+        self.run(|encoder, watch| {
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("aurora race splat"),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &view,
+                    view,
                     depth_slice: None,
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
@@ -219,10 +252,9 @@ impl Race {
                 ..Default::default()
             });
             pass.set_pipeline(&self.splat);
-            pass.set_bind_group(0, &splat_group, &[]);
-            pass.draw_indirect(&draws, 0);
-        })?;
-        Ok(Drawn { pixels: readback::floats(gpu, &texture)?, walk, splat })
+            pass.set_bind_group(0, &bound.splat, &[]);
+            pass.draw_indirect(&bound.draws, 0);
+        })
     }
 
     /// Seconds that the one pass takes which `record` records.

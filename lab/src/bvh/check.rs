@@ -6,6 +6,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::contest::Built;
 use super::rays::{Job, SIZES, tiled};
+use super::request::ChartError;
 use crate::straight::scenes::Triangle;
 use crate::straight::{EyePacket, EyePackets, Hit, Packets, Ray, order};
 
@@ -13,75 +14,100 @@ use crate::straight::{EyePacket, EyePackets, Hit, Packets, Ray, order};
 const SAMPLE: usize = 2000;
 
 /// Checks one scene, says on stderr what it found, and returns the number of hits that are wrong.
-pub fn check(job: &Job) -> usize {
-    let built = Built::new(job);
-    let rays = &job.primary;
-    let single: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
-    let mut wrong = 0;
-    // Ours must agree bit for bit.
-    for (name, hits) in ours(job, &built) {
-        let differ = hits.iter().zip(&single).filter(|(a, b)| a != b).count();
+pub fn check(job: &Job) -> Result<usize, ChartError> {
+    let built = Built::new(job)?;
+    let single: Vec<Hit> = job.primary.iter().map(|ray| built.mesh.closest(ray)).collect();
+    let differ = primary_that_differ(job, &built, &single) + secondary_that_differ(job, &built);
+    Ok(differ + wrong_by_brute_force(job, &built, &single))
+}
+
+/// How many hits of our methods are not those of `single` rays, bit for bit.
+fn primary_that_differ(job: &Job, built: &Built, single: &[Hit]) -> usize {
+    let mut all = 0;
+    for (name, hits) in ours(job, built) {
+        let differ = differences(&hits, single);
         if differ > 0 {
-            eprintln!("{}: {name}: {differ} of {} rays differ from single rays", job.scene.name, rays.len());
+            eprintln!("{}: {name}: {differ} of {} rays differ from single rays", job.scene.name, single.len());
         }
-        wrong += differ;
+        all += differ;
     }
+    all
+}
+
+/// How many hits of rays that go on from the first hits differ between packets and single rays.
+fn secondary_that_differ(job: &Job, built: &Built) -> usize {
+    let mut all = 0;
     for (kind, rays) in &job.secondary {
-        let plain: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
+        let single: Vec<Hit> = rays.iter().map(|ray| built.mesh.closest(ray)).collect();
         let mut hits = vec![Hit::MISS; rays.len()];
         let mut packets = Packets::default();
         for (rays, hits) in rays.chunks(1024).zip(hits.chunks_mut(1024)) {
             built.wide.closest_packet(rays, hits, &mut packets);
         }
-        let differ = hits.iter().zip(&plain).filter(|(a, b)| a != b).count();
+        let differ = differences(&hits, &single);
         eprintln!("{}: {kind}: {differ} of {} rays differ between packets and single rays", job.scene.name, rays.len());
-        wrong += differ;
+        all += differ;
     }
-    // Others may differ by rounding: each such ray is judged.
+    all
+}
+
+fn differences(hits: &[Hit], others: &[Hit]) -> usize {
+    hits.iter().zip(others).filter(|(a, b)| a != b).count()
+}
+
+/// How many of our hits are wrong, of some rays and of all where others meet another triangle: they may, by rounding.
+fn wrong_by_brute_force(job: &Job, built: &Built, single: &[Hit]) -> usize {
+    let theirs = theirs(job, built);
+    let disputed = disputed(job, single, &theirs);
     let random = &mut StdRng::seed_from_u64(9);
-    let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..rays.len())).collect();
-    let theirs = theirs(job, &built);
-    let mut disputed: Vec<usize> = Vec::new();
-    for (name, hits) in &theirs {
-        let others: Vec<usize> = (0..rays.len()).filter(|&i| hits[i].triangle != single[i].triangle).collect();
-        let clear = others.iter().filter(|&&i| !together(hits[i], single[i])).count();
-        eprintln!(
-            "{}: {name}: another triangle at {} of {} rays, {clear} of them not at the same place",
-            job.scene.name,
-            others.len(),
-            rays.len()
-        );
-        disputed.extend(others);
-    }
-    disputed.sort_unstable();
-    disputed.dedup();
+    let mut judged: Vec<usize> = (0..SAMPLE).map(|_| random.random_range(0..single.len())).collect();
     judged.extend(&disputed);
-    let (mut within, mut false_ones) = (0, 0);
-    let mut their_false = vec![0; theirs.len()];
+    let (mut within, mut wrong) = (0, 0);
+    let mut their_wrong = vec![0; theirs.len()];
     for &i in &judged {
-        match verdict(&job.scene.triangles, &rays[i], single[i]) {
+        let (ray, own) = (&job.primary[i], single[i]);
+        match verdict(&job.scene.triangles, ray, own) {
             Verdict::Right => (),
             Verdict::Rounding => within += 1,
             Verdict::Wrong => {
-                eprintln!("{}: {:?}: {:?} is wrong", job.scene.name, rays[i], single[i]);
-                false_ones += 1;
+                eprintln!("{}: {ray:?}: {own:?} is wrong", job.scene.name);
+                wrong += 1;
             }
         }
         // What differs from ours is judged for itself; what does not was judged with it.
-        for ((_, hits), wrong) in theirs.iter().zip(&mut their_false) {
-            let same = hits[i].triangle == single[i].triangle;
-            *wrong += usize::from(!same && verdict(&job.scene.triangles, &rays[i], hits[i]) == Verdict::Wrong);
+        for ((_, hits), wrong) in theirs.iter().zip(&mut their_wrong) {
+            let same = hits[i].triangle == own.triangle;
+            *wrong += usize::from(!same && verdict(&job.scene.triangles, ray, hits[i]) == Verdict::Wrong);
         }
     }
-    let theirs: Vec<String> = theirs.iter().zip(their_false).map(|((name, _), wrong)| format!("{name} on {wrong}")).collect();
+    let theirs: Vec<String> = theirs.iter().zip(their_wrong).map(|((name, _), wrong)| format!("{name} on {wrong}")).collect();
     eprintln!(
-        "{}: of {} rays tried against every triangle in f64 ({} disputed) ours differs on {within} within rounding, is wrong on {false_ones}; {}",
+        "{}: of {} rays tried against every triangle in f64 ({} disputed) ours differs on {within} within rounding, is wrong on {wrong}; {}",
         job.scene.name,
         judged.len(),
         disputed.len(),
         theirs.join(", "),
     );
-    wrong + false_ones
+    wrong
+}
+
+/// The rays for which another meets another triangle, in order. Says how many they are for each.
+fn disputed(job: &Job, single: &[Hit], theirs: &[(String, Vec<Hit>)]) -> Vec<usize> {
+    let mut disputed: Vec<usize> = Vec::new();
+    for (name, hits) in theirs {
+        let others: Vec<usize> = (0..single.len()).filter(|&i| hits[i].triangle != single[i].triangle).collect();
+        let clear = others.iter().filter(|&&i| !together(hits[i], single[i])).count();
+        eprintln!(
+            "{}: {name}: another triangle at {} of {} rays, {clear} of them not at the same place",
+            job.scene.name,
+            others.len(),
+            single.len()
+        );
+        disputed.extend(others);
+    }
+    disputed.sort_unstable();
+    disputed.dedup();
+    disputed
 }
 
 /// Hits of the others in the order of pixels.

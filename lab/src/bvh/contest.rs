@@ -2,6 +2,7 @@
 
 use super::others::{Obvhs, Svenstaro, bearable, within};
 use super::rays::{Job, SIZES, tiled};
+use super::request::ChartError;
 use crate::straight::{EyePacket, EyePackets, Hit, Mesh, Packets, Ray, Settings, Wide, order};
 
 /// All trees over one scene.
@@ -17,19 +18,19 @@ pub struct Built {
 }
 
 impl Built {
-    pub fn new(job: &Job) -> Built {
+    pub fn new(job: &Job) -> Result<Built, ChartError> {
         let triangles = &job.scene.triangles;
         let scene = job.scene.name;
         let obvhs = within(scene, "obvhs", triangles, Obvhs::new);
         let svenstaro = within(scene, "bvh", triangles, Svenstaro::new);
-        Built {
+        Ok(Built {
             mesh: Mesh::new(triangles, &Settings::default()),
             wide: Wide::new(triangles),
             obvhs: obvhs.filter(|tree| bearable(scene, "obvhs", &job.primary, |ray| tree.closest(ray))),
             svenstaro: svenstaro.filter(|tree| bearable(scene, "bvh", &job.primary, |ray| tree.closest(ray))),
             #[cfg(feature = "embree")]
-            embree: super::embree::Embree::new(triangles),
-        }
+            embree: super::embree::Embree::new(triangles)?,
+        })
     }
 }
 
@@ -44,6 +45,12 @@ pub struct Entry<'a> {
     pub rays: usize,
     /// Traces them and says how many hit.
     pub run: Box<dyn FnMut() -> usize + 'a>,
+}
+
+impl<'a> Entry<'a> {
+    fn new(kind: &'static str, method: &str, packet: usize, rays: usize, run: Box<dyn FnMut() -> usize + 'a>) -> Entry<'a> {
+        Entry { kind, method: method.to_owned(), packet, rays, run }
+    }
 }
 
 fn count(hits: &[Hit]) -> usize {
@@ -73,32 +80,46 @@ fn counted<'a>(number: usize, mut trace: super::embree::Trace) -> Box<dyn FnMut(
 
 /// Everybody. Rays are made before; what a method derives from them (reciprocals, hulls, planes) is in its time, as is writing the hits.
 pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
+    let mut all = primary(job, built);
+    all.extend(walking(job, built));
+    for (kind, rays) in &job.secondary {
+        all.extend(secondary(kind, rays, built));
+    }
+    all
+}
+
+/// Rays from the eye.
+fn primary<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
     let mut all = Vec::new();
-    let mut add = |kind, method: &str, packet, rays, run| all.push(Entry { kind, method: method.to_owned(), packet, rays, run });
-    let primary = &job.primary;
-    let number = primary.len();
+    let rays = &job.primary;
+    let mut add = |method: &str, packet, run| all.push(Entry::new("primary", method, packet, rays.len(), run));
     if let Some(tree) = &built.obvhs {
-        add("primary", "obvhs", 1, number, each(primary, |ray| tree.closest(ray)));
+        add("obvhs", 1, each(rays, |ray| tree.closest(ray)));
     }
     if let Some(tree) = &built.svenstaro {
-        add("primary", "bvh", 1, number, each(primary, |ray| tree.closest(ray)));
+        add("bvh", 1, each(rays, |ray| tree.closest(ray)));
     }
     #[cfg(feature = "embree")]
     for way in super::embree::WAYS {
-        let (rays, starts) = tiled(primary, job.size, way.tile());
-        add("primary", way.name(), way.packet(), number, counted(number, built.embree.trace(way, rays, starts)));
+        let (tiles, starts) = tiled(rays, job.size, way.tile());
+        add(way.name(), way.packet(), counted(rays.len(), built.embree.trace(way, tiles, starts)));
     }
-    add("primary", "tree of two", 1, number, each(primary, |ray| built.mesh.closest(ray)));
-    add("primary", "tree of eight", 1, number, singles(&built.wide, primary));
+    add("tree of two", 1, each(rays, |ray| built.mesh.closest(ray)));
+    add("tree of eight", 1, singles(&built.wide, rays));
     for size in SIZES {
         for (splits, method) in ["Wald", "split 4", "split 16"].into_iter().enumerate() {
-            add("primary", method, size, number, paper(job, built, primary, size, splits as u32));
+            add(method, size, paper(job, built, rays, size, splits as u32));
         }
-        add("primary", "ours", size, number, packets(&built.wide, vec![tiled(primary, job.size, size)]));
+        add("ours", size, packets(&built.wide, vec![tiled(rays, job.size, size)]));
     }
-    // One frame of the walk a run: everything that depends on the camera is made anew.
+    all
+}
+
+/// One frame of the walk a run: everything that depends on the camera is made anew.
+fn walking<'a>(job: &'a Job, built: &'a Built) -> [Entry<'a>; 2] {
+    let entry = |method: &str, run| Entry::new("walking", method, 64, job.primary.len(), run);
     let walk = job.walk.iter().map(|rays| tiled(rays, job.size, 64)).collect();
-    add("walking", "ours", 64, number, packets(&built.wide, walk));
+    let ours = packets(&built.wide, walk);
     let frames = job.walk.len();
     let mut papers: Vec<_> = job.walk.iter().map(|rays| paper(job, built, rays, 64, 2)).collect();
     let mut step = 0;
@@ -106,37 +127,39 @@ pub fn entries<'a>(job: &'a Job, built: &'a Built) -> Vec<Entry<'a>> {
         step += 1;
         papers[step % frames]()
     };
-    add("walking", "split 16", 64, number, Box::new(walking));
-    for (kind, rays) in &job.secondary {
-        let shadow = *kind == "shadow";
-        if let Some(tree) = &built.obvhs {
-            let obvhs: Box<dyn FnMut() -> usize> = if shadow {
-                Box::new(|| rays.iter().filter(|ray| tree.occluded(ray)).count())
-            } else {
-                each(rays, |ray| tree.closest(ray))
-            };
-            add(kind, "obvhs", 1, rays.len(), obvhs);
-        }
-        #[cfg(feature = "embree")]
-        if shadow {
-            add(kind, "Embree", 1, rays.len(), built.embree.occluded(rays.clone()));
-        } else {
-            add(kind, "Embree", 1, rays.len(), counted(rays.len(), built.embree.single(rays.clone(), false)));
-        }
-        let single: Box<dyn FnMut() -> usize> = if shadow {
-            let mut hits = vec![Hit::MISS; rays.len()];
-            Box::new(move || {
-                built.wide.any_each(rays, &mut hits);
-                count(&hits)
-            })
-        } else {
-            singles(&built.wide, rays)
-        };
-        add(kind, "tree of eight", 1, rays.len(), single);
-        let starts = (0..rays.len()).step_by(1024).chain([rays.len()]).collect();
-        add(kind, "ours", 32, rays.len(), packets(&built.wide, vec![(rays.clone(), starts)]));
+    [entry("ours", ours), entry("split 16", Box::new(walking))]
+}
+
+/// Rays on from the first hits. Of shadow rays it is asked only whether they meet anything, but for our packets.
+fn secondary<'a>(kind: &'static str, rays: &'a [Ray], built: &'a Built) -> Vec<Entry<'a>> {
+    let mut all = Vec::new();
+    let mut add = |method: &str, packet, run| all.push(Entry::new(kind, method, packet, rays.len(), run));
+    let shadow = kind == "shadow";
+    if let Some(tree) = &built.obvhs {
+        let obvhs: Box<dyn FnMut() -> usize> =
+            if shadow { Box::new(|| rays.iter().filter(|ray| tree.occluded(ray)).count()) } else { each(rays, |ray| tree.closest(ray)) };
+        add("obvhs", 1, obvhs);
     }
+    #[cfg(feature = "embree")]
+    if shadow {
+        add("Embree", 1, built.embree.occluded(rays.to_vec()));
+    } else {
+        add("Embree", 1, counted(rays.len(), built.embree.single(rays.to_vec(), false)));
+    }
+    let single = if shadow { any(&built.wide, rays) } else { singles(&built.wide, rays) };
+    add("tree of eight", 1, single);
+    let starts = (0..rays.len()).step_by(1024).chain([rays.len()]).collect();
+    add("ours", 32, packets(&built.wide, vec![(rays.to_vec(), starts)]));
     all
+}
+
+/// Whether each ray meets anything, ray by ray.
+fn any<'a>(wide: &'a Wide, rays: &'a [Ray]) -> Box<dyn FnMut() -> usize + 'a> {
+    let mut hits = vec![Hit::MISS; rays.len()];
+    Box::new(move || {
+        wide.any_each(rays, &mut hits);
+        count(&hits)
+    })
 }
 
 fn singles<'a>(wide: &'a Wide, rays: &'a [Ray]) -> Box<dyn FnMut() -> usize + 'a> {

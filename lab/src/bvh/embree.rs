@@ -10,6 +10,14 @@ use embree3::{
 use crate::straight::scenes::Triangle;
 use crate::straight::{Hit, Ray};
 
+/// What Embree could not do, and why not.
+#[derive(Debug, thiserror::Error)]
+#[error("Embree cannot {task}: {reason}")]
+pub struct EmbreeError {
+    task: &'static str,
+    reason: embree3::Error,
+}
+
 /// A scene at high build quality, without the flag that makes its test watertight: its fastest.
 pub struct Embree {
     scene: Arc<Scene<'static>>,
@@ -114,21 +122,28 @@ struct Aligned<T>(T);
 pub type Trace = Box<dyn FnMut(&mut [Hit])>;
 
 impl Embree {
-    pub fn new(triangles: &[Triangle]) -> Embree {
-        let device = Device::new().expect("Embree's library starts");
-        let mut mesh = device.create_geometry(GeometryKind::TRIANGLE).expect("a mesh");
+    pub fn new(triangles: &[Triangle]) -> Result<Embree, EmbreeError> {
+        let cannot = |task| move |reason| EmbreeError { task, reason };
+        let device = Device::new().map_err(cannot("start"))?;
+        let mut mesh = device.create_geometry(GeometryKind::TRIANGLE).map_err(cannot("make a mesh"))?;
         let corners: Vec<[f32; 3]> = triangles.iter().flatten().copied().collect();
         let indices: Vec<[u32; 3]> = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         mesh.set_new_buffer::<[f32; 3]>(BufferUsage::VERTEX, 0, Format::FLOAT3, 12, corners.len())
-            .expect("memory")
+            .map_err(cannot("hold the corners of the scene"))?
             .copy_from_slice(&corners);
-        mesh.set_new_buffer::<[u32; 3]>(BufferUsage::INDEX, 0, Format::UINT3, 12, indices.len()).expect("memory").copy_from_slice(&indices);
+        mesh.set_new_buffer::<[u32; 3]>(BufferUsage::INDEX, 0, Format::UINT3, 12, indices.len())
+            .map_err(cannot("hold the triangles of the scene"))?
+            .copy_from_slice(&indices);
         let mesh = mesh.commit();
-        let mut scene = device.create_scene().expect("a scene");
+        let mut scene = device.create_scene().map_err(cannot("make a scene"))?;
         scene.set_build_quality(BuildQuality::HIGH);
         scene.attach_geometry(&mesh);
         scene.commit();
-        Embree { scene: Arc::new(scene) }
+        // To commit says nothing by itself.
+        match device.get_error() {
+            embree3::Error::NONE => Ok(Embree { scene: Arc::new(scene) }),
+            reason => Err(cannot("build the tree of the scene")(reason)),
+        }
     }
 
     /// `rays` in the order of [`Way::tile`], and where tiles start. Rays are told to be coherent.

@@ -25,7 +25,7 @@ pub fn run(request: &BvhRequest) -> Result<Vec<PathBuf>, ChartError> {
         return Err(ChartError::Scene(unknown.clone()));
     }
     if request.check {
-        let wrong = request.scenes.iter().map(|name| Ok(check::check(&Job::new(name, request)?))).sum::<Result<usize, ChartError>>()?;
+        let wrong = request.scenes.iter().map(|name| check::check(&Job::new(name, request)?)).sum::<Result<usize, ChartError>>()?;
         return if wrong == 0 { Ok(Vec::new()) } else { Err(ChartError::Wrong(wrong)) };
     }
     let sheet = request.output.sheet("bvh", || measure(request))?;
@@ -50,7 +50,7 @@ fn measure(request: &BvhRequest) -> Result<Sheet, ChartError> {
     for name in &request.scenes {
         let job = Job::new(name, request)?;
         eprintln!("{name}: {} triangles{}", job.scene.triangles.len(), if job.stand_in { " (stand-in)" } else { "" });
-        let built = contest::Built::new(&job);
+        let built = contest::Built::new(&job)?;
         let mut entries = contest::entries(&job, &built);
         let compared: Vec<bool> = entries.iter().map(|e| e.kind == "primary" && e.method == "ours" && e.packet >= 8).collect();
         let mut hits = vec![0; entries.len()];

@@ -35,6 +35,10 @@ pub enum ChartError {
     /// The bunny.
     #[error(transparent)]
     Ply(#[from] PlyError),
+    /// Embree.
+    #[cfg(feature = "embree")]
+    #[error(transparent)]
+    Embree(#[from] super::embree::EmbreeError),
     /// An unknown scene.
     #[error("--scenes {0}: unknown; there are {all}", all = ALL.join(", "))]
     Scene(String),

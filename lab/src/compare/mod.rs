@@ -38,6 +38,13 @@ pub struct Shown {
     pub coverage: f32,
 }
 
+impl Shown {
+    /// The object's number and the image order.
+    pub fn image(&self) -> (u32, u32) {
+        (self.object, self.order)
+    }
+}
+
 /// The contestant's picture.
 #[derive(Clone, Debug)]
 pub struct Frame {

@@ -53,6 +53,8 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
         Sheet::new(&["contestant", "family", "disk_ms", "passes_ms", "wall_ms", "against_arcs_4200", "psnr_db", "flip", "mean_difference"]);
     sheet.notes = Provenance::now(bench.adapter()).notes();
     let view = View { eye: portrait(), time: TIME, sky: false, counted: false };
+    let named = contestants.iter().position(|contestant| contestant.name == REFERENCE);
+    let reference = named.ok_or(ChartError::Reference)?;
     let base = &contestants[0].config;
     let truth = picture(&Gas::new(&base.disk, base.hole.mass_solar), &view.eye, request.error_size, TIME, 3, 6);
     let mut errors: Vec<PictureError> = Vec::new();
@@ -70,7 +72,6 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
             whole.push(shown.whole);
         }
     }
-    let reference = contestants.iter().position(|contestant| contestant.name == REFERENCE).unwrap_or_default();
     let against = times[reference][0].clone();
     for ((contestant, error), [own_times, pass_times, whole]) in contestants.iter().zip(errors).zip(&mut times) {
         // Round by round, for what else runs on the machine changes from round to round.
@@ -91,7 +92,18 @@ fn alone(request: &DiskRequest, contestants: &[Contestant], bench: &mut Bench) -
 }
 
 fn figure(alone: &Sheet, chase: &Sheet, summary: &Sheet) -> Figure {
-    let families = ["arcs", "polygons", "sprites", "arcs 4 200, other Δ"].map(str::to_owned).to_vec();
+    Figure {
+        title: "The accretion disk: arcs, polygons, sprites".into(),
+        subtitle: "Less is better in the left and the lower panel, more in the right one. All contestants take turns.".into(),
+        panels: vec![Panel::Scatter(speed_and_error(alone)), Panel::Bars(rates(summary)), Panel::Lines(course(chase))],
+        columns: 2,
+        size: [1500, 1100],
+        footer: Provenance::footer(&alone.notes),
+    }
+}
+
+/// Time against error of the disk alone.
+fn speed_and_error(alone: &Sheet) -> Scatter {
     let points = alone.rows.iter().map(|row| Point {
         x: alone.number(row, "disk_ms"),
         y: alone.number(row, "flip"),
@@ -100,26 +112,34 @@ fn figure(alone: &Sheet, chase: &Sheet, summary: &Sheet) -> Figure {
         failed: false,
         chosen: false,
     });
-    let scatter = Scatter {
+    Scatter {
         title: "Speed against error, disk alone".into(),
         x: Axis::log("disk alone, ms"),
         y: Axis::linear("FLIP against the exact picture, mean"),
         points: points.collect(),
-        families,
+        families: ["arcs", "polygons", "sprites", "arcs 4 200, other Δ"].map(str::to_owned).to_vec(),
         pareto: true,
         ..Scatter::default()
-    };
-    let names: Vec<String> = summary.rows.iter().map(|row| summary.text(row, "contestant").to_owned()).collect();
+    }
+}
+
+/// Frames per second along the chase.
+fn rates(summary: &Sheet) -> Bars {
+    let names = summary.rows.iter().map(|row| summary.text(row, "contestant").replacen(' ', "\n", 1));
     let fps = |column: &str| -> Vec<Option<f64>> { summary.rows.iter().map(|row| Some(1e3 / summary.number(row, column))).collect() };
-    let [mean_fps, worst_fps] = ["mean_ms", "worst_ms"].map(fps);
-    let bars = Bars {
+    let [mean, worst] = ["mean_ms", "worst_ms"].map(fps);
+    Bars {
         title: "The scripted chase, whole frames".into(),
         y: Axis::linear("frames per second"),
-        groups: names.iter().map(|name| name.replacen(' ', "\n", 1)).collect(),
-        series: vec![Series { name: "mean".into(), values: mean_fps }, Series { name: "worst".into(), values: worst_fps }],
+        groups: names.collect(),
+        series: vec![Series { name: "mean".into(), values: mean }, Series { name: "worst".into(), values: worst }],
         values: true,
         ..Bars::default()
-    };
+    }
+}
+
+/// The time of the disk step by step.
+fn course(chase: &Sheet) -> Lines {
     let lines = ["polygons 960", "polygons 960 at rest", "sprites 100 000", "arcs 1100", "arcs 4200", "arcs 17000"].map(|name| Line {
         name: name.to_owned(),
         points: chase
@@ -140,20 +160,12 @@ fn figure(alone: &Sheet, chase: &Sheet, summary: &Sheet) -> Figure {
             None => turns.push(Guide { at: end, label: situation.to_owned() }),
         }
     }
-    let course = Lines {
+    Lines {
         title: "The disk along the chase".into(),
         x: Axis::linear("step"),
         y: Axis::log("ms"),
         lines: lines.to_vec(),
         guides_x: turns,
         ..Lines::default()
-    };
-    Figure {
-        title: "The accretion disk: arcs, polygons, sprites".into(),
-        subtitle: "Less is better in the left and the lower panel, more in the right one. All contestants take turns.".into(),
-        panels: vec![Panel::Scatter(scatter), Panel::Bars(bars), Panel::Lines(course)],
-        columns: 2,
-        size: [1500, 1100],
-        footer: Provenance::footer(&alone.notes),
     }
 }

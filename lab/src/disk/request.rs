@@ -82,6 +82,9 @@ pub enum ChartError {
     /// The picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// Nobody is called [`REFERENCE`].
+    #[error("no contestant is called {REFERENCE:?}, which the others' times are told against")]
+    Reference,
     /// The renderer.
     #[error("{0}")]
     Draw(String),

@@ -2,7 +2,7 @@
 
 use super::methods::FAMILIES;
 use super::race::Race;
-use super::score::{Truth, tally};
+use super::score::{Score, Truth, tally};
 use super::time::TimedFrame;
 use super::{ChartError, ProjectionRequest};
 use crate::chart::{Provenance, Sheet};
@@ -91,16 +91,30 @@ pub fn measure(
     sheet.notes.push(("points".into(), format!("{}, {}", super::told(request, rows), super::draw::SAME)));
     let wanted = |method: &Method| request.methods.is_empty() || request.methods.iter().any(|wanted| wanted == method.name());
     let methods: Vec<_> = Method::all().filter(wanted).collect();
-    // Times side by side: orders 1 and 2, as on the processor.
-    let timed: Vec<(f64, Vec<[f32; 4]>)> = frames
-        .iter()
-        .step_by(TIMED)
-        .map(|frame| {
-            let asked = |point: &Vertex| [0, 1].map(|order| packed(*point, Order::ALL[order], Branch::Plus));
-            (frame.camera, frame.points.iter().flat_map(asked).collect())
-        })
-        .collect();
     eprintln!("timing {} methods on {}", methods.len(), race.adapter());
+    let times = nanoseconds(race, &methods, frames);
+    for (method, time) in methods.into_iter().zip(times) {
+        eprintln!("scoring {} on the adapter", method.name());
+        // What a frame hands to the adapter, where it is more than the constants of the camera.
+        let bytes = if matches!(method, Method::Table | Method::Paper1) { 16 * race.texels(method, 10.0).len() } else { 0 };
+        let answers = answers(race, method, rows);
+        for ((order, truth), answers) in Order::ALL.into_iter().zip(truths).zip(&answers) {
+            let mut cells = vec![method.name().to_owned(), FAMILIES[family(method)].to_owned()];
+            cells.extend([order.number().to_string(), rows.len().to_string()]);
+            cells.extend(score_cells(&tally(rows, answers, truth)));
+            // A large graphics card needs hundredths of a nanosecond.
+            cells.extend([format!("{time:.4}"), bytes.to_string()]);
+            sheet.push(cells);
+        }
+    }
+    Ok(sheet)
+}
+
+/// The median nanoseconds of a look-up by each method, side by side: orders 1 and 2, as on the processor.
+fn nanoseconds(race: &mut Race, methods: &[Method], frames: &[TimedFrame]) -> Vec<f64> {
+    let asked = |point: &Vertex| [0, 1].map(|order| packed(*point, Order::ALL[order], Branch::Plus));
+    let timed = frames.iter().step_by(TIMED);
+    let timed: Vec<(f64, Vec<[f32; 4]>)> = timed.map(|frame| (frame.camera, frame.points.iter().flat_map(asked).collect())).collect();
     let mut times = vec![Vec::new(); methods.len()];
     for round in 0..=ROUNDS {
         for (method, times) in methods.iter().zip(&mut times) {
@@ -112,34 +126,20 @@ pub fn measure(
             }
         }
     }
-    for (method, mut times) in methods.into_iter().zip(times) {
-        let name = method.name();
-        eprintln!("scoring {name} on the adapter");
+    let median = |mut times: Vec<f64>| {
         times.sort_by(f64::total_cmp);
-        // What a frame hands to the adapter, where it is more than the constants of the camera.
-        let bytes = if matches!(method, Method::Table | Method::Paper1) { 16 * race.texels(method, 10.0).len() } else { 0 };
-        let answers = answers(race, method, rows);
-        for ((order, truth), answers) in Order::ALL.into_iter().zip(truths).zip(&answers) {
-            let s = tally(rows, answers, truth);
-            let mut cells = vec![
-                name.to_owned(),
-                FAMILIES[family(method)].to_owned(),
-                order.number().to_string(),
-                rows.len().to_string(),
-                s.answered.to_string(),
-                s.missing.to_string(),
-                s.invented.to_string(),
-                format!("{:.4e}", s.angle.max),
-                format!("{:.4e}", s.angle.most),
-                format!("{:.4e}", s.angle.rms),
-            ];
-            cells.extend(s.angle.worst.map(|v| format!("{v:.9}")));
-            cells.push(format!("{:.4e}", s.delay_share.max));
-            cells.extend(s.delay_share.worst.map(|v| format!("{v:.9}")));
-            // A large graphics card needs hundredths of a nanosecond.
-            cells.extend([format!("{:.4}", times[times.len() / 2]), bytes.to_string()]);
-            sheet.push(cells);
-        }
-    }
-    Ok(sheet)
+        times[times.len() / 2]
+    };
+    times.into_iter().map(median).collect()
+}
+
+/// The columns from `answered` to `delay_worst_L`.
+fn score_cells(score: &Score) -> Vec<String> {
+    let Score { answered, missing, invented, angle, delay_share, .. } = score;
+    let mut cells = [answered, missing, invented].map(|count| count.to_string()).to_vec();
+    cells.extend([angle.max, angle.most, angle.rms].map(|v| format!("{v:.4e}")));
+    cells.extend(angle.worst.map(|v| format!("{v:.9}")));
+    cells.push(format!("{:.4e}", delay_share.max));
+    cells.extend(delay_share.worst.map(|v| format!("{v:.9}")));
+    cells
 }

@@ -7,8 +7,8 @@ use rayon::prelude::*;
 
 use super::area::{Area, areas};
 use super::displacement::{Effort, Measured, Probe, displacements};
-use crate::compare::Frame;
 pub use crate::compare::fault::Limits;
+use crate::compare::{Frame, Shown};
 use lensrunner::judge::picture::Picture;
 
 /// Displacements between the same surface points in the two pictures, in pixels.
@@ -84,100 +84,216 @@ pub fn compare(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[Strin
 /// The same with no more effort for displacements than this.
 pub fn compare_with(judge: &Picture, frame: &Frame, probe: &dyn Probe, names: &[String], difference: &[f32], effort: &Effort) -> Verdict {
     let [width, height] = judge.size.map(|side| side as usize);
-    let grid = Grid::of(judge.size);
-    let thin = thin_images(judge, frame);
-    let is_thin = |object: u32, order: u32| thin.contains(&(object, order));
-    let by_centres = drawn_by_centres(frame);
-    let at_centres = |object: u32, order: u32| by_centres.contains(&(object, order));
-    let name = |object: u32| names.get(object as usize - 1).map_or("?", String::as_str);
-    let mut tallies: BTreeMap<(&str, u32), Tally> = BTreeMap::new();
-    let (mut wrong_order, mut holes) = (0, 0);
-    let (mut wrong_beyond_rim, mut lit) = (Vec::new(), Vec::new());
-    let mut displaced = vec![f32::NAN; width * height];
+    let pair = Pair::new(judge, frame, names);
     let measured = displacements(judge, frame, probe, effort);
+    let mut found = Found { displaced: vec![f32::NAN; width * height], ..Found::default() };
     for i in 0..width * height {
-        let (layer, shown) = (&judge.layers[i], &frame.shown[i]);
-        let around = grid.around(i);
-        let at_rim = |object: u32, order: u32| {
-            let same = |j: &usize| (judge.layers[*j].object, judge.layers[*j].order) == (object, order);
-            let count = around.iter().filter(|j| same(j)).count();
-            count > 0 && count < around.len()
-        };
-        let agree = layer.object == shown.object && layer.order == shown.order;
-        // What a pixel shows behind or beside a thin image that is there is a matter of how much that covers, and compared so.
-        let shares = |j: usize, object: u32, order: u32| judge.shares[j].iter().any(|share| (share.0, share.1) == (object, order));
-        let beside_thin = if is_thin(shown.object, shown.order) {
-            shown.coverage < 1.0 || around.iter().any(|&j| shares(j, shown.object, shown.order))
+        let pixel = pair.pixel(i);
+        found.count_wrong_order(&pair, &pixel);
+        found.count_wrong_light(&pair, &pixel);
+        found.count_rims(&pair, &pixel);
+        found.count_thin(&pair, &pixel);
+        found.count_judged(&pair, &pixel, difference, &measured);
+        found.count_shown(&pair, &pixel);
+    }
+    // What is narrower than the way between two rays is drawn a pixel wide and more, around rays that all missed it.
+    let lit = confirmed(&found.lit, |i| all_around(pair.grid.place(i), |x, y| probe.is_dark(x, y)));
+    let wrong_beyond_rim = confirmed(&found.wrong_beyond_rim, |i| {
+        let shown = frame.shown[i].image();
+        all_around(pair.grid.place(i), |x, y| probe.at(x, y).is_none_or(|point| (point.object, point.order) != shown))
+    });
+    let groups = found.tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
+    let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
+    let areas = areas(judge, frame, names, &|object, order| pair.is_thin((object, order)));
+    Verdict { groups, wrong_order: found.wrong_order, wrong_beyond_rim, holes: found.holes, lit, flip, displaced: found.displaced, areas }
+}
+
+/// One image of an object: the object's number, from 1, or 0 for none, and the image order.
+type Image = (u32, u32);
+
+/// Both pictures, and how their images are compared.
+struct Pair<'a> {
+    judge: &'a Picture,
+    frame: &'a Frame,
+    names: &'a [String],
+    grid: Grid,
+    /// Images that are compared by the area they cover.
+    thin: HashSet<Image>,
+    /// Images that the contestant draws by pixels' centres.
+    by_centres: HashSet<Image>,
+}
+
+/// A pixel of both pictures.
+struct Pixel<'a> {
+    i: usize,
+    /// The pixel and those around it.
+    around: Vec<usize>,
+    /// What the judge sees at its centre.
+    judged: Image,
+    /// What the contestant shows.
+    shown: &'a Shown,
+    /// Whether both show the same.
+    agree: bool,
+    /// Whether it shows a thin image that is there, or what is behind or beside one: that is a matter of how much the image covers, and
+    /// compared so.
+    beside_thin: bool,
+}
+
+impl<'a> Pair<'a> {
+    fn new(judge: &'a Picture, frame: &'a Frame, names: &'a [String]) -> Pair<'a> {
+        let (thin, by_centres) = (thin_images(judge, frame), drawn_by_centres(frame));
+        Pair { judge, frame, names, grid: Grid::of(judge.size), thin, by_centres }
+    }
+
+    fn pixel(&self, i: usize) -> Pixel<'a> {
+        let around = self.grid.around(i);
+        let (judged, shown) = (self.judged(i), &self.frame.shown[i]);
+        let beside_thin = if self.is_thin(shown.image()) {
+            shown.coverage < 1.0 || around.iter().any(|&j| self.has_share(j, shown.image()))
         } else {
-            is_thin(layer.object, layer.order) && shares(i, shown.object, shown.order)
+            self.is_thin(judged) && self.has_share(i, shown.image())
         };
-        if layer.object > 0 && layer.object == shown.object && layer.order != shown.order {
-            wrong_order += 1;
-            let near = around.iter().any(|&j| shares(j, shown.object, shown.order));
-            if !near && !beside_thin {
-                wrong_beyond_rim.push(i);
+        Pixel { i, around, judged, shown, agree: judged == shown.image(), beside_thin }
+    }
+
+    fn is_thin(&self, image: Image) -> bool {
+        self.thin.contains(&image)
+    }
+
+    /// Whether the image is thin and drawn by pixels' centres.
+    fn is_thin_by_centres(&self, image: Image) -> bool {
+        self.by_centres.contains(&image) && self.is_thin(image)
+    }
+
+    /// What the judge sees at the centre of a pixel.
+    fn judged(&self, i: usize) -> Image {
+        (self.judge.layers[i].object, self.judge.layers[i].order)
+    }
+
+    /// Whether the judge sees the image in a part of a pixel.
+    fn has_share(&self, i: usize, image: Image) -> bool {
+        self.judge.shares[i].iter().any(|share| (share.0, share.1) == image)
+    }
+
+    /// Whether the judge sees things in all of a pixel. It does not in a slit narrower than a pixel, which some of its rays go through.
+    fn is_filled(&self, i: usize) -> bool {
+        self.judge.shares[i].iter().map(|share| share.2).sum::<f32>() >= FULL
+    }
+
+    /// Whether an edge of the judge's image is at a pixel: it sees the image at some of the pixels around, but not at all.
+    fn is_at_rim(&self, pixel: &Pixel, image: Image) -> bool {
+        let count = pixel.around.iter().filter(|&&j| self.judged(j) == image).count();
+        count > 0 && count < pixel.around.len()
+    }
+
+    /// What a tally is kept under: the object's name and the image order.
+    fn key(&self, (object, order): Image) -> (&'a str, u32) {
+        (self.names.get(object as usize - 1).map_or("?", String::as_str), order)
+    }
+}
+
+/// What is found pixel by pixel.
+#[derive(Default)]
+struct Found<'a> {
+    tallies: BTreeMap<(&'a str, u32), Tally>,
+    wrong_order: usize,
+    /// Pixels with an order that the judge does not seem to see within a pixel.
+    wrong_beyond_rim: Vec<usize>,
+    holes: usize,
+    /// Pixels with light where the judge seems to see the shadow all around.
+    lit: Vec<usize>,
+    displaced: Vec<f32>,
+}
+
+impl<'a> Found<'a> {
+    fn tally(&mut self, pair: &Pair<'a>, image: Image) -> &mut Tally {
+        self.tallies.entry(pair.key(image)).or_default()
+    }
+
+    /// Counts the right object in a wrong order.
+    fn count_wrong_order(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        let (object, order) = pixel.judged;
+        if object == 0 || object != pixel.shown.object || order == pixel.shown.order {
+            return;
+        }
+        self.wrong_order += 1;
+        let near = pixel.around.iter().any(|&j| pair.has_share(j, pixel.shown.image()));
+        if !near && !pixel.beside_thin {
+            self.wrong_beyond_rim.push(pixel.i);
+        }
+    }
+
+    /// Counts holes in things, and light in the shadow.
+    fn count_wrong_light(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        let is_hole = pixel.shown.object == 0 && pixel.around.iter().all(|&j| pair.judge.layers[j].object > 0 && pair.is_filled(j));
+        self.holes += usize::from(is_hole);
+        if pair.frame.bare[pixel.i].iter().any(|c| *c > 0.0) && pixel.around.iter().all(|&j| pair.judge.dark[j]) {
+            self.lit.push(pixel.i);
+        }
+    }
+
+    /// Counts the pixel to the rim of each image that touches it.
+    fn count_rims(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        let touching = pixel.around.iter().map(|&j| pair.judged(j)).filter(|&image| image.0 > 0 && image != pixel.judged);
+        for image in touching.collect::<BTreeSet<Image>>() {
+            if !pair.is_thin(image) {
+                self.tally(pair, image).rim += 1;
             }
         }
-        // Not what is seen through a slit narrower than a pixel, which some of the judge's rays go through.
-        let filled = |j: usize| judge.shares[j].iter().map(|share| share.2).sum::<f32>() >= FULL;
-        holes += usize::from(shown.object == 0 && around.iter().all(|&j| judge.layers[j].object > 0 && filled(j)));
-        if frame.bare[i].iter().any(|c| *c > 0.0) && around.iter().all(|&j| judge.dark[j]) {
-            lit.push(i);
-        }
-        let key = |j: usize| (judge.layers[j].object, judge.layers[j].order);
-        let touched: BTreeSet<(u32, u32)> = around.iter().map(|&j| key(j)).filter(|&other| other.0 > 0 && other != key(i)).collect();
-        for (object, order) in touched.into_iter().filter(|&(object, order)| !is_thin(object, order)) {
-            tallies.entry((name(object), order)).or_default().rim += 1;
-        }
-        for &(object, order, share) in &judge.shares[i] {
-            if is_thin(object, order) {
-                let tally = tallies.entry((name(object), order)).or_default();
-                tally.thin[0] += if at_centres(object, order) { f64::from(u8::from(key(i) == (object, order))) } else { f64::from(share) };
+    }
+
+    /// Adds up the areas of thin images.
+    fn count_thin(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        for &(object, order, share) in &pair.judge.shares[pixel.i] {
+            let image = (object, order);
+            if pair.is_thin(image) {
+                let tally = self.tally(pair, image);
+                let is_at_centre = || f64::from(u8::from(pixel.judged == image));
+                tally.thin[0] += if pair.is_thin_by_centres(image) { is_at_centre() } else { f64::from(share) };
                 tally.touched += 1;
             }
         }
-        if at_centres(shown.object, shown.order) && is_thin(shown.object, shown.order) {
-            tallies.entry((name(shown.object), shown.order)).or_default().thin[1] += 1.0;
-        } else if shown.object > 0 && is_thin(shown.object, shown.order) {
-            for ((object, order), part) in thin_parts(&judge.shares[i], (shown.object, shown.order), &is_thin) {
-                tallies.entry((name(object), order)).or_default().thin[1] += f64::from(shown.coverage) * part;
+        let shown = pixel.shown.image();
+        if pair.is_thin_by_centres(shown) {
+            self.tally(pair, shown).thin[1] += 1.0;
+        } else if pixel.shown.object > 0 && pair.is_thin(shown) {
+            let is_thin = |object: u32, order: u32| pair.is_thin((object, order));
+            for (image, part) in thin_parts(&pair.judge.shares[pixel.i], shown, &is_thin) {
+                self.tally(pair, image).thin[1] += f64::from(pixel.shown.coverage) * part;
             }
-        }
-        if layer.object > 0 && !is_thin(layer.object, layer.order) {
-            let tally = tallies.entry((name(layer.object), layer.order)).or_default();
-            tally.pixels += 1;
-            tally.flip += f64::from(difference[i]);
-            if !agree && !beside_thin {
-                tally.mismatched += 1;
-                tally.beyond_rim += usize::from(!at_rim(layer.object, layer.order));
-            } else if agree {
-                match measured[i] {
-                    Some(Measured::Pixels(d)) => {
-                        tally.displacements.push((d, i));
-                        displaced[i] = d as f32;
-                    }
-                    Some(Measured::Apart) => tally.apart += 1,
-                    Some(Measured::Nowhere) => tally.mismatched += 1,
-                    None => {}
-                }
-            }
-        }
-        if shown.object > 0 && !agree && !beside_thin && !is_thin(shown.object, shown.order) {
-            let tally = tallies.entry((name(shown.object), shown.order)).or_default();
-            tally.mismatched += 1;
-            tally.beyond_rim += usize::from(!at_rim(shown.object, shown.order));
         }
     }
-    // What is narrower than the way between two rays is drawn a pixel wide and more, around rays that all missed it.
-    let lit = confirmed(&lit, |i| all_around(grid.place(i), |x, y| probe.is_dark(x, y)));
-    let wrong_beyond_rim = confirmed(&wrong_beyond_rim, |i| {
-        let shown = &frame.shown[i];
-        all_around(grid.place(i), |x, y| probe.at(x, y).is_none_or(|point| (point.object, point.order) != (shown.object, shown.order)))
-    });
-    let groups = tallies.into_iter().map(|((name, order), tally)| tally.group(name, order, width)).collect();
-    let flip = difference.iter().map(|d| f64::from(*d)).sum::<f64>() / difference.len().max(1) as f64;
-    let areas = areas(judge, frame, names, &is_thin);
-    Verdict { groups, wrong_order, wrong_beyond_rim, holes, lit, flip, displaced, areas }
+
+    /// Compares what the judge sees, given ꟻLIP and displacement of all pixels.
+    fn count_judged(&mut self, pair: &Pair<'a>, pixel: &Pixel, difference: &[f32], measured: &[Option<Measured>]) {
+        if pixel.judged.0 == 0 || pair.is_thin(pixel.judged) {
+            return;
+        }
+        let tally = self.tally(pair, pixel.judged);
+        tally.pixels += 1;
+        tally.flip += f64::from(difference[pixel.i]);
+        if pixel.agree {
+            match measured[pixel.i] {
+                Some(Measured::Pixels(d)) => {
+                    tally.displacements.push((d, pixel.i));
+                    self.displaced[pixel.i] = d as f32;
+                }
+                Some(Measured::Apart) => tally.apart += 1,
+                Some(Measured::Nowhere) => tally.mismatched += 1,
+                None => {}
+            }
+        } else if !pixel.beside_thin {
+            tally.mismatch(pair.is_at_rim(pixel, pixel.judged));
+        }
+    }
+
+    /// Counts what is shown and should not be.
+    fn count_shown(&mut self, pair: &Pair<'a>, pixel: &Pixel) {
+        let shown = pixel.shown.image();
+        if pixel.shown.object > 0 && !pixel.agree && !pixel.beside_thin && !pair.is_thin(shown) {
+            self.tally(pair, shown).mismatch(pair.is_at_rim(pixel, shown));
+        }
+    }
 }
 
 /// Doubtful pixels that are looked at again; there are more only where a picture is wrong anyway.
@@ -200,16 +316,16 @@ fn all_around([x, y]: [f64; 2], holds: impl Fn(f64, f64) -> bool) -> bool {
 /// Objects and orders that are compared by the area they cover: those that nowhere fill a pixel to the judge; and those that the contestant
 /// draws by coverage, if they hardly do: they fill a single pixel, or, drawn out along the ring, an image may be narrow and yet fill a
 /// pixel here and there.
-fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
+fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<Image> {
     // Pixels touched and pixels filled.
-    let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
+    let mut counts: BTreeMap<Image, [usize; 2]> = BTreeMap::new();
     for &(object, order, share) in judge.shares.iter().flatten() {
         let [touched, filled] = counts.entry((object, order)).or_default();
         *touched += 1;
         *filled += usize::from(share >= FULL);
     }
     let nowhere = counts.iter().filter(|(_, [_, filled])| *filled == 0).map(|(key, _)| *key);
-    let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(|shown| (shown.object, shown.order));
+    let by_coverage = frame.shown.iter().filter(|shown| shown.object > 0 && shown.coverage < 1.0).map(Shown::image);
     // What not one sample of the judge has met is narrow for sure.
     let hardly = by_coverage.filter(|key| counts.get(key).is_none_or(|[touched, filled]| *filled <= FEW || MOSTLY * filled < *touched));
     nowhere.chain(hardly).collect()
@@ -217,10 +333,10 @@ fn thin_images(judge: &Picture, frame: &Frame) -> HashSet<(u32, u32)> {
 
 /// Objects and orders that the contestant shows, and nowhere by coverage. It shows what it meets at the centre of each pixel, so that a
 /// line along a row of pixels is there in all of them or in none: the judge's single rays tell whether it is right, and more rays do not.
-fn drawn_by_centres(frame: &Frame) -> HashSet<(u32, u32)> {
+fn drawn_by_centres(frame: &Frame) -> HashSet<Image> {
     let images = |by_coverage: bool| {
         let drawn = move |coverage: f32| (coverage < 1.0) == by_coverage;
-        frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(|shown| (shown.object, shown.order))
+        frame.shown.iter().filter(move |shown| shown.object > 0 && drawn(shown.coverage)).map(Shown::image)
     };
     let by_coverage: HashSet<_> = images(true).collect();
     images(false).filter(|image| !by_coverage.contains(image)).collect()
@@ -246,6 +362,12 @@ struct Tally {
 }
 
 impl Tally {
+    /// One shows the image at a pixel and the other does not.
+    fn mismatch(&mut self, is_at_rim: bool) {
+        self.mismatched += 1;
+        self.beyond_rim += usize::from(!is_at_rim);
+    }
+
     fn group(mut self, name: &str, order: u32, width: usize) -> Group {
         self.displacements.sort_by(|a, b| a.0.total_cmp(&b.0));
         let d = &self.displacements;

@@ -134,24 +134,12 @@ pub(super) struct Run<'a> {
 /// fastest.
 #[inline(always)]
 pub(super) fn descend<L: Eight, S: Sixteen>(wide: &Wide, run: &Run, hits: &mut [Hit], axes: &Axes, items: &[Item], stack: &mut Stack) {
-    let Run { rays, laid, hulls } = *run;
-    let eye = rays[0].origin;
-    let axis = axes.axes[2];
-    let mut all = Hull::EMPTY;
-    let mut groups = [Group::<S>::new(&rays[..rays.len().min(GROUP)], &laid[0], axes); TOGETHER];
-    for group in &mut groups[rays.len().div_ceil(GROUP)..] {
-        group.used = 0;
-    }
-    let mut untils = [f32::NEG_INFINITY; TOGETHER];
-    for (i, rays) in rays.chunks(GROUP).enumerate().take(TOGETHER) {
-        if i > 0 {
-            groups[i] = Group::new(rays, &laid[i], axes);
-        }
-        untils[i] = groups[i].deepest() + axes.widening;
-        all = all.union(&hulls[i]);
-    }
-    let planes = Planes::<L>::new(&all, axes);
-    let mut until = greatest(&untils);
+    // Built here and not in a constructor: it would copy them, and packets of 2 × 2 rays take a tenth longer.
+    let first = Group::<S>::new(&run.rays[..run.rays.len().min(GROUP)], &run.laid[0], axes);
+    let mut groups = Groups { eye: run.rays[0].origin, groups: [first; TOGETHER], untils: [f32::NEG_INFINITY; TOGETHER] };
+    groups.take(run, axes);
+    let planes = Planes::<L>::new(&Hull::around(run.hulls), axes);
+    let mut until = groups.deepest();
     let mut looks = 0;
     for item in items {
         if item.near > until {
@@ -168,18 +156,13 @@ pub(super) fn descend<L: Eight, S: Sixteen>(wide: &Wide, run: &Run, hits: &mut [
             }
             looks += 1;
             let inner = at & LEAF == 0;
-            let mut reached = [0; TOGETHER];
-            let mut count = 0;
+            let mut reached = Reached { lanes: [0; TOGETHER], count: 0 };
             // An item's own box has been asked.
             if !inner || (looks > MANY && only == !0) {
                 let parent = &wide.nodes[(place >> 3) as usize];
-                let lane = (place & 7) as usize;
-                let sides = seen_from(parent, lane, eye, axes);
-                for i in 0..TOGETHER {
-                    reached[i] = groups[i].reach(&sides, axes.widening);
-                    count += reached[i].count_ones();
-                }
-                if count == 0 {
+                let sides = seen_from(parent, (place & 7) as usize, groups.eye, axes);
+                reached = groups.reach(&sides, axes.widening);
+                if reached.count == 0 {
                     continue;
                 }
             }
@@ -194,48 +177,113 @@ pub(super) fn descend<L: Eight, S: Sixteen>(wide: &Wide, run: &Run, hits: &mut [
                 continue;
             }
             let (block, held) = leaf(at);
-            let block = &wide.blocks[block];
-            let mut changed = [false; TOGETHER];
-            if count <= FEW {
-                for i in 0..TOGETHER {
-                    let mut lanes = reached[i];
-                    while lanes != 0 {
-                        let lane = lanes.trailing_zeros() as usize & (GROUP - 1);
-                        lanes &= lanes - 1;
-                        changed[i] |= groups[i].one::<L>(lane, block, axis);
-                    }
-                }
-            } else {
-                let edges = Edges::new::<L>(block, eye, axis);
-                for lane in 0..held as usize {
-                    for i in 0..TOGETHER {
-                        if reached[i] != 0 && edges.may_be_met(lane, groups[i].slopes) {
-                            changed[i] |= groups[i].triangle(block, lane, axes.axes);
-                        }
-                    }
-                }
-            }
-            for i in 0..TOGETHER {
-                if changed[i] {
-                    untils[i] = groups[i].deepest() + axes.widening;
-                }
-            }
-            until = greatest(&untils);
+            groups.block::<L>(&wide.blocks[block], held, &reached, axes);
+            until = groups.deepest();
         }
     }
-    for (group, hits) in groups.iter().zip(hits.chunks_mut(GROUP)) {
+    for (group, hits) in groups.groups.iter().zip(hits.chunks_mut(GROUP)) {
         group.write(hits);
     }
 }
 
-/// The last depth that counts for any group.
-#[inline(always)]
-fn greatest(untils: &[f32; TOGETHER]) -> f32 {
-    let mut greatest = untils[0];
-    for &until in &untils[1..] {
-        greatest = if until > greatest { until } else { greatest };
+/// The groups of a run.
+struct Groups<'a, S> {
+    /// Where all rays start.
+    eye: [f32; 3],
+    groups: [Group<'a, S>; TOGETHER],
+    /// The last depth that counts for each.
+    untils: [f32; TOGETHER],
+}
+
+/// The rays of a run that reach a box.
+struct Reached {
+    /// One bit a ray, group by group.
+    lanes: [u32; TOGETHER],
+    /// How many they are.
+    count: u32,
+}
+
+impl<'a, S: Sixteen> Groups<'a, S> {
+    /// Takes up the rays of a run.
+    #[inline(always)]
+    fn take(&mut self, run: &Run<'a>, axes: &Axes) {
+        let Run { rays, laid, .. } = *run;
+        for group in &mut self.groups[rays.len().div_ceil(GROUP)..] {
+            group.used = 0;
+        }
+        for (i, rays) in rays.chunks(GROUP).enumerate().take(TOGETHER) {
+            if i > 0 {
+                self.groups[i] = Group::new(rays, &laid[i], axes);
+            }
+            self.untils[i] = self.groups[i].deepest() + axes.widening;
+        }
     }
-    greatest
+
+    /// The last depth that counts for any group.
+    #[inline(always)]
+    fn deepest(&self) -> f32 {
+        let mut deepest = self.untils[0];
+        for &until in &self.untils[1..] {
+            deepest = if until > deepest { until } else { deepest };
+        }
+        deepest
+    }
+
+    /// Which rays reach a box, given as in [`Group::reach`].
+    #[inline(always)]
+    fn reach(&self, sides: &[[f32; 2]; 3], widening: f32) -> Reached {
+        let mut reached = Reached { lanes: [0; TOGETHER], count: 0 };
+        for i in 0..TOGETHER {
+            reached.lanes[i] = self.groups[i].reach(sides, widening);
+            reached.count += reached.lanes[i].count_ones();
+        }
+        reached
+    }
+
+    /// Tests the `held` triangles of a block for the rays that reach its box, and sees anew how deep each group looks.
+    #[inline(always)]
+    fn block<L: Eight>(&mut self, block: &Block, held: u32, reached: &Reached, axes: &Axes) {
+        let nearer = if reached.count <= FEW {
+            self.ray_by_ray::<L>(block, &reached.lanes, axes.axes[2])
+        } else {
+            self.triangle_by_triangle::<L>(block, held, &reached.lanes, axes)
+        };
+        for i in 0..TOGETHER {
+            if nearer[i] {
+                self.untils[i] = self.groups[i].deepest() + axes.widening;
+            }
+        }
+    }
+
+    /// Eight triangles at once, and in which groups a ray has met something nearer.
+    #[inline(always)]
+    fn ray_by_ray<L: Eight>(&mut self, block: &Block, reached: &[u32; TOGETHER], axis: usize) -> [bool; TOGETHER] {
+        let mut nearer = [false; TOGETHER];
+        for i in 0..TOGETHER {
+            let mut lanes = reached[i];
+            while lanes != 0 {
+                let lane = lanes.trailing_zeros() as usize & (GROUP - 1);
+                lanes &= lanes - 1;
+                nearer[i] |= self.groups[i].one::<L>(lane, block, axis);
+            }
+        }
+        nearer
+    }
+
+    /// Sixteen rays at once, and in which groups a ray has met something nearer.
+    #[inline(always)]
+    fn triangle_by_triangle<L: Eight>(&mut self, block: &Block, held: u32, reached: &[u32; TOGETHER], axes: &Axes) -> [bool; TOGETHER] {
+        let mut nearer = [false; TOGETHER];
+        let edges = Edges::new::<L>(block, self.eye, axes.axes[2]);
+        for lane in 0..held as usize {
+            for i in 0..TOGETHER {
+                if reached[i] != 0 && edges.may_be_met(lane, self.groups[i].slopes) {
+                    nearer[i] |= self.groups[i].triangle(block, lane, axes.axes);
+                }
+            }
+        }
+        nearer
+    }
 }
 
 /// The box in one lane of a node, widened, from the eye along the packet's axes: lower and upper end.

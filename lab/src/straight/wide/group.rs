@@ -5,7 +5,7 @@ use super::best::GROUP;
 use super::hull::{Axes, Planes};
 use super::lanes::{Eight, Lanes, Mask, Sixteen};
 use super::ray::{meet, sheared};
-use super::tree::{Block, LEAF, Stack, Waits, Wide, leaf};
+use super::tree::{Block, LEAF, Stack, Waits, Wide, leaf, wait};
 use crate::straight::ray::{Hit, Ray};
 
 /// Rays that a transposition takes at once.
@@ -63,13 +63,7 @@ pub(super) fn push<L: Eight>(wide: &Wide, stack: &mut Stack, height: &mut usize,
         lanes &= lanes - 1;
         let waits = Waits { child: children[lane], near: nears[lane], place: parent << 3 | lane as u32 };
         wide.fetch::<L>(waits.child);
-        let mut place = *height;
-        while place > ground && stack[place - 1].near < waits.near {
-            stack[place] = stack[place - 1];
-            place -= 1;
-        }
-        stack[place] = waits;
-        *height += 1;
+        wait(stack, ground, height, waits);
     }
 }
 

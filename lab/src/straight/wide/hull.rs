@@ -26,6 +26,16 @@ impl Hull {
     /// Holds nothing.
     pub const EMPTY: Hull = Hull { sides: [f32::INFINITY; 8], depth: [f32::INFINITY; 2] };
 
+    /// The hull of all of these.
+    #[inline(always)]
+    pub fn around(hulls: &[Hull]) -> Hull {
+        let mut all = Hull::EMPTY;
+        for hull in hulls {
+            all = all.union(hull);
+        }
+        all
+    }
+
     /// The hull of both.
     #[inline(always)]
     pub fn union(&self, other: &Hull) -> Hull {

@@ -6,10 +6,12 @@
 //! front of them, nearest first. The nodes above are opened once for all rays, whatever the size of the packet, and no node is opened for
 //! rays that cannot reach it.
 
+use std::ops::Range;
+
 use super::best::GROUP;
 use super::eye::{self, Laid, Run, TOGETHER};
 use super::group::{EIGHT, Item, group, push};
-use super::hull::{Hull, Planes};
+use super::hull::{Axes, Hull, Planes};
 use super::lanes::{Eight, Pair, Portable, Sixteen};
 #[cfg(target_arch = "x86_64")]
 use super::lanes_x86::{Avx, Avx512};
@@ -113,70 +115,132 @@ fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], pac
         Some(axes) => Some((axes, true)),
         None => sweep::from_anywhere::<L>(wide, rays, hulls).map(|axes| (axes, false)),
     };
-    let Some((axes, from_eye)) = swept else {
-        // No common direction: halves may have one, eight rays need none.
-        if rays.len() <= EIGHT {
-            wide.each::<false>(rays, hits, &mut packets.stack);
-        } else {
-            let middle = (rays.len() / 2).next_multiple_of(EIGHT);
-            let (first, second) = hits.split_at_mut(middle);
-            wide.closest_packet(&rays[..middle], first, packets);
-            wide.closest_packet(&rays[middle..], second, packets);
-        }
-        return;
-    };
+    match swept {
+        Some((axes, from_eye)) => descend::<L, S>(wide, rays, hits, &axes, from_eye, packets),
+        None => halves(wide, rays, hits, packets),
+    }
+}
+
+/// Rays without a common direction: halves may have one, eight rays need none.
+#[inline(always)]
+fn halves(wide: &Wide, rays: &[Ray], hits: &mut [Hit], packets: &mut Packets) {
+    if rays.len() <= EIGHT {
+        wide.each::<false>(rays, hits, &mut packets.stack);
+    } else {
+        let middle = (rays.len() / 2).next_multiple_of(EIGHT);
+        let (first, second) = hits.split_at_mut(middle);
+        wide.closest_packet(&rays[..middle], first, packets);
+        wide.closest_packet(&rays[middle..], second, packets);
+    }
+}
+
+/// Rays along common axes, once `packets` has their groups.
+#[inline(always)]
+fn descend<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], axes: &Axes, from_eye: bool, packets: &mut Packets) {
     let Packets { items, parts, hulls, laid, wider, stack } = packets;
     wider.clear();
     for hulls in hulls.chunks(SHARE) {
-        wider.push(united(hulls));
+        wider.push(Hull::around(hulls));
     }
+    let swept = Swept { wide, rays, axes, hulls, wider, laid: from_eye.then_some(laid) };
     items.clear();
     items.push(Item { node: 0, children: !0, near: 0.0 });
     parts.clear();
-    parts.push(Part { first: 0, count: rays.len().div_ceil(GROUP), items: [0, 1] });
+    parts.push(Part { first: 0, count: hulls.len(), items: [0, 1] });
     while let Some(part) = parts.pop() {
+        let Some([first, end]) = swept.sift::<L>(&part, items, stack) else {
+            hits[swept.run(part.groups())].fill(Hit::MISS);
+            continue;
+        };
+        if part.count > SHARE {
+            part.split([first, end], parts);
+        } else {
+            swept.finish::<L, S>(part.groups(), hits, &items[first..end], stack);
+        }
+    }
+}
+
+impl Part {
+    #[inline(always)]
+    fn groups(&self) -> Range<usize> {
+        self.first..self.first + self.count
+    }
+
+    /// Leaves the same `items` to each of four or so parts. Parts begin at multiples of [`SHARE`], as [`Packets::wider`] has them.
+    #[inline(always)]
+    fn split(&self, items: [usize; 2], parts: &mut Vec<Part>) {
+        // In 16 or in 64 is as fast.
+        let size = (self.count.next_power_of_two() / 4).max(SHARE);
+        for first in self.groups().step_by(size).rev() {
+            parts.push(Part { first, count: size.min(self.first + self.count - first), items });
+        }
+    }
+}
+
+/// The rays of a packet along their common axes, and what they sweep.
+struct Swept<'a> {
+    wide: &'a Wide,
+    rays: &'a [Ray],
+    axes: &'a Axes,
+    /// Of each group.
+    hulls: &'a [Hull],
+    /// Of each [`SHARE`] groups.
+    wider: &'a [Hull],
+    /// The groups, where all rays start in one point.
+    laid: Option<&'a [Laid]>,
+}
+
+impl Swept<'_> {
+    /// The rays of these groups.
+    #[inline(always)]
+    fn run(&self, groups: Range<usize>) -> Range<usize> {
+        groups.start * GROUP..(groups.end * GROUP).min(self.rays.len())
+    }
+
+    /// Sifts the items of a part, if its hull is narrow, and says which run of items is left for it; None if nothing is.
+    #[inline(always)]
+    fn sift<L: Eight>(&self, part: &Part, items: &mut Vec<Item>, stack: &mut Stack) -> Option<[usize; 2]> {
         let [start, end] = part.items;
         items.truncate(end);
-        let groups = part.first..part.first + part.count;
-        let mut list = [start, end];
-        if part.count > 1 {
-            let hull = united(&wider[groups.start / SHARE..groups.end.div_ceil(SHARE)]);
-            if hull.is_narrow(SIFTED) {
-                let planes = Planes::<L>::new(&hull, &axes);
-                for i in start..end {
-                    sift(wide, &planes, items[i], items, stack);
-                }
-                if items.len() == end {
-                    hits[groups.start * GROUP..(groups.end * GROUP).min(rays.len())].fill(Hit::MISS);
-                    continue;
-                }
-                list = [end, items.len()];
-                if part.count <= SHARE {
-                    // What is nearest first hides most of the rest from each group.
-                    items[end..].sort_unstable_by(|a, b| a.near.total_cmp(&b.near));
-                }
-            }
+        if part.count <= 1 {
+            return Some([start, end]);
         }
-        if part.count > SHARE {
-            // In 16 or in 64 is as fast. Parts begin at multiples of `SHARE`, as `wider` has them.
-            let size = (part.count.next_power_of_two() / 4).max(SHARE);
-            for first in groups.step_by(size).rev() {
-                parts.push(Part { first, count: size.min(part.first + part.count - first), items: list });
-            }
-            continue;
+        let groups = part.groups();
+        let hull = Hull::around(&self.wider[groups.start / SHARE..groups.end.div_ceil(SHARE)]);
+        if !hull.is_narrow(SIFTED) {
+            return Some([start, end]);
         }
-        let items = &items[list[0]..list[1]];
-        if from_eye && hulls[groups.clone()].iter().all(|hull| hull.is_along_z() && hull.is_narrow(NARROW)) {
-            let run = groups.start * GROUP..(groups.end * GROUP).min(rays.len());
+        let planes = Planes::<L>::new(&hull, self.axes);
+        for i in start..end {
+            open(self.wide, &planes, items[i], items, stack);
+        }
+        if items.len() == end {
+            return None;
+        }
+        if part.count <= SHARE {
+            // What is nearest first hides most of the rest from each group.
+            items[end..].sort_unstable_by(|a, b| a.near.total_cmp(&b.near));
+        }
+        Some([end, items.len()])
+    }
+
+    /// The groups of a part, through the items that are left for it.
+    #[inline(always)]
+    fn finish<L: Eight, S: Sixteen>(&self, groups: Range<usize>, hits: &mut [Hit], items: &[Item], stack: &mut Stack) {
+        let Swept { wide, rays, axes, hulls, .. } = *self;
+        if let Some(laid) = self.laid
+            && hulls[groups.clone()].iter().all(|hull| hull.is_along_z() && hull.is_narrow(NARROW))
+        {
+            let run = self.run(groups.clone());
             let eye = Run { rays: &rays[run.clone()], laid: &laid[groups.clone()], hulls: &hulls[groups] };
-            eye::descend::<L, S>(wide, &eye, &mut hits[run], &axes, items, stack);
-            continue;
+            eye::descend::<L, S>(wide, &eye, &mut hits[run], axes, items, stack);
+            return;
         }
         for at in groups {
-            let run = at * GROUP..((at + 1) * GROUP).min(rays.len());
+            let run = self.run(at..at + 1);
             if hulls[at].is_narrow(NARROW) {
-                let planes = Planes::<L>::new(&hulls[at], &axes);
-                group::<L, S>(wide, &rays[run.clone()], &mut hits[run], &axes, &planes, items, stack);
+                let planes = Planes::<L>::new(&hulls[at], axes);
+                group::<L, S>(wide, &rays[run.clone()], &mut hits[run], axes, &planes, items, stack);
             } else {
                 wide.each::<false>(&rays[run.clone()], &mut hits[run], stack);
             }
@@ -184,19 +248,9 @@ fn packet<L: Eight, S: Sixteen>(wide: &Wide, rays: &[Ray], hits: &mut [Hit], pac
     }
 }
 
-/// The hull of all of these.
-#[inline(always)]
-fn united(hulls: &[Hull]) -> Hull {
-    let mut all = Hull::EMPTY;
-    for hull in hulls {
-        all = all.union(hull);
-    }
-    all
-}
-
 /// Opens an item for a packet as far as it pays, and adds what is left to the list, nearest first.
 #[inline(always)]
-fn sift<L: Eight>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<Item>, stack: &mut Stack) {
+fn open<L: Eight>(wide: &Wide, planes: &Planes<L>, item: Item, items: &mut Vec<Item>, stack: &mut Stack) {
     let mut only = item.children;
     stack[0] = Waits { child: item.node, near: 0.0, place: 0 };
     let mut height = 1;

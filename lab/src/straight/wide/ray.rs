@@ -1,7 +1,7 @@
 //! One ray through the wide tree: eight boxes or eight triangles at a time.
 
 use super::lanes::{Eight, Lanes, Mask, Portable};
-use super::tree::{Block, Instructions, LEAF, NOBODY, STACK, Stack, Waits, Wide, leaf};
+use super::tree::{Block, Instructions, LEAF, NOBODY, STACK, Stack, Waits, Wide, Wide8, leaf, wait};
 use crate::straight::ray::{Hit, Ray, Slabs, widening};
 use crate::straight::triangle::Shear;
 
@@ -74,60 +74,24 @@ fn descend<L: Eight, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
         return best;
     }
     let slabs = Slabs::new(ray, widening(&wide.root, ray.origin));
+    // Built here and not in a constructor: with one, single rays take a tenth longer.
+    let line = Line::<L> {
+        inverse: splat(slabs.inverse),
+        enter: splat(slabs.enter),
+        leave: splat(slabs.leave),
+        first: slabs.inverse.map(|i| usize::from(i.is_sign_negative())),
+    };
     let shear = Shear::new(ray);
-    let [inverse, enter, leave]: [[L; 3]; 3] = [splat(slabs.inverse), splat(slabs.enter), splat(slabs.leave)];
-    let first = slabs.inverse.map(|i| usize::from(i.is_sign_negative()));
     let mut until = ray.until;
     stack[0] = Waits::default();
     let mut height = 1;
     while height > 0 {
         height -= 1;
-        let Waits { child: mut at, near, .. } = stack[height];
+        let Waits { child, near, .. } = stack[height];
         if near > until {
             continue;
         }
-        while at & LEAF == 0 {
-            let node = &wide.nodes[at as usize];
-            let (mut near, mut far) = (L::splat(0.0), L::splat(until));
-            for axis in 0..3 {
-                let [low, high]: [L; 2] = [L::load(&node.bounds[axis][first[axis]]), L::load(&node.bounds[axis][1 - first[axis]])];
-                // As in `Slabs::enter`: what is not a number loses against the second operand.
-                near = low.sub(enter[axis]).mul(inverse[axis]).max(near);
-                far = high.sub(leave[axis]).mul(inverse[axis]).min(far);
-            }
-            let mut met = near.at_most(far).bits();
-            if met == 0 {
-                at = NOBODY;
-                break;
-            }
-            let nears = near.store();
-            let lane = met.trailing_zeros() as usize;
-            met &= met - 1;
-            at = node.children[lane];
-            if met == 0 {
-                continue;
-            }
-            // The nearest goes on; the others wait, nearer ones above.
-            let mut nearest = nears[lane];
-            let ground = height;
-            while met != 0 {
-                let lane = met.trailing_zeros() as usize;
-                met &= met - 1;
-                let mut waits = Waits { child: node.children[lane], near: nears[lane], place: 0 };
-                wide.fetch::<L>(waits.child);
-                if waits.near < nearest {
-                    std::mem::swap(&mut waits.child, &mut at);
-                    std::mem::swap(&mut waits.near, &mut nearest);
-                }
-                let mut place = height;
-                while place > ground && stack[place - 1].near < waits.near {
-                    stack[place] = stack[place - 1];
-                    place -= 1;
-                }
-                stack[place] = waits;
-                height += 1;
-            }
-        }
+        let at = nearest_leaf(wide, &line, child, until, stack, &mut height);
         if at != NOBODY {
             block::<L>(&wide.blocks[leaf(at).0], &shear, ray.until, &mut best);
             until = until.min(best.t);
@@ -137,6 +101,67 @@ fn descend<L: Eight, const ANY: bool>(wide: &Wide, ray: &Ray, stack: &mut Stack)
         }
     }
     best
+}
+
+/// One ray, laid out for eight boxes at once.
+struct Line<L> {
+    /// As in [`Slabs`].
+    inverse: [L; 3],
+    enter: [L; 3],
+    leave: [L; 3],
+    /// By axis: which of a box's two sides the ray comes to first.
+    first: [usize; 3],
+}
+
+impl<L: Eight> Line<L> {
+    /// Which of a node's boxes the ray meets before `until`, and where they begin.
+    #[inline(always)]
+    fn boxes(&self, node: &Wide8, until: f32) -> (u32, L) {
+        let (mut near, mut far) = (L::splat(0.0), L::splat(until));
+        for axis in 0..3 {
+            let first = self.first[axis];
+            let [low, high]: [L; 2] = [L::load(&node.bounds[axis][first]), L::load(&node.bounds[axis][1 - first])];
+            // As in `Slabs::enter`: what is not a number loses against the second operand.
+            near = low.sub(self.enter[axis]).mul(self.inverse[axis]).max(near);
+            far = high.sub(self.leave[axis]).mul(self.inverse[axis]).min(far);
+        }
+        (near.at_most(far).bits(), near)
+    }
+}
+
+/// The leaf that a ray comes to by the nearest box of each node, from the child `at` on; [`NOBODY`] where it meets none. The other boxes
+/// that it meets wait on the stack.
+#[inline(always)]
+fn nearest_leaf<L: Eight>(wide: &Wide, line: &Line<L>, mut at: u32, until: f32, stack: &mut Stack, height: &mut usize) -> u32 {
+    while at & LEAF == 0 {
+        let node = &wide.nodes[at as usize];
+        let (mut met, near) = line.boxes(node, until);
+        if met == 0 {
+            return NOBODY;
+        }
+        let nears = near.store();
+        let lane = met.trailing_zeros() as usize;
+        met &= met - 1;
+        at = node.children[lane];
+        if met == 0 {
+            continue;
+        }
+        // The nearest goes on; the others wait.
+        let mut nearest = nears[lane];
+        let ground = *height;
+        while met != 0 {
+            let lane = met.trailing_zeros() as usize;
+            met &= met - 1;
+            let mut waits = Waits { child: node.children[lane], near: nears[lane], place: 0 };
+            wide.fetch::<L>(waits.child);
+            if waits.near < nearest {
+                std::mem::swap(&mut waits.child, &mut at);
+                std::mem::swap(&mut waits.near, &mut nearest);
+            }
+            wait(stack, ground, height, waits);
+        }
+    }
+    at
 }
 
 // Here and wherever lanes are worked on there is no closure that touches them: a closure is compiled without the wide instructions of the

@@ -37,6 +37,18 @@ pub(super) struct Waits {
 /// What a traversal keeps from ray to ray, so that it need not be cleared for each.
 pub(super) type Stack = [Waits; STACK];
 
+/// Puts a child on the stack, among those above `ground`, nearer ones above.
+#[inline(always)]
+pub(super) fn wait(stack: &mut Stack, ground: usize, height: &mut usize, waits: Waits) {
+    let mut place = *height;
+    while place > ground && stack[place - 1].near < waits.near {
+        stack[place] = stack[place - 1];
+        place -= 1;
+    }
+    stack[place] = waits;
+    *height += 1;
+}
+
 /// A node: eight boxes, lane by lane. Lanes without a child hold the empty box, which no ray meets.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]

@@ -1,12 +1,13 @@
 //! How points of the aurora's experiment become a picture: the pyramid against plain sums, its memory, and threads.
 
+use lensrunner_lab::aurora::engine::draw::{Job, Tables, VARIANTS, draw};
 use lensrunner_lab::aurora::engine::lattice::Lattice;
 use lensrunner_lab::aurora::engine::points::{Point, Points};
 use lensrunner_lab::aurora::engine::pyramid::Pyramid;
 use lensrunner_lab::aurora::engine::shares::Shares;
 use lensrunner_lab::aurora::engine::splat::{Gaussian, Picture, Splat};
 use lensrunner_lab::aurora::engine::walk::{Method, Walker};
-use lensrunner_lab::aurora::experiment::{Job, Tables, VARIANTS, View, draw};
+use lensrunner_lab::aurora::experiment::View;
 use lensrunner_lab::aurora::sheet::{Falls, Sheet, Streak};
 use std::sync::LazyLock;
 

@@ -3,12 +3,13 @@
 use glam::{DQuat, DVec3, Vec3};
 use lensrunner::lensing;
 use lensrunner::spacetime::light::{Branch, Order, connect, rain_angle};
+use lensrunner_lab::aurora::engine::draw::{Job, Tables, Timed, VARIANTS, draw};
 use lensrunner_lab::aurora::engine::lattice::Lattice;
 use lensrunner_lab::aurora::engine::points::{Point, Points};
 use lensrunner_lab::aurora::engine::splat::{Gaussian, Picture, Splat};
 use lensrunner_lab::aurora::engine::walk::{Method, Walker};
-use lensrunner_lab::aurora::experiment::{ExperimentRequest, Job, Runner, Tables, Timed, VARIANTS, View, draw, run};
-use lensrunner_lab::aurora::eye::Eye;
+use lensrunner_lab::aurora::experiment::{ExperimentRequest, Runner, View, run};
+use lensrunner_lab::aurora::eye::{Eye, Planet};
 use lensrunner_lab::aurora::sheet::{FALLS, Falls, LEVELS, Sheet, Streak, TOP, field_direction};
 use lensrunner_lab::aurora::truth::Emission;
 use proptest::prelude::*;
@@ -139,7 +140,7 @@ fn luminous_length_is_right_through_bent_light() {
         for degrees in (1..=90).map(f64::from) {
             let facing = DQuat::from_axis_angle(axis, degrees.to_radians()) * toward;
             let slice = || lensing::Slice::new(table(), 12.0);
-            let from = |at: DVec3| Eye::bent(slice(), 12.0, at, 0.8, facing, 50f64.to_radians(), [1920, 1080], order);
+            let from = |at: DVec3| Eye::bent(slice(), 12.0, &Planet { at, radius: 0.8, facing }, 50f64.to_radians(), [1920, 1080], order);
             let bent = from(target).bent.unwrap();
             let off = bent.origin.as_dvec3() + bent.place.as_dmat3() * lit + DVec3::Z * 12.0 - target;
             let eye = from(target - off);
@@ -278,20 +279,13 @@ fn any_eye() -> impl Strategy<Value = Eye> {
                 4 => {
                     // The planet at the photon sphere, and the camera wherever.
                     let l = 1.6 + z / 50.0;
-                    Eye::bent(
-                        lensing::Slice::new(table(), l),
-                        l,
-                        DVec3::new(x, y, z + 1.0).normalize() * 1.5,
-                        0.2,
-                        DVec3::new(tx, ty, 1.0),
-                        1.0,
-                        size,
-                        2,
-                    )
+                    let planet = Planet { at: DVec3::new(x, y, z + 1.0).normalize() * 1.5, radius: 0.2, facing: DVec3::new(tx, ty, 1.0) };
+                    Eye::bent(lensing::Slice::new(table(), l), l, &planet, 1.0, size, 2)
                 }
                 _ => {
                     // Exactly behind the hole: the Einstein ring.
-                    Eye::bent(lensing::Slice::new(table(), 10.0), 10.0, DVec3::new(0.0, 0.0, -10.0), 0.8, DVec3::Z, 1.0, size, 1)
+                    let planet = Planet { at: DVec3::new(0.0, 0.0, -10.0), radius: 0.8, facing: DVec3::Z };
+                    Eye::bent(lensing::Slice::new(table(), 10.0), 10.0, &planet, 1.0, size, 1)
                 }
             }
         },
