@@ -11,9 +11,9 @@ use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty};
+use lensrunner::sim::replay::{Replay, ReplayError, record};
+use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
-use lensrunner::sim::replay::{Replay, ReplayError};
-use lensrunner::sim::run::{RunRequest, record};
 use lensrunner::sim::{balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 

@@ -36,7 +36,10 @@ impl Plugin for GamePlugin {
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer)))
             .add_systems(Startup, begin_title)
-            .add_systems(FixedUpdate, (move_hands.run_if(not(resource_exists::<Playback>)), note_pilot).chain().in_set(SimSet::Input).before(choose_pilot));
+            .add_systems(
+                FixedUpdate,
+                (move_hands.run_if(not(resource_exists::<Playback>)), note_pilot).chain().in_set(SimSet::Input).before(choose_pilot),
+            );
     }
 }
 

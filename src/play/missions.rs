@@ -115,7 +115,7 @@ pub fn begin_log(world: &mut World, screen: Screen) {
         let playback = Playback::of(&watched.0);
         let crew = watched.0.crew;
         world.insert_resource(playback);
-        crate::sim::run::board(world, crew);
+        crate::sim::board(world, crew);
     } else {
         let replay = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
         world.insert_resource(Recording(replay));

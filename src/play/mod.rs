@@ -23,8 +23,8 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::render::Gpu;
-use demonstration::Flight;
 use crate::sim::replay::Replay;
+use demonstration::Flight;
 use session::Session;
 
 /// Plays the chase: in a window, or without a display as a demonstration flight to PNG files.
@@ -146,7 +146,14 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     if !without_window {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
-        let options = window::Options { autopilot: args.autopilot, size: args.size, frames: args.frames, record: args.record.clone(), replay, at_once: args.at_once };
+        let options = window::Options {
+            autopilot: args.autopilot,
+            size: args.size,
+            frames: args.frames,
+            record: args.record.clone(),
+            replay,
+            at_once: args.at_once,
+        };
         return match window::run(session, &options) {
             bevy::app::AppExit::Success => ExitCode::SUCCESS,
             bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),

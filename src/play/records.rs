@@ -54,7 +54,9 @@ impl Records {
         let text = match std::fs::read_to_string(&file) {
             Ok(text) => text,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(Table::new()), None),
-            Err(error) => return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display()))),
+            Err(error) => {
+                return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display())));
+            }
         };
         match toml::from_str(&text) {
             Ok(table) => (records(table), None),

@@ -24,8 +24,7 @@ use super::document::fault::{Fault, fault, in_range};
 use super::mission::Difficulty;
 
 /// The words for how a flight ends: `sim::Outcome` by name, and "undecided".
-pub const OUTCOMES: [&str; 9] =
-    ["caught", "hunter-lost", "quarry-lost", "time-out", "done", "taken", "ship-lost", "strayed", "undecided"];
+pub const OUTCOMES: [&str; 9] = ["caught", "hunter-lost", "quarry-lost", "time-out", "done", "taken", "ship-lost", "strayed", "undecided"];
 
 /// What must become of a flight. Ranges are from the least to the greatest allowed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -120,7 +119,7 @@ pub fn check_expect(entry: &ExpectEntry) -> Result<Expect, Fault> {
 
 /// A word that stands for a value; the usual one where it is absent.
 fn word<T: std::str::FromStr<Err = String> + Default>(written: &Option<Spanned<String>>) -> Result<T, Fault> {
-    written.as_ref().map_or(Ok(T::default()), |written| {
-        written.get_ref().parse().map_err(|message| Fault { span: written.span(), message })
-    })
+    written
+        .as_ref()
+        .map_or(Ok(T::default()), |written| written.get_ref().parse().map_err(|message| Fault { span: written.span(), message }))
 }

@@ -150,9 +150,7 @@ fn mission(file: &Path, text: &str, entry: &SceneFile, ships: &[ShipSpec]) -> Re
     };
     let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
     let levels = levels(document.get_ref()).map_err(|faults| complain_all(file, text, faults))?;
-    check_mission(mission, &entry.goal, &entry.gate, ships, levels)
-        .map(Some)
-        .map_err(|fault| complain_all(file, text, vec![fault]))
+    check_mission(mission, &entry.goal, &entry.gate, ships, levels).map(Some).map_err(|fault| complain_all(file, text, vec![fault]))
 }
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo), of a text.

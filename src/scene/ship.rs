@@ -345,15 +345,9 @@ impl Scatter {
         };
         let turn = DQuat::from_axis_angle(placed.position.normalize(), self.tilt * shares[2]);
         let turn = DQuat::from_rotation_z(self.phase * shares[1]) * turn;
-        Some(ShipState {
-            position: turn * placed.position,
-            momentum: turn * placed.momentum,
-            attitude: turn * state.attitude,
-            ..*state
-        })
+        Some(ShipState { position: turn * placed.position, momentum: turn * placed.momentum, attitude: turn * state.attitude, ..*state })
     }
 }
-
 
 fn programme(entry: &ShipEntry) -> Result<Vec<Burn>, Fault> {
     let Some(burns) = &entry.thrust else { return Ok(Vec::new()) };

@@ -79,8 +79,10 @@ pub struct BoltsPlugin;
 
 impl Plugin for BoltsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Bolts>()
-            .add_systems(FixedUpdate, (fire.before(super::physics::integrate_ships), fly_bolts.after(super::physics::advance_clock)).in_set(SimSet::Integrate));
+        app.init_resource::<Bolts>().add_systems(
+            FixedUpdate,
+            (fire.before(super::physics::integrate_ships), fly_bolts.after(super::physics::advance_clock)).in_set(SimSet::Integrate),
+        );
     }
 }
 

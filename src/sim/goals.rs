@@ -66,7 +66,13 @@ pub fn needed(task: &Task, mission: &Mission, rules: &ChaseRules) -> f64 {
         Task::Burn { amount } => amount,
         Task::Turn { angle } => angle,
         Task::Coast { span } | Task::Look { span, .. } | Task::Reach { span, .. } => span,
-        Task::Hold { span, .. } => if span.is_nan() { rules.0.hold_time } else { span },
+        Task::Hold { span, .. } => {
+            if span.is_nan() {
+                rules.0.hold_time
+            } else {
+                span
+            }
+        }
         Task::Hit { times, .. } => f64::from(times),
         Task::Survive { until, .. } => until,
         Task::Gates => mission.gates.len() as f64,

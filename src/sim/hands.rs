@@ -6,8 +6,7 @@ use glam::DVec3;
 use super::SimSet;
 use super::assist::{AssistSettings, Reference, Stick, assisted, direct};
 use super::bolts::Trigger;
-use super::pilot::Manual;
-use super::ship::{Controls, Engine, Player, ShipMotion};
+use super::ship::{Controls, Engine, Manual, Player, ShipMotion};
 use crate::scene::GameConfig;
 
 /// The player's hands in a step. It is all of the player that the simulation knows, so a replay is a list of these.

@@ -152,7 +152,12 @@ pub struct History {
 impl History {
     /// A ship that has this state at T = `time` and coasted before, or hovered.
     pub fn new(time: f64, state: &ShipState) -> Self {
-        History { nodes: vec![Node::coasting(time, state)], past: Vec::new(), keep: f64::INFINITY, exists: [f64::NEG_INFINITY, f64::INFINITY] }
+        History {
+            nodes: vec![Node::coasting(time, state)],
+            past: Vec::new(),
+            keep: f64::INFINITY,
+            exists: [f64::NEG_INFINITY, f64::INFINITY],
+        }
     }
 
     /// Adds the state at `time`, later than all before, reached under `command`.

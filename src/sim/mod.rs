@@ -36,11 +36,11 @@ pub use hands::{Hands, HandsPlugin};
 pub use history::{History, Sample};
 pub use moment::Moment;
 pub use physics::ShipPhysicsPlugin;
+pub use pilot::{Chance, EnemyAiPlugin, Skill, Skills};
 pub use replay::PlaybackPlugin;
-pub use pilot::{Chance, EnemyAiPlugin, Manual, Skill, Skills};
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
-pub use setup::{outcome, start};
-pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Ship, ShipMotion};
+pub use setup::{app_of, board, outcome, start};
+pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Ship, ShipMotion};
 
 /// The order of a fixed step.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::ShipState;
 
-use super::{Clock, Fleet, History, ShipMotion, outcome, simulate};
+use super::{Clock, Fleet, History, ShipMotion, app_of, outcome};
 
 /// A scene with its ships at a time T.
 pub struct Moment {
@@ -16,7 +16,7 @@ pub struct Moment {
 impl Moment {
     /// Plays the scene from T = 0 to T = `at`.
     pub fn new(scene: &Scene, config: &GameConfig, at: f64, seed: u64) -> Moment {
-        let world = simulate::app_of(scene, config, seed);
+        let world = app_of(scene, config, seed);
         let mut moment = Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
         let step = moment.world.world().resource::<Clock>().step;
         moment.advance((at / step).round() as u64);

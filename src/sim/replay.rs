@@ -12,9 +12,8 @@ use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
 use serde::{Deserialize, Serialize};
 
 use super::hands::{Hands, choose_pilot};
-use super::run::{Report, board, fly_to_end, state_hash};
-use super::simulate::app_of;
-use super::{Clock, SimSet, outcome};
+use super::run::{Report, RunRequest, fly_to_end, state_hash};
+use super::{Clock, SimSet, app_of, board, outcome};
 use crate::scene::config::{self, Value};
 use crate::scene::crew::Crew;
 use crate::scene::mission::Difficulty;
@@ -185,7 +184,12 @@ impl Replay {
         let damaged = |problem: String| ReplayError::Damaged { path: path.to_path_buf(), problem };
         let file: ReplayFile = toml::from_str(text).map_err(|_| damaged("it is no replay, or damaged".into()))?;
         if file.replay != FORMAT || file.version != env!("CARGO_PKG_VERSION") {
-            let made = format!("it was made by version {} (format {}), this is {} ({FORMAT})", file.version, file.replay, env!("CARGO_PKG_VERSION"));
+            let made = format!(
+                "it was made by version {} (format {}), this is {} ({FORMAT})",
+                file.version,
+                file.replay,
+                env!("CARGO_PKG_VERSION")
+            );
             return Err(damaged(made));
         }
         let before = text.find("check = ").map_or(text, |end| &text[..end]);
@@ -257,13 +261,29 @@ impl Replay {
     }
 }
 
+/// As [`run`](super::run::run), and the flight as a replay.
+pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Report, Replay) {
+    let begun = Replay::begin(scene, config, request.difficulty, request.crew, request.seed);
+    let config = scene.config(config, request.difficulty);
+    let until = request.until.unwrap_or(scene.rules(&config).time_limit);
+    let mut app = app_of(scene, &config, request.seed);
+    app.insert_resource(Recording(begun.clone()));
+    board(app.world_mut(), request.crew);
+    let report = fly_to_end(app.world_mut(), until);
+    let mut replay = app.world_mut().remove_resource::<Recording>().map_or(begun, |recording| recording.0);
+    replay.finish(app.world());
+    (report, replay)
+}
+
 /// Checked settings of a file.
 fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
     let one = |(path, value): (String, toml::Value)| {
         let setting = config::setting(&path).ok_or_else(|| format!("{path}: unknown setting"))?;
         let value = match value {
             toml::Value::Float(number) => Value::Number(number),
-            toml::Value::Integer(number) => Value::Integer(u32::try_from(number).map_err(|_| format!("{path} = {number} is out of range"))?),
+            toml::Value::Integer(number) => {
+                Value::Integer(u32::try_from(number).map_err(|_| format!("{path} = {number} is out of range"))?)
+            }
             toml::Value::Boolean(on) => Value::Switch(on),
             toml::Value::String(word) => Value::Word(word),
             _ => return Err(format!("{path} has the wrong type")),
@@ -308,7 +328,7 @@ impl Plugin for PlaybackPlugin {
             FixedUpdate,
             (
                 play_back.run_if(resource_exists::<Playback>).before(choose_pilot).in_set(SimSet::Input),
-                record.run_if(resource_exists::<Recording>).after(choose_pilot).in_set(SimSet::Input),
+                note_hands.run_if(resource_exists::<Recording>).after(choose_pilot).in_set(SimSet::Input),
             ),
         );
     }
@@ -322,7 +342,7 @@ pub fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: R
     }
 }
 
-fn record(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<Recording>) {
+fn note_hands(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<Recording>) {
     recording.note(clock.tick, &hands);
 }
 

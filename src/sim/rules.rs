@@ -6,7 +6,6 @@ use bevy::prelude::*;
 use crate::scene::rules::Rules;
 
 use super::clock::Clock;
-use super::goals::Progress;
 use super::ship::{CrossedHorizon, Ended, Fleet, Order, Pilot, Player, ShipMotion};
 use super::{SimEvent, SimSet};
 
@@ -80,6 +79,8 @@ pub struct Chase {
     pub quarry: Option<Entity>,
     /// For how long the quarry has been within the capture radius, in r_s/c of T; in a mission how much of the present goal is done.
     pub held: f64,
+    /// A mission's goals decide it, not these rules.
+    pub by_goals: bool,
     /// How it ended, and at which T; None while it goes on.
     pub outcome: Option<(Outcome, f64)>,
 }
@@ -91,7 +92,7 @@ impl Plugin for ChaseRulesPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<ChaseRules>()
             .add_message::<SimEvent>()
-            .add_systems(FixedUpdate, judge_chase.run_if(resource_exists::<Chase>).run_if(not(resource_exists::<Progress>)).in_set(SimSet::Rules));
+            .add_systems(FixedUpdate, judge_chase.run_if(resource_exists::<Chase>).in_set(SimSet::Rules));
     }
 }
 
@@ -109,7 +110,7 @@ pub fn begin_chase(world: &mut World) {
     let fleeing = || fleet.0.iter().copied().find(|&entity| matches!(order(entity), Some(Order::Escape(_))) && entity != hunter);
     let other = || fleet.0.iter().copied().find(|&entity| entity != hunter);
     let Some(quarry) = target.or_else(fleeing).or_else(other) else { return };
-    world.insert_resource(Chase { hunter, quarry: Some(quarry), held: 0.0, outcome: None });
+    world.insert_resource(Chase { hunter, quarry: Some(quarry), held: 0.0, by_goals: false, outcome: None });
 }
 
 /// Runs after the ships have flown: `clock.time` is the T of their states.
@@ -120,7 +121,7 @@ pub fn judge_chase(
     ships: Query<(&ShipMotion, Has<CrossedHorizon>, Has<Ended>)>,
     mut events: MessageWriter<SimEvent>,
 ) {
-    if chase.outcome.is_some() {
+    if chase.outcome.is_some() || chase.by_goals {
         return;
     }
     let (Ok(hunter), Some(Ok(quarry))) = (ships.get(chase.hunter), chase.quarry.map(|quarry| ships.get(quarry))) else { return };

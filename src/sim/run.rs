@@ -8,32 +8,9 @@ use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::{angular_momentum, energy};
 
 use super::hash::StateHash;
-use super::pilot::beginner::Beginner;
-use super::pilot::{Skill, Skills};
-use super::replay::{Recording, Replay};
 use super::rules::Outcome;
 use super::ship::{Fleet, Fuel, Player, Ship, ShipMotion};
-use super::simulate::app_of;
-use super::{Clock, History, SimEvent, outcome};
-
-/// How well the autopilot of a crew flies.
-fn skill(crew: Crew) -> Skill {
-    match crew {
-        Crew::Naive | Crew::Expert => Skill::default(),
-        Crew::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
-    }
-}
-
-/// Puts a crew at the controls of the player's ship in a world that was just started.
-pub fn board(world: &mut World, crew: Crew) {
-    world.resource_mut::<Skills>().own = skill(crew);
-    if crew == Crew::Naive {
-        let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
-        for ship in own {
-            world.entity_mut(ship).insert(Beginner::default());
-        }
-    }
-}
+use super::{Clock, History, SimEvent, app_of, board, outcome};
 
 /// What is flown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -94,20 +71,6 @@ pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> Report {
         history.forget_beyond(KEEP);
     }
     fly_to_end(world, until)
-}
-
-/// As [`run`], and the flight as a replay.
-pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Report, Replay) {
-    let begun = Replay::begin(scene, config, request.difficulty, request.crew, request.seed);
-    let config = scene.config(config, request.difficulty);
-    let until = request.until.unwrap_or(scene.rules(&config).time_limit);
-    let mut app = app_of(scene, &config, request.seed);
-    app.insert_resource(Recording(begun.clone()));
-    board(app.world_mut(), request.crew);
-    let report = fly_to_end(app.world_mut(), until);
-    let mut replay = app.world_mut().remove_resource::<Recording>().map_or(begun, |recording| recording.0);
-    replay.finish(app.world());
-    (report, replay)
 }
 
 /// Steps a started world to its end.

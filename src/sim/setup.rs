@@ -1,8 +1,10 @@
 //! From a scene and `game.toml` to a world at T = 0.
 
+use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use rand::{RngExt, SeedableRng, rngs::StdRng};
 
+use crate::scene::crew::Crew;
 use crate::scene::ship::{Ai, ShipSpec};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -13,10 +15,11 @@ use super::clock::Clock;
 use super::goals::{ActiveMission, Progress};
 use super::hands::{Hands, HandsRule};
 use super::history::History;
+use super::pilot::beginner::Beginner;
 use super::pilot::{Chance, Mind, Skill, Skills};
 use super::rules::{Chase, ChaseRules, begin_chase};
-use super::sight;
 use super::ship::{Controls, Engine, Fleet, Fuel, Order, Pilot, Player, Programme, Ship, ShipMotion};
+use super::{SimulationPlugins, sight};
 
 /// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
 /// that of the difficulty ([`Scene::config`]). The plugins [`super::SimulationPlugins`] must be there. The player's ship, too, is flown by
@@ -63,6 +66,38 @@ fn facing(spec: &ShipSpec, all: &[ShipSpec]) -> ShipState {
 /// Keeps the chance of starts apart from that of pilots: any number does.
 const SCATTER: u64 = 0x5ca7_7e12;
 
+/// An app with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step: run that schedule to go on.
+pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
+    let mut app = App::new();
+    app.add_plugins(SimulationPlugins);
+    app.edit_schedule(FixedUpdate, |schedule| {
+        schedule.set_executor(SingleThreadedExecutor::new());
+    });
+    app.finish();
+    app.cleanup();
+    start(app.world_mut(), scene, config, seed);
+    app
+}
+
+/// How well the autopilot of a crew flies.
+fn skill(crew: Crew) -> Skill {
+    match crew {
+        Crew::Naive | Crew::Expert => Skill::default(),
+        Crew::Apprentice => Skill { replan_period: 6.0, horizon: 20.0, reaction_delay: 4.0 },
+    }
+}
+
+/// Puts a crew at the controls of the player's ship in a world that was just started.
+pub fn board(world: &mut World, crew: Crew) {
+    world.resource_mut::<Skills>().own = skill(crew);
+    if crew == Crew::Naive {
+        let own: Vec<Entity> = world.query_filtered::<Entity, With<Player>>().iter(world).collect();
+        for ship in own {
+            world.entity_mut(ship).insert(Beginner::default());
+        }
+    }
+}
+
 /// Arms the player's ship and puts the mission at its first goal.
 fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
     let Some(mission) = scene.mission.clone() else { return };
@@ -74,7 +109,7 @@ fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
         ship.insert((Pilot { order: Order::Rest, sees: Default::default() }, Mind::default()));
     }
     let quarry = world.get_resource::<Chase>().and_then(|chase| chase.quarry);
-    world.insert_resource(Chase { hunter: own, quarry, held: 0.0, outcome: None });
+    world.insert_resource(Chase { hunter: own, quarry, held: 0.0, by_goals: true, outcome: None });
     world.insert_resource(Progress::new(own, &motion.0, fuel.left));
     world.insert_resource(ActiveMission(mission));
 }

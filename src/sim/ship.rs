@@ -100,6 +100,10 @@ impl Order {
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Player;
 
+/// Marks a ship flown by hand: its pilot, if it has one, keeps its hands off.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Manual;
+
 /// Set once the ship is inside r = 1: the T at which it went through, in r_s/c.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct CrossedHorizon(pub f64);

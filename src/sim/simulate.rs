@@ -7,14 +7,12 @@ use crate::scene::crew::Crew;
 use crate::scene::ship::Ai;
 use crate::scene::{ConfigError, GameConfig, Scene, SceneError};
 use crate::spacetime::matter::{ShipState, angular_momentum, energy, has_ended};
-use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 
 use super::flight::{Flight, fly};
 use super::hash::StateHash;
-use super::run::board;
 use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Programme, Ship, ShipMotion};
-use super::{Clock, History, SimEvent, SimulationPlugins, outcome, start};
+use super::{Clock, History, SimEvent, app_of, board, outcome};
 
 /// The header row.
 pub const COLUMNS: &str = "ship,T,tau,x,y,z,px,py,pz,qw,qx,qy,qz,E,Lx,Ly,Lz";
@@ -93,19 +91,6 @@ pub struct Summary {
     pub seconds: f64,
     /// Of the final state of all ships, in scene order.
     pub hash: StateHash,
-}
-
-/// An app with the ships of `scene` at T = 0 whose `FixedUpdate` is the game's fixed step: run that schedule to go on.
-pub fn app_of(scene: &Scene, config: &GameConfig, seed: u64) -> App {
-    let mut app = App::new();
-    app.add_plugins(SimulationPlugins);
-    app.edit_schedule(FixedUpdate, |schedule| {
-        schedule.set_executor(SingleThreadedExecutor::new());
-    });
-    app.finish();
-    app.cleanup();
-    start(app.world_mut(), scene, config, seed);
-    app
 }
 
 /// Runs `scene`; rows by T, then in scene order.

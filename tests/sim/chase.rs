@@ -6,12 +6,12 @@ use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings};
 use bevy::prelude::*;
 use glam::DVec3;
 use lensrunner::scene::{GameConfig, Scene};
+use lensrunner::sim::app_of;
 use lensrunner::sim::assist::{AssistSettings, Reference, Stick, assisted, drift};
 use lensrunner::sim::flight::{Flight, fly};
 use lensrunner::sim::pilot::plan::{SAFE_RADIUS, fall_risk};
 use lensrunner::sim::pilot::rollout::Point;
-use lensrunner::sim::simulate::app_of;
-use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, History, Outcome, ShipMotion, Hands, SimulationPlugins, outcome};
+use lensrunner::sim::{Chase, Clock, Engine, Fleet, Fuel, Hands, History, Outcome, ShipMotion, SimulationPlugins, outcome};
 use lensrunner::spacetime::matter::{ShipState, energy, step};
 use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 

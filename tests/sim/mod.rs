@@ -2,4 +2,5 @@
 
 mod chase;
 mod history;
+mod missions;
 mod simulate;

@@ -27,7 +27,7 @@ impl Row {
 pub fn run(text: &str, until: f64, every: f64, seed: u64) -> (Vec<Row>, String, Summary) {
     let scene = Scene::from_toml(Path::new("test.toml"), text).expect("a scene");
     let (mut out, mut log) = (Vec::new(), Vec::new());
-    let request = SimulateRequest { until: Some(until), every, seed };
+    let request = SimulateRequest { until: Some(until), every, seed, ..SimulateRequest::default() };
     let summary = simulate(&scene, &GameConfig::default(), &request, &mut out, &mut log).expect("a run");
     let csv = String::from_utf8(out).expect("text");
     let mut lines = csv.lines();

@@ -8,8 +8,8 @@ use crate::sim::History;
 use crate::spacetime::frames;
 use crate::spacetime::matter::ShipState;
 
-use crate::sim::sight::facing;
 use crate::play::camera::state_of;
+use crate::sim::sight::facing;
 
 /// A kind of picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

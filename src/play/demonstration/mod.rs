@@ -20,7 +20,7 @@ use crate::render::gpu::targets::target;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
-use crate::sim::simulate::app_of;
+use crate::sim::app_of;
 use crate::sim::{Clock, Fleet, History, outcome};
 
 use crate::play::camera::director::{Cast, Director};

@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
+use crate::sim::History;
 use crate::sim::bolts::bolt_momentum;
 use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::sight::{direction, emission_time};
-use crate::sim::History;
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
@@ -71,12 +71,12 @@ mod tests {
     #[test]
     fn ships_that_meet_come_nearest_where_they_meet() {
         let own = circular_orbit(8.0, 0.0).expect("a circle");
-        // The other way round, a quarter ahead: they meet after an eighth.
-        let mut other = circular_orbit(8.0, std::f64::consts::FRAC_PI_2).expect("a circle");
+        // The other way round, an eighth ahead: they meet after a sixteenth.
+        let mut other = circular_orbit(8.0, std::f64::consts::FRAC_PI_4).expect("a circle");
         let rain = other.position / other.position.length() * (other.momentum.dot(other.position) / other.position.length());
         other.momentum = 2.0 * rain - other.momentum;
         let (nearest, when) = closest(&own, &other).expect("they meet");
-        let eighth = std::f64::consts::FRAC_PI_4 / crate::spacetime::orbit::orbital_frequency(8.0);
-        assert!(nearest < 0.5 && (when - eighth).abs() < 1.0, "{nearest} {when} {eighth}");
+        let sixteenth = std::f64::consts::FRAC_PI_8 / crate::spacetime::orbit::orbital_frequency(8.0);
+        assert!(nearest < 0.5 && (when - sixteenth).abs() < 1.0, "{nearest} {when} {sixteenth}");
     }
 }

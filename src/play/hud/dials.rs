@@ -16,13 +16,13 @@ const HEAVY: f64 = 15.0;
 /// Nearer to the hole than this, in r_s, the distance is drawn in another colour: the innermost stable orbit.
 const NEAR: f64 = 3.0;
 
-/// Lays out all dials in `rect`.
-pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments) -> Vec<TextBox> {
+/// Lays out all dials in `rect`; `replayed`: nobody flies, a replay is shown.
+pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, replayed: bool) -> Vec<TextBox> {
     let scale = Scale::of(session.config.hole.mass_solar);
     let rect = rect.shrink(MARGIN);
     let speed = speed(painter, rect.left_bottom(), &scale, read);
     // Above the speed: below the middle it would lie on one's own ship.
-    let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read);
+    let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, replayed);
     let mut dials = vec![clocks(painter, rect.left_top(), &scale, read), distance(painter, rect.right_top(), &scale, read), speed, state];
     dials.extend(read.target.map(|read| target(painter, rect.right_bottom(), &scale, &read)));
     dials
@@ -84,9 +84,13 @@ fn target(painter: &Painter, at: Pos2, scale: &Scale, read: &Bearing) -> TextBox
 }
 
 /// Who flies, where one looks from, the pace, and what is in the tanks, over a bar of it.
-fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, read: &Instruments) -> TextBox {
+fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, read: &Instruments, replayed: bool) -> TextBox {
     let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
-    let pilot = if player.autopilot { "AUTOPILOT" } else { assist };
+    let pilot = match (replayed, player.autopilot) {
+        (true, _) => "REPLAY",
+        (false, true) => "AUTOPILOT",
+        (false, false) => assist,
+    };
     let view = match player.view {
         _ if player.gaze.aside() => "at the target",
         CameraView::Cockpit => "cockpit",

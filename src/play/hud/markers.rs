@@ -231,9 +231,9 @@ pub fn arc(painter: &Painter, at: Pos2, radius: f32, share: f64, stroke: Stroke)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sim::sight::Apparition;
     use crate::play::hud::layout::overlap;
     use crate::play::hud::paint::tests::on_canvas;
+    use crate::sim::sight::Apparition;
     use bevy_egui::egui::pos2;
 
     #[test]

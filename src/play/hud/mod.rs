@@ -17,6 +17,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
 use crate::sim::hands::Avoiding;
+use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
 use crate::play::camera::CameraView;
@@ -58,7 +59,7 @@ fn draw(
     panel: Res<Panel>,
     (notice, real): (Res<Notice>, Res<Time<Real>>),
     staged: Option<Res<Staged>>,
-    (mission, progress): (Option<Res<ActiveMission>>, Option<Res<Progress>>),
+    (mission, progress, playback): (Option<Res<ActiveMission>>, Option<Res<Progress>>, Option<Res<Playback>>),
     mut slow: Local<goals::Slow>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
@@ -77,7 +78,13 @@ fn draw(
     if real.elapsed_secs_f64() < notice.until {
         // In front of menus and the overlay too.
         let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
-        let message = message(&front, rect, &notice.text);
+        // A mission's goal is where messages are otherwise.
+        let place = if progress.is_some() && *screen.get() == Screen::Playing {
+            rect.bottom() - 0.2 * rect.height()
+        } else {
+            rect.top() + BELOW_DIALS
+        };
+        let message = message(&front, rect, place, &notice.text);
         taken.push(message.frame);
         message.paint(&front);
     }
@@ -85,7 +92,7 @@ fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read);
+    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read, playback.is_some());
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         let holds = match (&mission, &progress) {
@@ -127,8 +134,8 @@ fn shows(screen: Screen, hud_off: bool) -> bool {
 }
 
 /// A line for the player, wrapped where it is wider than the screen.
-fn message(painter: &Painter, rect: Rect, words: &str) -> TextBox {
-    let at = pos2(rect.center().x, rect.top() + BELOW_DIALS);
+fn message(painter: &Painter, rect: Rect, top: f32, words: &str) -> TextBox {
+    let at = pos2(rect.center().x, top);
     TextBox::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
 }
 
@@ -215,7 +222,7 @@ mod tests {
         assert!(complaint.len() > 300, "{complaint}");
         for size in [[900.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let frame = message(painter, rect, &complaint).frame;
+                let frame = message(painter, rect, rect.top() + BELOW_DIALS, &complaint).frame;
                 assert!(rect.contains_rect(frame) && frame.height() > 40.0, "{frame}");
             });
         }
@@ -238,7 +245,7 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut text_boxes = dials::lay(painter, rect, &session, &PlayerState::default(), &read);
+                let mut text_boxes = dials::lay(painter, rect, &session, &PlayerState::default(), &read, false);
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);
                 for (k, text_box) in text_boxes.iter().enumerate() {

@@ -2,7 +2,6 @@
 
 use bevy::prelude::*;
 
-use crate::sim::sight::{Apparition, apparition, direction, true_direction};
 use crate::play::camera::state_of;
 use crate::play::hud::ahead::{self, Line};
 use crate::play::hud::instruments::Instruments;
@@ -12,6 +11,7 @@ use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
 use crate::scene::mission::Task;
 use crate::sim::Outcome;
+use crate::sim::sight::{Apparition, apparition, direction, true_direction};
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;

@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3};
 use crate::sim::History;
 use crate::spacetime::matter::ShipState;
 
-use crate::sim::sight::facing;
 use crate::play::camera::{CameraView, on_ship};
+use crate::sim::sight::facing;
 
 /// Wall time of the whole turn, in seconds.
 const TURN: f64 = 0.4;

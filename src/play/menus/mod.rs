@@ -8,6 +8,7 @@ use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::Difficulty;
 use crate::scene::mission::ScoreClock;
+use crate::sim::replay::Playback;
 use crate::sim::{Chase, Clock, Outcome};
 
 use crate::play::hud::instruments::Scale;
@@ -242,6 +243,7 @@ fn welcome(
     screen: Res<State<Screen>>,
     clock: Res<Clock>,
     real: Res<Time<Real>>,
+    playback: Option<Res<Playback>>,
     mut player: ResMut<PlayerState>,
     mut notice: ResMut<Notice>,
 ) {
@@ -258,7 +260,7 @@ fn welcome(
     }
     // A mission says its goals by itself.
     let goal = ((clock.time < SHOWN || !player.begun) && session.scene.mission.is_none()).then(|| goal(&session));
-    let hint = (!player.begun).then(|| hint(&session));
+    let hint = (!player.begun && playback.is_none()).then(|| hint(&session));
     let words: Vec<String> = goal.into_iter().chain(hint).collect();
     if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
         *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };

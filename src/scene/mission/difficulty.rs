@@ -91,7 +91,9 @@ pub fn levels(document: &DeTable<'_>) -> Result<[Level; 3], Vec<Fault>> {
     for (name, table) in section_table {
         match (name.get_ref().parse::<Difficulty>(), table.get_ref()) {
             (Ok(difficulty), DeValue::Table(table)) => levels[difficulty as usize] = level(table, document, &mut faults),
-            (Ok(_), _) => faults.push(Fault { span: table.span(), message: format!("must be a section, written [difficulty.{}]", name.get_ref()) }),
+            (Ok(_), _) => {
+                faults.push(Fault { span: table.span(), message: format!("must be a section, written [difficulty.{}]", name.get_ref()) })
+            }
             (Err(message), _) => faults.push(Fault { span: name.span(), message }),
         }
     }

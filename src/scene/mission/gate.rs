@@ -58,7 +58,8 @@ impl GateEntry {
         let position = DVec3::from_array(*self.position.get_ref());
         let r = position.length();
         if !(NEAREST..=FARTHEST).contains(&r) {
-            let message = format!("the gate is {r} r_s from the hole, allowed {NEAREST} to {FARTHEST} r_s: inside r = 1 nothing can be held");
+            let message =
+                format!("the gate is {r} r_s from the hole, allowed {NEAREST} to {FARTHEST} r_s: inside r = 1 nothing can be held");
             return fault(&self.position, message);
         }
         let radius = in_range(&self.radius, "radius", 0.05..=100.0, "r_s")?;

@@ -276,7 +276,9 @@ impl GoalEntry {
 
     fn times(&self) -> Result<u32, Fault> {
         match &self.times {
-            Some(times) if !(1..=100).contains(times.get_ref()) => fault(times, format!("times = {} must be from 1 to 100", times.get_ref())),
+            Some(times) if !(1..=100).contains(times.get_ref()) => {
+                fault(times, format!("times = {} must be from 1 to 100", times.get_ref()))
+            }
             times => Ok(times.as_ref().map_or(1, |times| *times.get_ref())),
         }
     }

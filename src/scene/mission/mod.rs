@@ -145,10 +145,7 @@ pub fn check_mission(
         brief: entry.brief.get_ref().trim().to_owned(),
         clock: entry.clock,
         time_limit: in_range(&entry.time_limit, "time_limit", 1.0..=1e6, "r_s/c")?,
-        proper_limit: entry
-            .proper_limit
-            .as_ref()
-            .map_or(Ok(f64::INFINITY), |limit| in_range(limit, "proper_limit", 0.1..=1e6, "r_s/c"))?,
+        proper_limit: entry.proper_limit.as_ref().map_or(Ok(f64::INFINITY), |limit| in_range(limit, "proper_limit", 0.1..=1e6, "r_s/c"))?,
         inside: entry.inside,
         caught_by: entry.caught_by.iter().map(|name| ship_named(name, ships)).collect::<Result<_, _>>()?,
         now_marker: entry.now_marker,
@@ -168,7 +165,11 @@ pub fn check_mission(
 /// Whether a goal can be reached at all in its mission, else why not.
 fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
     let late = |value: f64, limit: f64, key: &str, of: &str| {
-        if value > limit { Err(format!("{key} = {value} is later than the mission's {of} = {limit}: it cannot be reached")) } else { Ok(()) }
+        if value > limit {
+            Err(format!("{key} = {value} is later than the mission's {of} = {limit}: it cannot be reached"))
+        } else {
+            Ok(())
+        }
     };
     match goal.task {
         Task::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,

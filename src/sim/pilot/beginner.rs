@@ -4,7 +4,7 @@
 use bevy::prelude::*;
 use glam::DVec3;
 
-use super::turn_nose;
+use super::steer::turn_nose;
 use crate::sim::assist::{AssistSettings, Reference, Stick, assisted};
 use crate::sim::bolts::Trigger;
 use crate::sim::clock::Clock;
@@ -76,10 +76,7 @@ fn stick(order: Order, ahead: Option<DVec3>) -> Stick {
         Order::Rest | Order::Turn | Order::Face(_) => false,
         Order::Catch(_) | Order::Hit(_) | Order::Escape(_) | Order::Pass(_) | Order::Keep(_) => on_mark,
     };
-    Stick {
-        thrust: if pushes { DVec3::NEG_Z } else { DVec3::ZERO },
-        turn: if order == Order::Turn { DVec3::Y } else { DVec3::ZERO },
-    }
+    Stick { thrust: if pushes { DVec3::NEG_Z } else { DVec3::ZERO }, turn: if order == Order::Turn { DVec3::Y } else { DVec3::ZERO } }
 }
 
 /// The direction to fly to, on body axes.

@@ -11,6 +11,7 @@ pub mod orders;
 pub mod plan;
 pub mod rendezvous;
 pub mod rollout;
+mod steer;
 
 use bevy::prelude::*;
 use glam::{DQuat, DVec3};
@@ -25,13 +26,14 @@ use super::bolts::{Gun, Trigger};
 use super::clock::Clock;
 use super::flight::Command;
 use super::history::History;
-use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Order, Pilot, Player, ShipMotion};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Order, Pilot, Player, ShipMotion};
 use super::sight::{apparition, emission_time};
 use super::{ActiveMission, ChaseRules, SimSet};
 use beginner::Beginner;
 use plan::{Aim, Task, plan};
 use rendezvous::{intercept, rendezvous};
 use rollout::{PlannedBurn, Point};
+use steer::turn_nose;
 
 /// How well a pilot flies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,10 +103,6 @@ impl Default for Mind {
     }
 }
 
-/// Marks a ship flown by hand: its pilot, if it has one, keeps its hands off.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Manual;
-
 /// The pilots, in `SimSet::Ai`.
 pub struct EnemyAiPlugin;
 
@@ -168,10 +166,9 @@ pub fn fly_by_pilot(
                 continue;
             }
             Order::Face(_) => {
-                controls.0 = other.and_then(|(history, _)| seat.image(history)).map_or_else(Command::default, |ahead| Command {
-                    thrust: DVec3::ZERO,
-                    rates: turn_nose(ahead, engine.max_rate),
-                });
+                controls.0 = other
+                    .and_then(|(history, _)| seat.image(history))
+                    .map_or_else(Command::default, |ahead| Command { thrust: DVec3::ZERO, rates: turn_nose(ahead, engine.max_rate) });
                 continue;
             }
             Order::Catch(_) | Order::Hit(_) | Order::Escape(_) | Order::Pass(_) | Order::Keep(_) => (),
@@ -303,12 +300,4 @@ fn command(state: &ShipState, wish: DVec3, engine: &Engine) -> Command {
         None => DVec3::ZERO,
     };
     Command { thrust, rates }
-}
-
-/// Body rates that turn the nose (−z) towards `direction` (a unit vector on body axes): proportional to the sine of the angle, full when
-/// behind.
-pub fn turn_nose(direction: DVec3, max_rate: f64) -> DVec3 {
-    let axis = DVec3::NEG_Z.cross(direction);
-    let wanted = if direction.z > 0.0 { axis.try_normalize().unwrap_or(DVec3::Y) } else { axis };
-    wanted * max_rate
 }

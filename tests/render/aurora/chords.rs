@@ -8,8 +8,7 @@ use lensrunner::render::Renderer;
 use lensrunner::render::aurora::{AuroraAnimation, AuroraFrame, BOTH_POLES, planet_history};
 use lensrunner::render::frame::FrameInput;
 use lensrunner::render::gpu::readback;
-use lensrunner::render::instances::{View};
-use lensrunner::sim::sight::light_path;
+use lensrunner::render::instances::View;
 use lensrunner::render::settings::Settings;
 use lensrunner::render::stage::{Stage, settings, static_camera};
 use lensrunner::scene::aurora::dipole::PLANET_RADIUS;
@@ -17,6 +16,7 @@ use lensrunner::scene::aurora::fall::Spectrum;
 use lensrunner::scene::aurora::quantiles::{KINDS, PARTS, Quantiles};
 use lensrunner::scene::{self, GameConfig, Planet};
 use lensrunner::sim::History;
+use lensrunner::sim::sight::light_path;
 use lensrunner::spacetime::light::{Branch, Order};
 use lensrunner::spacetime::matter::gamma;
 
