@@ -82,7 +82,7 @@ pub enum ChartError {
     /// The picture.
     #[error(transparent)]
     Plot(#[from] PlotError),
-    /// Nobody is called [`REFERENCE`].
+    /// There is no contestant against which the others are told.
     #[error("no contestant is called {REFERENCE:?}, which the others' times are told against")]
     Reference,
     /// The renderer.
