@@ -21,6 +21,7 @@ pub enum ChartCommand {
     Bvh(ChartBvhArgs),
     Frame(ChartFrameArgs),
     Disk(ChartDiskArgs),
+    Quarry(ChartQuarryArgs),
 }
 
 /// Where a chart goes.
@@ -38,6 +39,20 @@ impl From<ChartArgs> for chart::Output {
     fn from(args: ChartArgs) -> Self {
         Self { folder: args.output, redraw: args.redraw }
     }
+}
+
+/// How long the quarry lasts, flown by the game's pilot, straight away, and at random, before the same hunter: a table.
+#[derive(Args)]
+pub struct ChartQuarryArgs {
+    /// A scene or mission whose first ship hunts the second.
+    #[arg(long, value_name = "NAME|FILE", default_value = "02-first-pursuit")]
+    scene: String,
+    /// Chases of each kind.
+    #[arg(long, value_name = "N", default_value_t = 100)]
+    seeds: u64,
+    /// T at which a chase ends undecided, in r_s/c.
+    #[arg(long, value_name = "T", default_value_t = 270.0)]
+    limit: f64,
 }
 
 /// Every method of projection on the same adversarial points: error against time per lookup and against memory.
@@ -168,6 +183,21 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Bvh(args) => run_chart_bvh(args),
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
+        ChartCommand::Quarry(args) => run_chart_quarry(&args),
+    }
+}
+
+fn run_chart_quarry(args: &ChartQuarryArgs) -> ExitCode {
+    let loaded = scene::config::find(None).map_err(|error| error.to_string());
+    let scene = scene::load(&args.scene).map_err(|error| error.to_string());
+    let (config, scene) = match (loaded, scene) {
+        (Ok(config), Ok(scene)) if scene.ships.len() >= 2 => (config, scene),
+        (Ok(_), Ok(_)) => return fail(&format!("{}: it needs two ships, the first to hunt the second", args.scene), 2),
+        (Err(error), _) | (_, Err(error)) => return fail(&error, 2),
+    };
+    match lensrunner_lab::quarry::run(&scene, &config, args.seeds, args.limit, &mut io::stdout().lock()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
     }
 }
 

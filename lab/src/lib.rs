@@ -3,6 +3,7 @@
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
+//! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
@@ -18,6 +19,7 @@ pub mod flip;
 pub mod frame_times;
 pub mod plot;
 pub mod projection;
+pub mod quarry;
 mod say;
 mod stopwatch;
 pub mod straight;

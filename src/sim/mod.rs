@@ -39,7 +39,7 @@ pub use physics::ShipPhysicsPlugin;
 pub use pilot::{Chance, EnemyAiPlugin, Skill, Skills};
 pub use replay::PlaybackPlugin;
 pub use rules::{Chase, ChaseRules, ChaseRulesPlugin, Outcome, begin_chase};
-pub use setup::{app_of, board, outcome, start};
+pub use setup::{app_of, board, outcome, start, step};
 pub use ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Ship, ShipMotion};
 
 /// The order of a fixed step.

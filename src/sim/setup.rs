@@ -114,6 +114,11 @@ fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
     world.insert_resource(ActiveMission(mission));
 }
 
+/// One fixed step of a started world.
+pub fn step(world: &mut World) {
+    world.run_schedule(FixedUpdate);
+}
+
 /// How the chase ended, if it has, and at which T.
 pub fn outcome(world: &World) -> Option<(super::Outcome, f64)> {
     world.get_resource::<Chase>().and_then(|chase| chase.outcome)

@@ -1,0 +1,119 @@
+//! How long a quarry lasts: the game's own pilot beside two that know nothing, each hunted by the same autopilot from the same start.
+
+use std::io::{self, Write};
+
+use glam::DVec3;
+use lensrunner::scene::{Difficulty, GameConfig, Scene};
+use lensrunner::sim::ship::{Controls, Engine, Fleet, Manual, ShipMotion};
+use lensrunner::sim::{Clock, Command, app_of, outcome, step};
+use rand::{RngExt, SeedableRng, rngs::StdRng};
+use rayon::prelude::*;
+
+/// Who flies the quarry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flees {
+    /// The game's pilot.
+    Pilot,
+    /// Full thrust straight away from the hunter.
+    Straight,
+    /// Full thrust in a direction drawn anew every [`PERIOD`].
+    Random,
+}
+
+impl Flees {
+    /// All of them.
+    pub const ALL: [Flees; 3] = [Flees::Pilot, Flees::Straight, Flees::Random];
+
+    /// As the table writes it.
+    pub fn name(self) -> &'static str {
+        ["the game's pilot", "straight away", "random"][self as usize]
+    }
+}
+
+/// T between two directions of a random quarry, in r_s/c: the game's replanning period.
+const PERIOD: f64 = 2.5;
+
+/// One chase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chased {
+    /// T at the end, in r_s/c.
+    pub time: f64,
+    /// The quarry was caught, or fell in.
+    pub lost: bool,
+    /// It fell into the hole.
+    pub fell: bool,
+    /// Its least distance from the hole, in r_s.
+    pub least: f64,
+}
+
+/// The quarry's ship, flown blindly.
+struct Blind {
+    how: Flees,
+    chance: StdRng,
+    direction: DVec3,
+    until: f64,
+}
+
+/// Flies one chase of a scene whose first ship hunts the second, until T = `limit`.
+pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f64) -> Chased {
+    let mut app = app_of(scene, config, seed);
+    let fleet = app.world().resource::<Fleet>().0.clone();
+    let (hunter, quarry) = (fleet[0], fleet[1]);
+    let mut blind = Blind { how, chance: StdRng::seed_from_u64(seed), direction: DVec3::X, until: 0.0 };
+    if how != Flees::Pilot {
+        app.world_mut().entity_mut(quarry).insert(Manual);
+    }
+    let mut least = f64::INFINITY;
+    loop {
+        let world = app.world_mut();
+        let [there, here] = [hunter, quarry].map(|ship| world.get::<ShipMotion>(ship).map_or(DVec3::ZERO, |motion| motion.0.position));
+        let direction = blind.direction(world.resource::<Clock>().time, here - there);
+        let attitude = world.get::<ShipMotion>(quarry).map(|motion| motion.0.attitude);
+        let thrust = world.get::<Engine>(quarry).map_or(0.0, |engine| engine.max_thrust);
+        if let (Some(attitude), true, Some(mut controls)) = (attitude, how != Flees::Pilot, world.get_mut::<Controls>(quarry)) {
+            controls.0 = Command { thrust: attitude.conjugate() * direction * thrust, rates: DVec3::ZERO };
+        }
+        step(world);
+        let r = world.get::<ShipMotion>(quarry).map_or(0.0, |motion| motion.0.position.length());
+        least = least.min(r);
+        let time = world.resource::<Clock>().time;
+        if let Some((_, decided)) = outcome(world) {
+            return Chased { time: decided, lost: decided < limit, fell: r < 1.0, least };
+        }
+        if time >= limit {
+            return Chased { time, lost: false, fell: r < 1.0, least };
+        }
+    }
+}
+
+impl Blind {
+    /// Where it thrusts at T = `time`; `away`: from the hunter to it.
+    fn direction(&mut self, time: f64, away: DVec3) -> DVec3 {
+        if self.how == Flees::Straight {
+            return away.normalize_or_zero();
+        }
+        if time >= self.until {
+            let direction = DVec3::from_array([(); 3].map(|()| self.chance.random_range(-1.0..1.0)));
+            self.direction = direction.normalize_or(DVec3::X);
+            self.until = time + PERIOD;
+        }
+        self.direction
+    }
+}
+
+/// Flies `seeds` chases of each difficulty and each way to flee, and writes how long the quarry lasts.
+pub fn run(scene: &Scene, config: &GameConfig, seeds: u64, limit: f64, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "| difficulty | quarry | mean time | lost | fell in | least r |\n|---|---|---|---|---|---|")?;
+    for difficulty in Difficulty::ALL {
+        let config = scene.config(config, difficulty);
+        for how in Flees::ALL {
+            let all: Vec<Chased> = (0..seeds).into_par_iter().map(|seed| chase(scene, &config, seed, how, limit)).collect();
+            let count = all.len().max(1) as f64;
+            let mean = all.iter().map(|chase| chase.time).sum::<f64>() / count;
+            let [lost, fell] = [|c: &Chased| c.lost, |c: &Chased| c.fell].map(|is| all.iter().filter(|c| is(c)).count());
+            let least = all.iter().map(|chase| chase.least).fold(f64::INFINITY, f64::min);
+            writeln!(out, "| {difficulty} | {} | {mean:.1} r_s/c | {lost} of {seeds} | {fell} | {least:.2} r_s |", how.name())?;
+        }
+    }
+    Ok(())
+}
