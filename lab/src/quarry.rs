@@ -33,12 +33,15 @@ impl Flees {
 /// T between two directions of a random quarry, in r_s/c: the game's replanning period.
 const PERIOD: f64 = 2.5;
 
+/// The arena may be left by this factor: its edge is where pilots turn back.
+const LEEWAY: f64 = 1.1;
+
 /// One chase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Chased {
     /// T at the end, in r_s/c.
     pub time: f64,
-    /// The quarry was caught, or fell in.
+    /// The quarry was caught, fell in, or left the arena.
     pub lost: bool,
     /// It fell into the hole.
     pub fell: bool,
@@ -63,6 +66,7 @@ pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f
     if how != Flees::Pilot {
         app.world_mut().entity_mut(quarry).insert(Manual);
     }
+    let arena = scene.rules(config).arena_radius * LEEWAY;
     let mut least = f64::INFINITY;
     loop {
         let world = app.world_mut();
@@ -79,6 +83,10 @@ pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f
         let time = world.resource::<Clock>().time;
         if let Some((_, decided)) = outcome(world) {
             return Chased { time: decided, lost: decided < limit, fell: r < 1.0, least };
+        }
+        // The chase is held within the arena: who leaves it has given up.
+        if r > arena {
+            return Chased { time, lost: true, fell: false, least };
         }
         if time >= limit {
             return Chased { time, lost: false, fell: r < 1.0, least };

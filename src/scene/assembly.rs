@@ -62,7 +62,7 @@ const BOLT_SIZE: f64 = 0.07;
 /// Light of a bolt, of 1 for a white surface in full light: as bright as engines.
 const BOLT_LIGHT: [f32; 3] = [9.0, 3.5, 0.8];
 /// Light of a gate.
-const GATE_LIGHT: [f32; 3] = [0.1, 0.9, 0.6];
+const GATE_LIGHT: [f32; 3] = [0.25, 2.4, 1.6];
 /// Light of a ghost.
 const GHOST_LIGHT: [f32; 3] = [0.02, 0.05, 0.09];
 /// Diameter of a gate's tube over that of the gate.

@@ -291,7 +291,9 @@ fn hint(session: &Session) -> String {
     let [thrust, look, pilot] =
         [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
             .map(|words| together(&words));
-    format!("{thrust}  ·  {look}  ·  {pilot}  ·  fly to the dashed ring “now”")
+    let keys = format!("{thrust}  ·  {look}  ·  {pilot}");
+    // A mission says by itself where to fly.
+    if session.scene.mission.is_some() { keys } else { format!("{keys}  ·  fly to the dashed ring “now”") }
 }
 
 /// The keys, as they are bound.

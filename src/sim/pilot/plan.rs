@@ -180,7 +180,10 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
             Aim::Keep(radius) => (r - radius).abs(),
         };
         lowest = lowest.min(r);
-        penalty += (r - task.arena_radius).max(0.0);
+        // Who hunts follows wherever the other goes.
+        if task.aim != Aim::Catch {
+            penalty += (r - task.arena_radius).max(0.0);
+        }
         mean += distance.min(FAR);
         end = distance;
         let weighted = match task.aim {
@@ -198,7 +201,7 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     let danger = if lowest < SAFE_RADIUS { DANGER + DEEPER * (SAFE_RADIUS - lowest) } else { 0.0 };
     // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
     let unbound =
-        if task.aim == Aim::Escape || task.fuel - spent < RESERVE { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
+        if task.aim == Aim::Escape || (task.aim != Aim::Catch && task.fuel - spent < RESERVE) { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
     danger
         + unbound
         + fall_risk(&own, task.fuel - spent)
