@@ -13,7 +13,7 @@ use crate::play::session::Session;
 use crate::scene::crew::Crew;
 use crate::scene::mission::{Mission, ScoreClock};
 use crate::scene::{self, Scene};
-use crate::sim::replay::{Playback, Recording, Replay};
+use crate::sim::replay::{Playback, Replay, ReplayLog};
 use crate::sim::{Fleet, History, ShipMotion, outcome};
 
 /// The missions in the order in which they are shown, and the scene that the game was started with.
@@ -89,7 +89,7 @@ impl Plugin for MissionsPlugin {
         app.init_resource::<LastFlight>()
             .init_resource::<Records>()
             .add_systems(Startup, read_records)
-            .add_systems(Update, keep_score.in_set(GameSet::Window).run_if(resource_exists::<Recording>));
+            .add_systems(Update, keep_score.in_set(GameSet::Window).run_if(resource_exists::<ReplayLog>));
     }
 }
 
@@ -103,7 +103,7 @@ fn read_records(mut records: ResMut<Records>, mut notice: Option<ResMut<Notice>>
 
 /// Begins to record the flight that was just started; or, if a replay is watched, to play that. Brings the ghost of the best flight.
 pub fn begin_log(world: &mut World, screen: Screen) {
-    world.remove_resource::<Recording>();
+    world.remove_resource::<ReplayLog>();
     world.remove_resource::<Playback>();
     let session = world.resource::<Session>().clone();
     let ghost = ghost(world, &session);
@@ -118,7 +118,7 @@ pub fn begin_log(world: &mut World, screen: Screen) {
         crate::sim::board(world, crew);
     } else {
         let replay = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
-        world.insert_resource(Recording(replay));
+        world.insert_resource(ReplayLog(replay));
     }
 }
 
@@ -154,7 +154,7 @@ fn ghost(world: &World, session: &Session) -> Option<History> {
 /// When the mission is decided: its score, and the replay.
 fn keep_score(world: &mut World) {
     let Some((outcome, time)) = outcome(world) else { return };
-    let Some(mut recording) = world.remove_resource::<Recording>() else { return };
+    let Some(mut recording) = world.remove_resource::<ReplayLog>() else { return };
     recording.0.finish(world);
     let session = world.resource::<Session>().clone();
     let mut last = LastFlight { replay: Some(recording.0.clone()), ..LastFlight::default() };

@@ -24,7 +24,7 @@ use std::process::ExitCode;
 
 use crate::render::Gpu;
 use crate::sim::replay::Replay;
-use demonstration::Flight;
+use demonstration::DemonstrationRequest;
 use session::Session;
 
 /// Plays the chase: in a window, or without a display as a demonstration flight to PNG files.
@@ -159,7 +159,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),
         };
     }
-    let flight = Flight {
+    let flight = DemonstrationRequest {
         frames: args.frames.unwrap_or(demonstration::FRAMES),
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),

@@ -26,12 +26,12 @@ pub struct Best {
 }
 
 /// All best flights: by mission, then by difficulty.
-type Table = BTreeMap<String, BTreeMap<String, Best>>;
+type BestTable = BTreeMap<String, BTreeMap<String, Best>>;
 
 /// The best flights, and where they are kept.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct Records {
-    table: Table,
+    table: BestTable,
     /// None where there is no folder to write to: then they last as long as the game.
     folder: Option<PathBuf>,
 }
@@ -53,7 +53,7 @@ impl Records {
         let records = |table| Records { table, folder: Some(folder.to_path_buf()) };
         let text = match std::fs::read_to_string(&file) {
             Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(Table::new()), None),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return (records(BestTable::new()), None),
             Err(error) => {
                 return (Records::default(), Some(format!("{}: {error}. New scores are kept until the game ends.", file.display())));
             }
@@ -66,7 +66,7 @@ impl Records {
                 match (moved, aside) {
                     (Some(Ok(())), Some(aside)) => {
                         let said = format!("{} was damaged; it is set aside as {}.", file.display(), aside.display());
-                        (records(Table::new()), Some(said))
+                        (records(BestTable::new()), Some(said))
                     }
                     _ => (Records::default(), Some(format!("{} is damaged. New scores are kept until the game ends.", file.display()))),
                 }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::check::{CommandError, outcome_name};
 use super::rules::Outcome;
-use super::run::{Report, RunRequest, run};
+use super::run::{FlightReport, RunRequest, run};
 use crate::scene::crew::Crew;
 use crate::scene::mission::{Difficulty, Mission};
 use crate::scene::{self, GameConfig, Scene};
@@ -35,7 +35,7 @@ pub struct BalanceArgs {
 
 /// One flight.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct BalanceRow {
     /// Index of the mission.
     pub mission: usize,
     /// How hard.
@@ -45,7 +45,7 @@ pub struct Row {
     /// For chance.
     pub seed: u64,
     /// What became of it.
-    pub report: Report,
+    pub report: FlightReport,
 }
 
 /// Every difficulty and crew, in the order of the tables.
@@ -54,7 +54,7 @@ fn pairs() -> impl Iterator<Item = (Difficulty, Crew)> {
 }
 
 /// Flies them all; `done` is told of each.
-pub fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<Row> {
+pub fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u64>, done: &(dyn Fn() + Sync)) -> Vec<BalanceRow> {
     let all: Vec<_> = (0..missions.len())
         .flat_map(|mission| pairs().map(move |(difficulty, crew)| (mission, difficulty, crew)))
         .flat_map(|(mission, difficulty, crew)| seeds.clone().map(move |seed| (mission, difficulty, crew, seed)))
@@ -63,13 +63,13 @@ pub fn fly_all(missions: &[Scene], config: &GameConfig, seeds: std::ops::Range<u
         .map(|(mission, difficulty, crew, seed)| {
             let report = run(&missions[mission], config, &RunRequest { difficulty, crew, seed, until: None });
             done();
-            Row { mission, difficulty, crew, seed, report }
+            BalanceRow { mission, difficulty, crew, seed, report }
         })
         .collect()
 }
 
 /// The share of wins among rows, of 1; 0 of none.
-pub fn wins<'a>(rows: impl Iterator<Item = &'a Row>) -> f64 {
+pub fn wins<'a>(rows: impl Iterator<Item = &'a BalanceRow>) -> f64 {
     let (won, all) = rows.fold((0u32, 0u32), |(won, all), row| (won + u32::from(row.report.outcome.is_some_and(Outcome::is_won)), all + 1));
     f64::from(won) / f64::from(all.max(1))
 }
@@ -105,10 +105,10 @@ fn named(path: &Path, error: std::io::Error) -> std::io::Error {
 }
 
 /// A row for each flight.
-fn csv(missions: &[Scene], rows: &[Row]) -> String {
+fn csv(missions: &[Scene], rows: &[BalanceRow]) -> String {
     let mut text = String::from("mission,difficulty,pilot,seed,outcome,T,tau,fuel,least_r,greatest_r,hash\n");
     for row in rows {
-        let Report { outcome, time, proper_time, fuel, radius, hash, .. } = &row.report;
+        let FlightReport { outcome, time, proper_time, fuel, radius, hash, .. } = &row.report;
         let (mission, outcome) = (&missions[row.mission].name, outcome_name(*outcome));
         // Writing to a string never fails.
         _ = writeln!(
@@ -121,7 +121,7 @@ fn csv(missions: &[Scene], rows: &[Row]) -> String {
 }
 
 /// The table of the documents.
-fn table(missions: &[Scene], rows: &[Row], seeds: u32) -> String {
+fn table(missions: &[Scene], rows: &[BalanceRow], seeds: u32) -> String {
     let mut text = format!(
         "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
          assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Times are medians of won flights on the mission's clock, in \
@@ -143,7 +143,7 @@ fn table(missions: &[Scene], rows: &[Row], seeds: u32) -> String {
 }
 
 /// The median of the scores of won flights.
-fn middle<'a>(rows: impl Iterator<Item = &'a Row>, mission: &Mission) -> String {
+fn middle<'a>(rows: impl Iterator<Item = &'a BalanceRow>, mission: &Mission) -> String {
     let won = rows.filter(|row| row.report.outcome.is_some_and(Outcome::is_won));
     let mut scores: Vec<f64> = won.map(|row| row.report.score(mission.clock)).collect();
     scores.sort_by(f64::total_cmp);
@@ -151,7 +151,7 @@ fn middle<'a>(rows: impl Iterator<Item = &'a Row>, mission: &Mission) -> String 
 }
 
 /// How those end that are not won, the most frequent first.
-fn ends<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
+fn ends<'a>(rows: impl Iterator<Item = &'a BalanceRow>) -> String {
     let mut counts: Vec<(&str, u32)> = Vec::new();
     for row in rows.filter(|row| !row.report.outcome.is_some_and(Outcome::is_won)) {
         let name = outcome_name(row.report.outcome);

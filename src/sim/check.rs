@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 
 use super::rules::Outcome;
-use super::run::{Report, RunRequest, run};
+use super::run::{FlightReport, RunRequest, run};
 use crate::scene::expect::Expect;
 use crate::scene::{GameConfig, Scene, SceneError};
 
@@ -29,7 +29,7 @@ pub enum CheckError {
 #[derive(Debug)]
 pub enum Verdict {
     /// As expected.
-    Held(Report),
+    Held(FlightReport),
     /// It has ships, flew, and expects nothing: only that the file is right was checked.
     NothingExpected,
     /// Otherwise than expected: one sentence each.
@@ -98,7 +98,7 @@ pub fn outcome_name(outcome: Option<Outcome>) -> &'static str {
 }
 
 /// What came otherwise than expected, a sentence each.
-fn differences(expect: &Expect, report: &Report) -> Vec<String> {
+fn differences(expect: &Expect, report: &FlightReport) -> Vec<String> {
     let mut wrong = Vec::new();
     let mut outside = |name: &str, range: Option<[f64; 2]>, least: f64, most: f64, unit: &str| {
         if let Some([low, high]) = range

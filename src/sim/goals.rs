@@ -12,7 +12,7 @@ use super::rules::{Chase, ChaseRules, Outcome, judge_chase};
 use super::ship::{Controls, CrossedHorizon, Ended, Engine, Fleet, Fuel, ShipMotion};
 use super::sight::apparition;
 use super::{SimEvent, SimSet, bolts::Hits};
-use crate::scene::mission::{Mission, Task};
+use crate::scene::mission::{GoalTask, Mission};
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
 use crate::spacetime::matter::ShipState;
@@ -61,22 +61,22 @@ impl Progress {
 }
 
 /// How much of a task is all of it: c of Δv, radians, turns, hits, gates, or r_s/c of T.
-pub fn needed(task: &Task, mission: &Mission, rules: &ChaseRules) -> f64 {
+pub fn needed(task: &GoalTask, mission: &Mission, rules: &ChaseRules) -> f64 {
     match *task {
-        Task::Burn { amount } => amount,
-        Task::Turn { angle } => angle,
-        Task::Coast { span } | Task::Look { span, .. } | Task::Reach { span, .. } => span,
-        Task::Hold { span, .. } => {
+        GoalTask::Burn { amount } => amount,
+        GoalTask::Turn { angle } => angle,
+        GoalTask::Coast { span } | GoalTask::Look { span, .. } | GoalTask::Reach { span, .. } => span,
+        GoalTask::Hold { span, .. } => {
             if span.is_nan() {
                 rules.0.hold_time
             } else {
                 span
             }
         }
-        Task::Hit { times, .. } => f64::from(times),
-        Task::Survive { until, .. } => until,
-        Task::Gates => mission.gates.len() as f64,
-        Task::Whirl { turns, .. } => turns,
+        GoalTask::Hit { times, .. } => f64::from(times),
+        GoalTask::Survive { until, .. } => until,
+        GoalTask::Gates => mission.gates.len() as f64,
+        GoalTask::Whirl { turns, .. } => turns,
     }
 }
 
@@ -170,9 +170,9 @@ impl Step<'_, '_, '_, '_> {
         let gone = goal.task.ship().is_some_and(|ship| self.is_lost(ship) && !mission.inside);
         let late = self.clock.time >= self.rules.0.time_limit.min(goal.before) - 1e-9;
         // Who is to survive until the limit has done so when it comes.
-        let surviving = matches!(goal.task, Task::Survive { until, .. } if self.clock.time >= until);
+        let surviving = matches!(goal.task, GoalTask::Survive { until, .. } if self.clock.time >= until);
         let r = own.0.position.length();
-        let strayed = matches!(goal.task, Task::Survive { least, most, .. } if !(least..=most).contains(&r));
+        let strayed = matches!(goal.task, GoalTask::Survive { least, most, .. } if !(least..=most).contains(&r));
         if gone {
             Some(Outcome::QuarryLost)
         } else if strayed {
@@ -185,35 +185,35 @@ impl Step<'_, '_, '_, '_> {
     }
 
     /// How much of the present goal is done after this step.
-    fn done(&self, task: &Task, mission: &Mission, progress: &mut Progress) -> f64 {
+    fn done(&self, task: &GoalTask, mission: &Mission, progress: &mut Progress) -> f64 {
         let Ok((own, _, fuel, controls, engine, ..)) = self.ships.get(progress.own) else { return 0.0 };
         let (own, before, so_far) = (own.0, progress.before, progress.done);
         let lasts = |holds: bool| if holds { so_far + self.clock.step } else { 0.0 };
         let r = own.position.length();
         match *task {
-            Task::Burn { .. } if before.fuel.is_finite() => so_far + (before.fuel - fuel.left).max(0.0),
-            Task::Burn { .. } => so_far + engine.limit(&controls.0).thrust.length() * self.clock.step,
-            Task::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
+            GoalTask::Burn { .. } if before.fuel.is_finite() => so_far + (before.fuel - fuel.left).max(0.0),
+            GoalTask::Burn { .. } => so_far + engine.limit(&controls.0).thrust.length() * self.clock.step,
+            GoalTask::Turn { .. } => so_far + rotation(before.attitude, own.attitude).length(),
             // The assist goes on with a little, as drift fades.
-            Task::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),
-            Task::Look { ship, angle, .. } => lasts(self.hands.looking || self.is_ahead(&own, ship, angle)),
-            Task::Reach { least, most, .. } => lasts((least..=most).contains(&r)),
-            Task::Hold { ship, distance, .. } => {
+            GoalTask::Coast { .. } => lasts(controls.0.thrust.length() < COASTING * engine.max_thrust),
+            GoalTask::Look { ship, angle, .. } => lasts(self.hands.looking || self.is_ahead(&own, ship, angle)),
+            GoalTask::Reach { least, most, .. } => lasts((least..=most).contains(&r)),
+            GoalTask::Hold { ship, distance, .. } => {
                 let distance = distance.unwrap_or(self.rules.0.capture_radius);
                 lasts(self.state(ship).is_some_and(|there| there.position.distance(own.position) <= distance))
             }
-            Task::Hit { ship, .. } => {
+            GoalTask::Hit { ship, .. } => {
                 let hits = self.fleet.0.get(ship).and_then(|&entity| self.ships.get(entity).ok()).and_then(|seen| seen.5);
                 hits.map_or(0.0, |hits| f64::from(hits.0))
             }
-            Task::Survive { .. } => self.clock.time,
-            Task::Gates => {
+            GoalTask::Survive { .. } => self.clock.time,
+            GoalTask::Gates => {
                 if mission.gates.get(progress.gates).is_some_and(|gate| gate.is_passed(before.position, own.position)) {
                     progress.gates += 1;
                 }
                 progress.gates as f64
             }
-            Task::Whirl { least, most, .. } => {
+            GoalTask::Whirl { least, most, .. } => {
                 let swept = before.position.angle_between(own.position) / std::f64::consts::TAU;
                 if (least..=most).contains(&r) { so_far + swept } else { so_far }
             }

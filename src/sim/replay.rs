@@ -12,7 +12,7 @@ use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
 use serde::{Deserialize, Serialize};
 
 use super::hands::{Hands, choose_pilot};
-use super::run::{Report, RunRequest, fly_to_end, state_hash};
+use super::run::{FlightReport, RunRequest, fly_to_end, state_hash};
 use super::{Clock, SimSet, app_of, board, outcome};
 use crate::scene::config::{self, Value};
 use crate::scene::crew::Crew;
@@ -240,7 +240,7 @@ impl Replay {
     }
 
     /// Flies it again, without graphics, and sees whether it comes to the same end.
-    pub fn verify(&self, path: &Path, config: &GameConfig) -> Result<Report, ReplayError> {
+    pub fn verify(&self, path: &Path, config: &GameConfig) -> Result<FlightReport, ReplayError> {
         let scene = self.scene(path)?;
         let mut app = self.app(&scene, config);
         let step = app.world().resource::<Clock>().step;
@@ -262,15 +262,15 @@ impl Replay {
 }
 
 /// As [`run`](super::run::run), and the flight as a replay.
-pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Report, Replay) {
+pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (FlightReport, Replay) {
     let begun = Replay::begin(scene, config, request.difficulty, request.crew, request.seed);
     let config = scene.config(config, request.difficulty);
     let until = request.until.unwrap_or(scene.rules(&config).time_limit);
     let mut app = app_of(scene, &config, request.seed);
-    app.insert_resource(Recording(begun.clone()));
+    app.insert_resource(ReplayLog(begun.clone()));
     board(app.world_mut(), request.crew);
     let report = fly_to_end(app.world_mut(), until);
-    let mut replay = app.world_mut().remove_resource::<Recording>().map_or(begun, |recording| recording.0);
+    let mut replay = app.world_mut().remove_resource::<ReplayLog>().map_or(begun, |recording| recording.0);
     replay.finish(app.world());
     (report, replay)
 }
@@ -295,9 +295,9 @@ fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
 
 /// Records what the hands do, as a [`Replay`] that grows.
 #[derive(Resource, Clone, Debug, PartialEq)]
-pub struct Recording(pub Replay);
+pub struct ReplayLog(pub Replay);
 
-impl Recording {
+impl ReplayLog {
     fn note(&mut self, tick: u64, hands: &Hands) {
         if self.0.records.last().is_none_or(|last| last.hands != *hands) {
             self.0.records.push(Record { tick, hands: *hands });
@@ -319,7 +319,7 @@ impl Playback {
     }
 }
 
-/// Moves the hands of a [`Playback`], and keeps what they do in a [`Recording`], where there is one.
+/// Moves the hands of a [`Playback`], and keeps what they do in a [`ReplayLog`], where there is one.
 pub struct PlaybackPlugin;
 
 impl Plugin for PlaybackPlugin {
@@ -328,7 +328,7 @@ impl Plugin for PlaybackPlugin {
             FixedUpdate,
             (
                 play_back.run_if(resource_exists::<Playback>).before(choose_pilot).in_set(SimSet::Input),
-                note_hands.run_if(resource_exists::<Recording>).after(choose_pilot).in_set(SimSet::Input),
+                note_hands.run_if(resource_exists::<ReplayLog>).after(choose_pilot).in_set(SimSet::Input),
             ),
         );
     }
@@ -342,7 +342,7 @@ pub fn play_back(clock: Res<Clock>, mut playback: ResMut<Playback>, mut hands: R
     }
 }
 
-fn note_hands(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<Recording>) {
+fn note_hands(clock: Res<Clock>, hands: Res<Hands>, mut recording: ResMut<ReplayLog>) {
     recording.note(clock.tick, &hands);
 }
 

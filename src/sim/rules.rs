@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use crate::scene::rules::Rules;
 
 use super::clock::Clock;
-use super::ship::{CrossedHorizon, Ended, Fleet, Order, Pilot, Player, ShipMotion};
+use super::ship::{CrossedHorizon, Ended, Fleet, Pilot, PilotOrder, Player, ShipMotion};
 use super::{SimEvent, SimSet};
 
 /// The rules in force.
@@ -105,9 +105,11 @@ pub fn begin_chase(world: &mut World) {
         return;
     }
     let player = fleet.0.iter().find(|&&entity| world.get::<Player>(entity).is_some());
-    let Some(&hunter) = player.or_else(|| fleet.0.iter().find(|&&entity| matches!(order(entity), Some(Order::Catch(_))))) else { return };
-    let target = order(hunter).and_then(Order::target);
-    let fleeing = || fleet.0.iter().copied().find(|&entity| matches!(order(entity), Some(Order::Escape(_))) && entity != hunter);
+    let Some(&hunter) = player.or_else(|| fleet.0.iter().find(|&&entity| matches!(order(entity), Some(PilotOrder::Catch(_))))) else {
+        return;
+    };
+    let target = order(hunter).and_then(PilotOrder::target);
+    let fleeing = || fleet.0.iter().copied().find(|&entity| matches!(order(entity), Some(PilotOrder::Escape(_))) && entity != hunter);
     let other = || fleet.0.iter().copied().find(|&entity| entity != hunter);
     let Some(quarry) = target.or_else(fleeing).or_else(other) else { return };
     world.insert_resource(Chase { hunter, quarry: Some(quarry), held: 0.0, by_goals: false, outcome: None });

@@ -27,7 +27,7 @@ pub struct RunRequest {
 
 /// What became of it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct FlightReport {
     /// How it ended; None if it was not decided.
     pub outcome: Option<Outcome>,
     /// T at the end, in r_s/c.
@@ -47,7 +47,7 @@ pub struct Report {
     pub hash: StateHash,
 }
 
-impl Report {
+impl FlightReport {
     /// What the mission scores: the time at the end on its clock, in r_s/c.
     pub fn score(&self, clock: ScoreClock) -> f64 {
         match clock {
@@ -61,7 +61,7 @@ impl Report {
 const KEEP: f64 = 150.0;
 
 /// Flies `scene` to its end. `config` is `game.toml`, to which the difficulty is applied.
-pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> Report {
+pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> FlightReport {
     let config = scene.config(config, request.difficulty);
     let until = request.until.unwrap_or(scene.rules(&config).time_limit);
     let mut app = app_of(scene, &config, request.seed);
@@ -74,9 +74,9 @@ pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> Report {
 }
 
 /// Steps a started world to its end.
-pub fn fly_to_end(world: &mut World, until: f64) -> Report {
+pub fn fly_to_end(world: &mut World, until: f64) -> FlightReport {
     let own = player(world);
-    let mut watch = Watch::begin(world);
+    let mut watch = FlightWatch::begin(world);
     loop {
         world.run_schedule(FixedUpdate);
         watch.look(world, own);
@@ -95,16 +95,16 @@ fn player(world: &mut World) -> Option<Entity> {
 }
 
 /// What is watched during a flight.
-struct Watch {
+struct FlightWatch {
     radius: [f64; 2],
     first: Vec<(f64, glam::DVec3)>,
     drift: [f64; 2],
 }
 
-impl Watch {
-    fn begin(world: &World) -> Watch {
+impl FlightWatch {
+    fn begin(world: &World) -> FlightWatch {
         let first = states(world).map(|state| (energy(&state.0), angular_momentum(&state.0))).collect();
-        Watch { radius: [f64::INFINITY, 0.0], first, drift: [0.0; 2] }
+        FlightWatch { radius: [f64::INFINITY, 0.0], first, drift: [0.0; 2] }
     }
 
     fn look(&mut self, world: &World, own: Option<Entity>) {
@@ -118,9 +118,9 @@ impl Watch {
         }
     }
 
-    fn report(&self, world: &World, own: Option<Entity>) -> Report {
+    fn report(&self, world: &World, own: Option<Entity>) -> FlightReport {
         let clock = world.resource::<Clock>();
-        Report {
+        FlightReport {
             outcome: outcome(world).map(|(outcome, _)| outcome),
             time: clock.time,
             proper_time: own.and_then(|own| world.get::<ShipMotion>(own)).map_or(0.0, |motion| motion.0.proper_time),

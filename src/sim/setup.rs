@@ -18,7 +18,7 @@ use super::history::History;
 use super::pilot::beginner::Beginner;
 use super::pilot::{Chance, Mind, Skill, Skills};
 use super::rules::{Chase, ChaseRules, begin_chase};
-use super::ship::{Controls, Engine, Fleet, Fuel, Order, Pilot, Player, Programme, Ship, ShipMotion};
+use super::ship::{Controls, Engine, Fleet, Fuel, Pilot, PilotOrder, Player, Programme, Ship, ShipMotion};
 use super::{SimulationPlugins, sight};
 
 /// Starts `scene` (again): clock at T = 0, ships where the scene puts them, chance from `seed`, a mission at its first goal. `config` is
@@ -106,7 +106,7 @@ fn begin_mission(world: &mut World, scene: &Scene, bolts: u32) {
     let mut ship = world.entity_mut(own);
     ship.insert((Gun { left: bolts, ready: 0.0 }, Trigger::default()));
     if !ship.contains::<Pilot>() {
-        ship.insert((Pilot { order: Order::Rest, sees: Default::default() }, Mind::default()));
+        ship.insert((Pilot { order: PilotOrder::Rest, sees: Default::default() }, Mind::default()));
     }
     let quarry = world.get_resource::<Chase>().and_then(|chase| chase.quarry);
     world.insert_resource(Chase { hunter: own, quarry, held: 0.0, by_goals: true, outcome: None });
@@ -171,7 +171,7 @@ pub fn muster(world: &mut World, specs: &[ShipSpec], defaults: &Defaults, time: 
         let first_other = (0..specs.len()).find(|&other| other != index);
         let target = spec.target.as_ref().map_or(first_other.map(|other| fleet.0[other]), |name| fleet.find(name, specs));
         if let (true, Some(target)) = (spec.ai != Ai::None, target) {
-            let order = if spec.ai == Ai::Flee { Order::Escape(target) } else { Order::Catch(target) };
+            let order = if spec.ai == Ai::Flee { PilotOrder::Escape(target) } else { PilotOrder::Catch(target) };
             world.entity_mut(fleet.0[index]).insert((Pilot { order, sees: spec.sees }, Mind::default()));
         }
     }

@@ -60,14 +60,14 @@ pub struct Programme(pub Vec<Burn>);
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Pilot {
     /// What it is to do.
-    pub order: Order,
+    pub order: PilotOrder,
     /// By what it knows other ships.
     pub sees: Sees,
 }
 
 /// What a pilot is to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Order {
+pub enum PilotOrder {
     /// Nothing: coast.
     Rest,
     /// Be with this ship, soon.
@@ -86,12 +86,12 @@ pub enum Order {
     Keep(f64),
 }
 
-impl Order {
+impl PilotOrder {
     /// The ship that it is about.
     pub fn target(self) -> Option<Entity> {
         match self {
-            Order::Catch(ship) | Order::Hit(ship) | Order::Escape(ship) | Order::Face(ship) => Some(ship),
-            Order::Rest | Order::Turn | Order::Pass(_) | Order::Keep(_) => None,
+            PilotOrder::Catch(ship) | PilotOrder::Hit(ship) | PilotOrder::Escape(ship) | PilotOrder::Face(ship) => Some(ship),
+            PilotOrder::Rest | PilotOrder::Turn | PilotOrder::Pass(_) | PilotOrder::Keep(_) => None,
         }
     }
 }

@@ -8,7 +8,7 @@ use lensrunner::scene::crew::Crew;
 use lensrunner::scene::expect::OUTCOMES;
 use lensrunner::scene::{self, Difficulty, GameConfig, Scene};
 use lensrunner::sim::app_of;
-use lensrunner::sim::balance::{Row, fly_all, wins};
+use lensrunner::sim::balance::{BalanceRow, fly_all, wins};
 use lensrunner::sim::bolts::{Bolts, Trigger};
 use lensrunner::sim::check::{Verdict, check, check_all, files};
 use lensrunner::sim::replay::{Replay, record};
@@ -77,7 +77,7 @@ fn missions_are_balanced() {
     let missions: Vec<Scene> = names.iter().map(|name| scene::load(name).expect("a mission")).collect();
     let rows = fly_all(&missions, &GameConfig::default(), 100..108, &|| ());
     let share = |index: usize, difficulty: Difficulty, crew: Crew| {
-        let of = |row: &&Row| row.mission == index && row.difficulty == difficulty && row.crew == crew;
+        let of = |row: &&BalanceRow| row.mission == index && row.difficulty == difficulty && row.crew == crew;
         wins(rows.iter().filter(of))
     };
     for (index, name) in names.iter().enumerate().skip(1) {

@@ -38,7 +38,7 @@ const AFTERWARDS: f64 = 3.0;
 
 /// What to draw.
 #[derive(Clone, Debug)]
-pub struct Flight {
+pub struct DemonstrationRequest {
     /// How many frames.
     pub frames: u32,
     /// Width and height in pixels.
@@ -99,7 +99,7 @@ impl std::fmt::Display for Report {
 }
 
 /// Plays the chase without graphics, then draws it.
-pub fn fly(gpu: &Gpu, session: &Session, flight: &Flight) -> Result<Report, FlightError> {
+pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Result<Report, FlightError> {
     let (world, span, end) = play(session);
     let names: Vec<Entity> = world.world().resource::<Fleet>().0.clone();
     let histories: Vec<&History> = names.iter().filter_map(|&ship| world.world().get::<History>(ship)).collect();

@@ -17,22 +17,22 @@ const COURSE: (f64, usize) = (24.0, 32);
 const SHOT: (f64, usize) = (20.0, 32);
 
 /// Directions in camera axes, one after the other; None where a place is not seen.
-pub type Line = Vec<Option<DVec3>>;
+pub type AheadLine = Vec<Option<DVec3>>;
 
 /// The free fall of a ship from its state.
-pub fn course(camera: &Observer, state: &ShipState) -> Line {
+pub fn course(camera: &Observer, state: &ShipState) -> AheadLine {
     seen(camera, places(Point::from(state), COURSE))
 }
 
 /// The free fall of the target from where its light left it.
-pub fn target_course(camera: &Observer, time: f64, history: &History) -> Line {
-    let Some(emitted) = emission_time(camera, time, history, Order::ALL[0]) else { return Line::new() };
+pub fn target_course(camera: &Observer, time: f64, history: &History) -> AheadLine {
+    let Some(emitted) = emission_time(camera, time, history, Order::ALL[0]) else { return AheadLine::new() };
     let sample = history.at(emitted);
     seen(camera, places(Point { x: sample.position, p: sample.momentum }, COURSE))
 }
 
 /// The way of a bolt fired now.
-pub fn shot(camera: &Observer, state: &ShipState) -> Line {
+pub fn shot(camera: &Observer, state: &ShipState) -> AheadLine {
     let bolt = Point { x: state.position, p: bolt_momentum(state.momentum, state.attitude * DVec3::NEG_Z) };
     seen(camera, places(bolt, SHOT))
 }
@@ -59,7 +59,7 @@ fn places(start: Point, (span, pieces): (f64, usize)) -> Vec<DVec3> {
 }
 
 /// Each place as a camera sees what is held there.
-fn seen(camera: &Observer, places: Vec<DVec3>) -> Line {
+fn seen(camera: &Observer, places: Vec<DVec3>) -> AheadLine {
     places.into_iter().map(|place| (place.length() > 1.0).then(|| direction(camera, place, Order::ALL[0], 0.0)).flatten()).collect()
 }
 

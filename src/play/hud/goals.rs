@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Align2, Painter, Rect, pos2};
 
 use crate::play::hud::paint::{FAINT, OWN, TEXT, TRUE, TextBox};
-use crate::scene::mission::{Mission, Task};
+use crate::scene::mission::{GoalTask, Mission};
 use crate::scene::rules::Rules;
 use crate::sim::goals::needed;
 use crate::sim::{ActiveMission, ChaseRules, Progress};
@@ -50,7 +50,7 @@ pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Sl
 
 /// Whether the present goal is a ship to be held, which is shown by a ring.
 pub fn is_held(mission: &Mission, progress: &Progress) -> bool {
-    mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, Task::Hold { .. }))
+    mission.goals.get(progress.goal).is_some_and(|goal| matches!(goal.task, GoalTask::Hold { .. }))
 }
 
 /// For how long a ship must be held, in r_s/c.

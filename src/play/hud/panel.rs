@@ -3,13 +3,13 @@
 use bevy::prelude::*;
 
 use crate::play::camera::state_of;
-use crate::play::hud::ahead::{self, Line};
+use crate::play::hud::ahead::{self, AheadLine};
 use crate::play::hud::instruments::Instruments;
 use crate::play::picture::CurrentShot;
 use crate::play::picture::now::Now;
 use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
-use crate::scene::mission::Task;
+use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
 use crate::sim::sight::{Apparition, apparition, direction, true_direction};
 use crate::spacetime::frames::relative_momentum;
@@ -38,7 +38,7 @@ pub struct Panel {
     /// The next gate, in camera axes, and its number from 1.
     pub gate: Option<(glam::DVec3, usize)>,
     /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
-    pub lines: [Line; 3],
+    pub lines: [AheadLine; 3],
     /// How near one comes to the target by falling on, in r_s, and in how many r_s/c.
     pub closest: Option<(f64, f64)>,
     /// Bolts left, in a mission that has some.
@@ -61,7 +61,7 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
     let resting = static_momentum(state.position).unwrap_or_default();
     let is_own = camera_is_own(&player, now.chase.as_deref().and_then(|chase| chase.outcome));
     let gate = now.mission.as_ref().zip(now.progress.as_ref()).and_then(|(mission, progress)| {
-        let is_next = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == Task::Gates);
+        let is_next = mission.0.goals.get(progress.goal).is_some_and(|goal| goal.task == GoalTask::Gates);
         let gate = mission.0.gates.get(progress.gates).filter(|_| is_next)?;
         Some((direction(&camera, gate.position, Order::ALL[0], 0.0)?, progress.gates + 1))
     });

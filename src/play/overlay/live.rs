@@ -10,7 +10,7 @@ use crate::scene::GameConfig;
 use crate::scene::config;
 use crate::scene::ship::Ai;
 use crate::sim::hands::HandsRule;
-use crate::sim::replay::Recording;
+use crate::sim::replay::ReplayLog;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
@@ -101,7 +101,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     let session = session.clone();
     // The last flight's log is that of the settings it began with.
     if before.as_ref().is_some_and(|before| flies_otherwise(before, &session.config)) {
-        world.remove_resource::<Recording>();
+        world.remove_resource::<ReplayLog>();
     }
     let config = &session.effective();
     world.insert_resource(Bindings::of(config));

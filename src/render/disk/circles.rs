@@ -92,13 +92,13 @@ pub struct Circles {
     /// Pairs of indices into `radii` with gas between the two circles.
     pub pairs: Vec<[u32; 2]>,
     /// For the ring from each circle to the next, by azimuth: how far its middle deviates from the straight line. Zero for the last circle.
-    pub bends: Vec<[Bend; AZIMUTHS]>,
+    pub bends: Vec<[RingBend; AZIMUTHS]>,
 }
 
 impl Circles {
     /// All of these circles, with straight lines between them.
     pub fn straight(radii: Vec<f64>, pairs: Vec<[u32; 2]>) -> Circles {
-        Circles { bends: vec![[Bend::default(); AZIMUTHS]; radii.len()], radii, pairs }
+        Circles { bends: vec![[RingBend::default(); AZIMUTHS]; radii.len()], radii, pairs }
     }
 }
 
@@ -147,10 +147,10 @@ impl Look<'_> {
             // Two neighbouring circles on offer have none in their middle: it is made.
             let new = (between == pair[0]).then(|| self.circle(0.5 * (a.radius + b.radius)));
             let middle = new.as_ref().unwrap_or(&seen[between]);
-            std::array::from_fn(|k| Bend::of([a, middle, b], k).unwrap_or_default())
+            std::array::from_fn(|k| RingBend::of([a, middle, b], k).unwrap_or_default())
         };
         let mut bends: Vec<_> = chosen.windows(2).map(bend).collect();
-        bends.push([Bend::default(); AZIMUTHS]);
+        bends.push([RingBend::default(); AZIMUTHS]);
         let pairs = (1..chosen.len() as u32).map(|k| [k - 1, k]).collect();
         Circles { radii: chosen.into_iter().map(|k| seen[k].radius).collect(), pairs, bends }
     }
@@ -170,7 +170,7 @@ impl Look<'_> {
         let [a, _, b] = ring;
         (0..AZIMUTHS).all(|k| {
             let t = here.share(a, b, k);
-            let Some(bend) = Bend::of(ring, k).filter(|_| t > 0.0 && t < 1.0) else { return false };
+            let Some(bend) = RingBend::of(ring, k).filter(|_| t > 0.0 && t < 1.0) else { return false };
             let straight = |from: f64, to: f64| from + t * (to - from);
             let middle = 4.0 * t * (1.0 - t);
             // Pixels per r_s across the ring, and along it.
@@ -252,7 +252,7 @@ impl Look<'_> {
 /// How far the middle of a ring deviates from the straight line between its circles. At the share t of the ring's seen width, 4t(1 − t)
 /// times this is added to the line.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Bend {
+pub struct RingBend {
     /// Height in the pattern.
     height: f64,
     /// ln light: −(deviation)/(line), on the side of positive azimuth and on that of negative azimuth.
@@ -261,17 +261,17 @@ pub struct Bend {
     depth: f64,
 }
 
-impl Bend {
+impl RingBend {
     /// The deviation of the ring between `a` and `b` at an azimuth, so that the parabola goes through `middle`. None where the middle is
     /// not seen between them.
-    fn of([a, middle, b]: [&SeenCircle; 3], azimuth: usize) -> Option<Bend> {
+    fn of([a, middle, b]: [&SeenCircle; 3], azimuth: usize) -> Option<RingBend> {
         let t = middle.share(a, b, azimuth);
         if !(t > LEAST_SHARE && t < 1.0 - LEAST_SHARE) {
             return None;
         }
         let weight = 1.0 / (4.0 * t * (1.0 - t));
         let straight = |from: f64, to: f64| from + t * (to - from);
-        Some(Bend {
+        Some(RingBend {
             height: (middle.height - straight(a.height, b.height)) * weight,
             light: std::array::from_fn(|side| {
                 let [from, through, to] = [a, middle, b].map(|circle| circle.log_light[azimuth][side]);

@@ -11,7 +11,7 @@ use crate::scene::disk::radial::smoothstep;
 use crate::scene::disk::{DISK_UNIT, OFFSET_STEP, PATTERN_HEIGHT, RENEWAL, SHEARED};
 
 use crate::render::disk::Disk;
-use crate::render::disk::circles::{AZIMUTHS, Bend, Circles, FROM_FAR, FROM_NEAR, Look, SeenCircle, azimuth, pixel_angle, radii};
+use crate::render::disk::circles::{AZIMUTHS, Circles, FROM_FAR, FROM_NEAR, Look, RingBend, SeenCircle, azimuth, pixel_angle, radii};
 use crate::render::disk::sigma::sigma;
 use crate::render::disk::types::{Circle, DiskFrame};
 
@@ -49,7 +49,7 @@ pub struct DiskView {
     pub cuts: Vec<f32>,
     /// For each ring: the indices of its two circles, and its image order.
     pub rings: Vec<[u32; 4]>,
-    /// For each circle, by azimuth: the deviation of the middle of the ring that begins there ([`Bend`]).
+    /// For each circle, by azimuth: the deviation of the middle of the ring that begins there ([`RingBend`]).
     pub bends: Vec<[f32; 4]>,
     /// Orders up to this one are drawn as from near, with fine structure; 0 from far.
     pub close: u32,
@@ -114,7 +114,7 @@ impl DiskView {
             }
         }
         self.circles.extend(own);
-        self.bends.extend(rows.bends.iter().flatten().map(Bend::row));
+        self.bends.extend(rows.bends.iter().flatten().map(RingBend::row));
         self.rings.extend(rows.pairs.into_iter().map(|[a, b]| [first + a, first + b, order, 0]));
     }
 

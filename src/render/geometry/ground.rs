@@ -10,7 +10,7 @@ use crate::render::gpu::layout::buffer;
 
 /// The map and its numbers on the GPU.
 #[derive(Debug)]
-pub(super) struct GroundMap {
+pub(super) struct GroundBuffers {
     pub light: wgpu::Buffer,
     pub view: wgpu::TextureView,
     texture: wgpu::Texture,
@@ -19,12 +19,12 @@ pub(super) struct GroundMap {
     uploaded: Arc<Vec<[u16; 2]>>,
 }
 
-impl GroundMap {
+impl GroundBuffers {
     /// One that lights nothing.
-    pub fn new(device: &wgpu::Device) -> GroundMap {
+    pub fn new(device: &wgpu::Device) -> GroundBuffers {
         let light = buffer(device, "ground light", size_of::<GroundLight>() as u64, BufferUsages::UNIFORM);
         let (texture, view) = map(device, 1);
-        GroundMap { light, view, texture, written: GroundLight::default(), uploaded: Arc::default() }
+        GroundBuffers { light, view, texture, written: GroundLight::default(), uploaded: Arc::default() }
     }
 
     /// Writes what has changed. True if the texture was replaced, so that bind groups must be made anew.

@@ -9,7 +9,7 @@ mod stages;
 use crate::render::gpu::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
 
-use ground::GroundMap;
+use ground::GroundBuffers;
 use stages::{PipelineCache, PipelineInputs};
 
 use crate::render::Gpu;
@@ -61,7 +61,7 @@ pub struct Geometry {
     arguments: wgpu::Buffer,
     arguments_group: wgpu::BindGroup,
     sampler: wgpu::Sampler,
-    ground: GroundMap,
+    ground: GroundBuffers,
     groups: Option<([wgpu::BindGroup; 3], wgpu::BindGroup)>,
     /// Whether any image of the prepared frame is thin, by how often its light crosses the disk's plane.
     thin_across: [bool; 4],
@@ -174,7 +174,7 @@ impl Geometry {
             arguments,
             arguments_group,
             sampler: surface_sampler(device),
-            ground: GroundMap::new(device),
+            ground: GroundBuffers::new(device),
             groups: None,
             thin_across: [false; 4],
             capacity: room(0, 0, 0, 0),

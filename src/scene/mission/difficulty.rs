@@ -48,14 +48,14 @@ impl FromStr for Difficulty {
 
 /// What is otherwise on one difficulty.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Level {
+pub struct DifficultyLevel {
     /// Dotted keys of `game.toml` and their values, checked.
     keys: Vec<(String, Value)>,
     /// At most so long on the mission's clock for three stars and for two, in r_s/c; none: who wins gets three.
     pub stars: Option<[f64; 2]>,
 }
 
-impl Level {
+impl DifficultyLevel {
     /// Puts the keys of this level into `config`.
     pub fn apply(&self, config: &mut GameConfig) {
         for (path, value) in &self.keys {
@@ -81,8 +81,8 @@ const SECTIONS: [&str; 4] = ["ship", "enemy", "assist", "rules"];
 
 /// The levels of a mission's file, in the order of [`Difficulty::ALL`]; those that the file leaves out change nothing. Also all that is
 /// wrong with them.
-pub fn levels(document: &DeTable<'_>) -> Result<[Level; 3], Vec<Fault>> {
-    let mut levels: [Level; 3] = Default::default();
+pub fn levels(document: &DeTable<'_>) -> Result<[DifficultyLevel; 3], Vec<Fault>> {
+    let mut levels: [DifficultyLevel; 3] = Default::default();
     let Some(section) = document.get("difficulty") else { return Ok(levels) };
     let mut faults = Vec::new();
     let DeValue::Table(section_table) = section.get_ref() else {
@@ -100,7 +100,7 @@ pub fn levels(document: &DeTable<'_>) -> Result<[Level; 3], Vec<Fault>> {
     if faults.is_empty() { Ok(levels) } else { Err(faults) }
 }
 
-fn level(table: &DeTable<'_>, document: &DeTable<'_>, faults: &mut Vec<Fault>) -> Level {
+fn level(table: &DeTable<'_>, document: &DeTable<'_>, faults: &mut Vec<Fault>) -> DifficultyLevel {
     let mut config = GameConfig::default();
     let mut given = Vec::new();
     let mut stars = None;
@@ -127,7 +127,7 @@ fn level(table: &DeTable<'_>, document: &DeTable<'_>, faults: &mut Vec<Fault>) -
         faults.extend(more);
     }
     let keys = given.into_iter().filter_map(|path| config::setting(&path).map(|setting| (path, setting.get(&config))));
-    Level { keys: keys.collect(), stars }
+    DifficultyLevel { keys: keys.collect(), stars }
 }
 
 /// `stars = [three, two]`.

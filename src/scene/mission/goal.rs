@@ -36,14 +36,14 @@ pub struct Goal {
     /// How, for those who are slow.
     pub hint: Option<String>,
     /// What it is.
-    pub task: Task,
+    pub task: GoalTask,
     /// T in r_s/c by which it must be done; infinite if there is no hurry.
     pub before: f64,
 }
 
 /// What is to be done. Ships by their index in the scene, lengths in r_s, times in r_s/c of T.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Task {
+pub enum GoalTask {
     /// Spend this Δv, in c.
     Burn {
         /// In c.
@@ -115,11 +115,11 @@ pub enum Task {
     },
 }
 
-impl Task {
+impl GoalTask {
     /// The ship that it is about.
     pub fn ship(&self) -> Option<usize> {
         match *self {
-            Task::Look { ship, .. } | Task::Hold { ship, .. } | Task::Hit { ship, .. } => Some(ship),
+            GoalTask::Look { ship, .. } | GoalTask::Hold { ship, .. } | GoalTask::Hit { ship, .. } => Some(ship),
             _ => None,
         }
     }
@@ -234,32 +234,32 @@ impl GoalEntry {
         })
     }
 
-    fn task(&self, kind: Kind, ships: &[ShipSpec]) -> Result<Task, Fault> {
+    fn task(&self, kind: Kind, ships: &[ShipSpec]) -> Result<GoalTask, Fault> {
         let span = |default| number(&self.span, "for", 0.0..=LONGEST, "r_s/c", default);
         let ship = || self.ship.as_ref().map_or(Ok(0), |name| ship_named(name, ships));
         let angle = |default| number(&self.angle, "angle", 1e-3..=100.0, "rad", default);
         Ok(match kind {
-            Kind::Burn => Task::Burn { amount: number(&self.amount, "amount", 1e-3..=100.0, "c", 0.1)? },
-            Kind::Turn => Task::Turn { angle: angle(1.0)? },
-            Kind::Coast => Task::Coast { span: span(1.0)? },
-            Kind::Look => Task::Look { ship: ship()?, angle: angle(0.2)?, span: span(0.0)? },
+            Kind::Burn => GoalTask::Burn { amount: number(&self.amount, "amount", 1e-3..=100.0, "c", 0.1)? },
+            Kind::Turn => GoalTask::Turn { angle: angle(1.0)? },
+            Kind::Coast => GoalTask::Coast { span: span(1.0)? },
+            Kind::Look => GoalTask::Look { ship: ship()?, angle: angle(0.2)?, span: span(0.0)? },
             Kind::Reach => {
                 let [least, most] = self.radii()?;
-                Task::Reach { least, most, span: span(0.0)? }
+                GoalTask::Reach { least, most, span: span(0.0)? }
             }
             Kind::Hold => {
                 let distance = self.distance.as_ref().map(|distance| in_range(distance, "distance", 0.01..=FARTHEST, "r_s")).transpose()?;
-                Task::Hold { ship: ship()?, distance, span: span(f64::NAN)? }
+                GoalTask::Hold { ship: ship()?, distance, span: span(f64::NAN)? }
             }
-            Kind::Hit => Task::Hit { ship: ship()?, times: self.times()? },
+            Kind::Hit => GoalTask::Hit { ship: ship()?, times: self.times()? },
             Kind::Survive => {
                 let [least, most] = self.radii()?;
-                Task::Survive { until: number(&self.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)?, least, most }
+                GoalTask::Survive { until: number(&self.until, "until", 0.0..=LONGEST, "r_s/c", 0.0)?, least, most }
             }
-            Kind::Gates => Task::Gates,
+            Kind::Gates => GoalTask::Gates,
             Kind::Whirl => {
                 let [least, most] = self.radii()?;
-                Task::Whirl { turns: number(&self.turns, "turns", 0.01..=1000.0, "turns", 1.0)?, least, most }
+                GoalTask::Whirl { turns: number(&self.turns, "turns", 0.01..=1000.0, "turns", 1.0)?, least, most }
             }
         })
     }

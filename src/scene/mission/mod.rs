@@ -38,9 +38,9 @@ use super::config::GameConfig;
 use super::document::fault::{Fault, fault, in_range};
 use super::ship::ShipSpec;
 
-pub use difficulty::{Difficulty, Level, levels};
+pub use difficulty::{Difficulty, DifficultyLevel, levels};
 pub use gate::{Gate, GateEntry};
-pub use goal::{Goal, GoalEntry, Task};
+pub use goal::{Goal, GoalEntry, GoalTask};
 
 /// A mission: goals, limits and words over a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +68,7 @@ pub struct Mission {
     /// What is to be flown through, one after the other.
     pub gates: Vec<Gate>,
     /// What is otherwise on each difficulty, in the order of [`Difficulty::ALL`].
-    pub levels: [Level; 3],
+    pub levels: [DifficultyLevel; 3],
 }
 
 impl Mission {
@@ -126,7 +126,7 @@ pub fn check_mission(
     goals: &[Spanned<GoalEntry>],
     gates: &[Spanned<GateEntry>],
     ships: &[ShipSpec],
-    levels: [Level; 3],
+    levels: [DifficultyLevel; 3],
 ) -> Result<Mission, Fault> {
     for (words, most) in [(&entry.title, MOST_LETTERS), (&entry.idea, MOST_LETTERS), (&entry.brief, 10 * MOST_LETTERS)] {
         short(words, most)?;
@@ -172,18 +172,18 @@ fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
         }
     };
     match goal.task {
-        Task::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,
-        Task::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
-        Task::Hit { times, .. } => {
+        GoalTask::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,
+        GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
+        GoalTask::Hit { times, .. } => {
             if let Some(difficulty) = Difficulty::ALL.into_iter().find(|&difficulty| mission.bolts_on(difficulty) < times) {
                 let bolts = mission.bolts_on(difficulty);
                 return Err(format!("times = {times} needs as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}"));
             }
         }
-        Task::Reach { most, .. } if most < 1.0 && !mission.inside => {
+        GoalTask::Reach { most, .. } if most < 1.0 && !mission.inside => {
             return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
         }
-        Task::Hold { span, .. } | Task::Reach { span, .. } | Task::Look { span, .. } | Task::Coast { span } => {
+        GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
             late(span, mission.time_limit.min(mission.proper_limit), "for", "limit")?;
         }
         _ => (),

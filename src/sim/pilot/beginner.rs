@@ -11,7 +11,7 @@ use crate::sim::clock::Clock;
 use crate::sim::goals::ActiveMission;
 use crate::sim::hands::HandsRule;
 use crate::sim::history::History;
-use crate::sim::ship::{Controls, Ended, Engine, Fleet, Order, Pilot, ShipMotion};
+use crate::sim::ship::{Controls, Ended, Engine, Fleet, Pilot, PilotOrder, ShipMotion};
 use crate::sim::sight::{apparition, true_direction};
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order as ImageOrder;
@@ -36,14 +36,14 @@ const FIRES: f64 = 0.03;
 /// Farther out than this, in r_s, one who flees does not go on outward.
 const OUT: f64 = 8.0;
 
-type Flown<'a> = (&'a Pilot, &'a mut Beginner, &'a mut Controls, &'a ShipMotion, &'a Engine, Option<&'a mut Trigger>);
+type BeginnerShip<'a> = (&'a Pilot, &'a mut Beginner, &'a mut Controls, &'a ShipMotion, &'a Engine, Option<&'a mut Trigger>);
 
 /// Sets the controls of every beginner's ship.
 pub fn fly_as_beginner(
     (clock, fleet): (Res<Clock>, Res<Fleet>),
     rule: Option<Res<HandsRule>>,
     mission: Option<Res<ActiveMission>>,
-    mut ships: Query<Flown, Without<Ended>>,
+    mut ships: Query<BeginnerShip, Without<Ended>>,
     others: Query<&History>,
 ) {
     let assist = rule.map_or(AssistSettings { damping_time: 3.0, avoid_radius: None }, |rule| rule.assist);
@@ -63,42 +63,44 @@ pub fn fly_as_beginner(
             command.rates = turn_nose(ahead, engine.max_rate);
         }
         controls.0 = command;
-        if let (Some(mut trigger), Some(ahead), Order::Hit(_)) = (trigger, ahead, pilot.order) {
+        if let (Some(mut trigger), Some(ahead), PilotOrder::Hit(_)) = (trigger, ahead, pilot.order) {
             trigger.pulled = ahead.angle_between(DVec3::NEG_Z) < FIRES;
         }
     }
 }
 
 /// What the hands do with the mark at `ahead` (body axes).
-fn stick(order: Order, ahead: Option<DVec3>) -> Stick {
+fn stick(order: PilotOrder, ahead: Option<DVec3>) -> Stick {
     let on_mark = ahead.is_some_and(|ahead| ahead.angle_between(DVec3::NEG_Z) < ON_MARK);
     let pushes = match order {
-        Order::Rest | Order::Turn | Order::Face(_) => false,
-        Order::Catch(_) | Order::Hit(_) | Order::Escape(_) | Order::Pass(_) | Order::Keep(_) => on_mark,
+        PilotOrder::Rest | PilotOrder::Turn | PilotOrder::Face(_) => false,
+        PilotOrder::Catch(_) | PilotOrder::Hit(_) | PilotOrder::Escape(_) | PilotOrder::Pass(_) | PilotOrder::Keep(_) => on_mark,
     };
-    Stick { thrust: if pushes { DVec3::NEG_Z } else { DVec3::ZERO }, turn: if order == Order::Turn { DVec3::Y } else { DVec3::ZERO } }
+    Stick { thrust: if pushes { DVec3::NEG_Z } else { DVec3::ZERO }, turn: if order == PilotOrder::Turn { DVec3::Y } else { DVec3::ZERO } }
 }
 
 /// The direction to fly to, on body axes.
-fn mark(state: &ShipState, time: f64, order: Order, other: Option<&History>, marked_now: bool) -> Option<DVec3> {
+fn mark(state: &ShipState, time: f64, order: PilotOrder, other: Option<&History>, marked_now: bool) -> Option<DVec3> {
     let ShipState { position, momentum, attitude, .. } = *state;
     let eye = Observer { position, momentum, attitude, field_of_view: 1.0 };
     let to_body = attitude.conjugate();
     match order {
-        Order::Catch(_) | Order::Hit(_) if marked_now => true_direction(&eye, other?.at(time).position),
-        Order::Catch(_) | Order::Hit(_) | Order::Face(_) => Some(apparition(&eye, time, other?, ImageOrder::ALL[0])?.direction),
+        PilotOrder::Catch(_) | PilotOrder::Hit(_) if marked_now => true_direction(&eye, other?.at(time).position),
+        PilotOrder::Catch(_) | PilotOrder::Hit(_) | PilotOrder::Face(_) => {
+            Some(apparition(&eye, time, other?, ImageOrder::ALL[0])?.direction)
+        }
         // Too far out there is no help: along the way it goes already.
-        Order::Escape(_) if position.length() > OUT => {
+        PilotOrder::Escape(_) if position.length() > OUT => {
             let outward = position / position.length();
             Some(to_body * momentum.reject_from(outward).try_normalize()?)
         }
-        Order::Escape(_) => true_direction(&eye, other?.at(time).position).map(|there| -there),
-        Order::Pass(place) => true_direction(&eye, place),
+        PilotOrder::Escape(_) => true_direction(&eye, other?.at(time).position).map(|there| -there),
+        PilotOrder::Pass(place) => true_direction(&eye, place),
         // Outward or inward, along the line from the hole.
-        Order::Keep(radius) => {
+        PilotOrder::Keep(radius) => {
             let outward = position / position.length();
             Some(to_body * if position.length() < radius { outward } else { -outward })
         }
-        Order::Rest | Order::Turn => None,
+        PilotOrder::Rest | PilotOrder::Turn => None,
     }
 }

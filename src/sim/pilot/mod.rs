@@ -26,7 +26,7 @@ use super::bolts::{Gun, Trigger};
 use super::clock::Clock;
 use super::flight::Command;
 use super::history::History;
-use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Order, Pilot, Player, ShipMotion};
+use super::ship::{Controls, Ended, Engine, Fleet, Fuel, Manual, Pilot, PilotOrder, Player, ShipMotion};
 use super::sight::{apparition, emission_time};
 use super::{ActiveMission, ChaseRules, SimSet};
 use beginner::Beginner;
@@ -90,7 +90,7 @@ pub struct Mind {
     /// The thrust of a meeting being flown, on rest-frame axes; None while far.
     pub meeting: Option<DVec3>,
     /// What it was planned for.
-    pub order: Order,
+    pub order: PilotOrder,
     /// T of what it last knew of the other ship, in r_s/c.
     pub known: f64,
     /// Where the nose is to point to fire a bolt, on rest-frame axes, and how far off it may, in radians.
@@ -99,7 +99,7 @@ pub struct Mind {
 
 impl Default for Mind {
     fn default() -> Self {
-        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None, order: Order::Rest, known: 0.0, aim: None }
+        Mind { burn: PlannedBurn::COAST, since: 0.0, next_plan: 0.0, meeting: None, order: PilotOrder::Rest, known: 0.0, aim: None }
     }
 }
 
@@ -157,27 +157,27 @@ pub fn fly_by_pilot(
             None => None,
         };
         match pilot.order {
-            Order::Rest => {
+            PilotOrder::Rest => {
                 controls.0 = Command::default();
                 continue;
             }
-            Order::Turn => {
+            PilotOrder::Turn => {
                 controls.0 = Command { thrust: DVec3::ZERO, rates: DVec3::Y * engine.max_rate };
                 continue;
             }
-            Order::Face(_) => {
+            PilotOrder::Face(_) => {
                 controls.0 = other
                     .and_then(|(history, _)| seat.image(history))
                     .map_or_else(Command::default, |ahead| Command { thrust: DVec3::ZERO, rates: turn_nose(ahead, engine.max_rate) });
                 continue;
             }
-            Order::Catch(_) | Order::Hit(_) | Order::Escape(_) | Order::Pass(_) | Order::Keep(_) => (),
+            PilotOrder::Catch(_) | PilotOrder::Hit(_) | PilotOrder::Escape(_) | PilotOrder::Pass(_) | PilotOrder::Keep(_) => (),
         }
         if clock.time >= mind.next_plan {
             let known = other.map(|(history, engine)| (seat.reckon(history, skill.reaction_delay, &mut mind.known), engine.max_thrust));
             let task = seat.task(pilot.order, known, &skill, rules.0.arena_radius, inside);
             mind.aim = match (pilot.order, gun) {
-                (Order::Hit(_), Some(gun)) if gun.left > 0 => aim::lead(&motion.0, &task.other, &task.other_burn),
+                (PilotOrder::Hit(_), Some(gun)) if gun.left > 0 => aim::lead(&motion.0, &task.other, &task.other_burn),
                 _ => None,
             };
             mind.meeting = match task.aim {
@@ -243,16 +243,16 @@ impl Seat<'_> {
     }
 
     /// What a plan for `order` is made from; `other` is what is known of the ship that it is about, and that ship's thrust.
-    fn task(&self, order: Order, other: Option<((Point, PlannedBurn), f64)>, skill: &Skill, arena_radius: f64, inside: bool) -> Task {
+    fn task(&self, order: PilotOrder, other: Option<((Point, PlannedBurn), f64)>, skill: &Skill, arena_radius: f64, inside: bool) -> Task {
         let own = Point::from(self.state);
         let aim = match order {
-            Order::Escape(_) => Aim::Escape,
-            Order::Pass(_) => Aim::Pass,
-            Order::Keep(radius) => Aim::Keep(radius),
+            PilotOrder::Escape(_) => Aim::Escape,
+            PilotOrder::Pass(_) => Aim::Pass,
+            PilotOrder::Keep(radius) => Aim::Keep(radius),
             _ => Aim::Catch,
         };
         let place = match order {
-            Order::Pass(place) => Point { x: place, p: DVec3::ZERO },
+            PilotOrder::Pass(place) => Point { x: place, p: DVec3::ZERO },
             _ => own,
         };
         let ((other, other_burn), other_thrust) = other.unwrap_or(((place, PlannedBurn::COAST), 0.0));

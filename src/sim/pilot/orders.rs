@@ -2,9 +2,9 @@
 
 use bevy::prelude::*;
 
-use crate::scene::mission::{Mission, Task};
+use crate::scene::mission::{GoalTask, Mission};
 use crate::sim::goals::{ActiveMission, Progress};
-use crate::sim::ship::{Fleet, Order, Pilot};
+use crate::sim::ship::{Fleet, Pilot, PilotOrder};
 
 /// Orders of the present goal for the player's pilot.
 pub fn give_orders(mission: Option<Res<ActiveMission>>, progress: Option<Res<Progress>>, fleet: Res<Fleet>, mut pilots: Query<&mut Pilot>) {
@@ -17,25 +17,25 @@ pub fn give_orders(mission: Option<Res<ActiveMission>>, progress: Option<Res<Pro
 }
 
 /// The order of the present goal.
-fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> Order {
+fn order(mission: &Mission, progress: &Progress, fleet: &Fleet) -> PilotOrder {
     let ship = |index: usize| fleet.0.get(index).copied();
     let pursuer = mission.caught_by.first().and_then(|&index| ship(index));
-    let Some(goal) = mission.goals.get(progress.goal) else { return Order::Rest };
+    let Some(goal) = mission.goals.get(progress.goal) else { return PilotOrder::Rest };
     // Below the horizon one comes by falling: what is to be done then is begun before.
-    let falls = matches!(goal.task, Task::Reach { most, .. } if most <= 1.0);
+    let falls = matches!(goal.task, GoalTask::Reach { most, .. } if most <= 1.0);
     let goal = if falls { mission.goals.get(progress.goal + 1).unwrap_or(goal) } else { goal };
     let order = match goal.task {
-        Task::Burn { .. } => Some(Order::Keep(BURN_TO)),
-        Task::Turn { .. } => Some(Order::Turn),
-        Task::Coast { .. } => Some(Order::Rest),
-        Task::Look { ship: index, .. } => ship(index).map(Order::Face),
-        Task::Hold { ship: index, .. } => ship(index).map(Order::Catch),
-        Task::Hit { ship: index, .. } => ship(index).map(Order::Hit),
-        Task::Reach { least, most, .. } | Task::Whirl { least, most, .. } => Some(Order::Keep(0.5 * (least + most))),
-        Task::Survive { .. } => pursuer.map(Order::Escape),
-        Task::Gates => mission.gates.get(progress.gates).map(|gate| Order::Pass(gate.position)),
+        GoalTask::Burn { .. } => Some(PilotOrder::Keep(BURN_TO)),
+        GoalTask::Turn { .. } => Some(PilotOrder::Turn),
+        GoalTask::Coast { .. } => Some(PilotOrder::Rest),
+        GoalTask::Look { ship: index, .. } => ship(index).map(PilotOrder::Face),
+        GoalTask::Hold { ship: index, .. } => ship(index).map(PilotOrder::Catch),
+        GoalTask::Hit { ship: index, .. } => ship(index).map(PilotOrder::Hit),
+        GoalTask::Reach { least, most, .. } | GoalTask::Whirl { least, most, .. } => Some(PilotOrder::Keep(0.5 * (least + most))),
+        GoalTask::Survive { .. } => pursuer.map(PilotOrder::Escape),
+        GoalTask::Gates => mission.gates.get(progress.gates).map(|gate| PilotOrder::Pass(gate.position)),
     };
-    order.unwrap_or(Order::Rest)
+    order.unwrap_or(PilotOrder::Rest)
 }
 
 /// A radius far enough from any start, in r_s, that going there takes thrust.

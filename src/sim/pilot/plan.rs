@@ -200,8 +200,11 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     }
     let danger = if lowest < SAFE_RADIUS { DANGER + DEEPER * (SAFE_RADIUS - lowest) } else { 0.0 };
     // Who flees stays bound to the hole, and so does who is short of fuel: an empty tank must not carry it out of the arena for ever.
-    let unbound =
-        if task.aim == Aim::Escape || (task.aim != Aim::Catch && task.fuel - spent < RESERVE) { (own.energy() - task.arena_energy()).max(0.0) * UNBOUND } else { 0.0 };
+    let unbound = if task.aim == Aim::Escape || (task.aim != Aim::Catch && task.fuel - spent < RESERVE) {
+        (own.energy() - task.arena_energy()).max(0.0) * UNBOUND
+    } else {
+        0.0
+    };
     danger
         + unbound
         + fall_risk(&own, task.fuel - spent)

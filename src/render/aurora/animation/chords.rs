@@ -27,7 +27,7 @@ const PIXELS: f64 = 0.5;
 const MOST_ENDS: usize = 2_000_000;
 
 /// What the chords depend on.
-pub struct Bend<'a, 'b> {
+pub struct ChordInputs<'a, 'b> {
     /// The camera.
     pub view: &'a View<'b>,
     /// T of the frame.
@@ -42,7 +42,7 @@ pub struct Bend<'a, 'b> {
     pub heights: [[f64; 2]; 2],
 }
 
-impl Bend<'_, '_> {
+impl ChordInputs<'_, '_> {
     /// Number of chords for the streaks of these parts, in images of these orders. `middle(part, s)` is where the middle of a part was `s`
     /// seconds before, in km in the plane across the field: light is delayed in a curtain that moves.
     pub fn chords(&self, segments: &[Segment], middle: impl Fn(&Segment, f64) -> DVec2, orders: &[Order], flags: u32) -> u32 {

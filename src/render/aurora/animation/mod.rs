@@ -28,7 +28,7 @@ use crate::scene::config::AuroraConfig;
 use crate::scene::lighting::Illumination;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::spacetime::light::Order;
-use chords::Bend;
+use chords::ChordInputs;
 use planet_view::{PlanetView, planet_history};
 use streaks::Curtains;
 
@@ -268,7 +268,7 @@ impl AuroraAnimation {
             flags |= BOTH_POLES;
         }
         let orders: Vec<Order> = frame.instances.iter().filter_map(|instance| Order::new(instance.ids[0] as u8)).collect();
-        let bend = Bend {
+        let bend = ChordInputs {
             view: globe.view,
             time: globe.time,
             history: globe.history,
