@@ -14,6 +14,7 @@ use lensrunner::scene::{self, Difficulty};
 use lensrunner::sim::replay::{Replay, ReplayError, record};
 use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::sim::sweep::{self, Axis};
 use lensrunner::sim::{balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 
@@ -123,8 +124,8 @@ struct SimulateArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."), required_unless_present = "replay")]
     scene: Option<String>,
-    /// Flies a replay again instead, and says whether it comes to the same end.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "until", "every", "seed", "output"])]
+    /// Flies a replay again instead, and says whether it comes to the same end. SCENE is then the file of a mission of your own.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["until", "every", "seed", "output"])]
     replay: Option<PathBuf>,
     /// Of a mission: easy, normal or hard.
     #[arg(long, value_name = "LEVEL", default_value_t)]
@@ -132,6 +133,12 @@ struct SimulateArgs {
     /// Who flies the player's ship: naive, apprentice or expert.
     #[arg(long, value_name = "NAME", default_value_t)]
     pilot: Crew,
+    /// Flies all combinations of settings instead, a row each: KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,… of game.toml; may be repeated.
+    #[arg(long, value_name = "KEY=VALUES", conflicts_with_all = ["replay", "save_replay"])]
+    sweep: Vec<Axis>,
+    /// Flights of each combination of a sweep, from --seed on.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "sweep", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
+    seeds: u64,
     /// Writes the flight as a replay.
     #[arg(long, value_name = "FILE", conflicts_with = "replay")]
     save_replay: Option<PathBuf>,
@@ -234,8 +241,7 @@ fn main() -> ExitCode {
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
         Some(Command::Check(args)) => match check::run_command(&args, &mut io::stdout()) {
-            Ok(true) => ExitCode::SUCCESS,
-            Ok(false) => ExitCode::from(1),
+            Ok(code) => ExitCode::from(code),
             Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
         },
         Some(Command::Balance(args)) => match balance::run_command(&args) {
@@ -288,7 +294,7 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
 
 fn run_simulate(args: &SimulateArgs) -> ExitCode {
     if let Some(path) = &args.replay {
-        return run_replay(path, args.config.as_deref());
+        return run_replay(path, args.scene.as_deref(), args.config.as_deref());
     }
     match simulate_scene(args) {
         Ok(()) => ExitCode::SUCCESS,
@@ -312,16 +318,22 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
         return Ok(());
     }
     let mut out = output(args.output.as_ref())?;
+    if !args.sweep.is_empty() {
+        let rows = sweep::combinations(&args.sweep, args.seeds)
+            .ok_or_else(|| SimulateError::Input(format!("a sweep has at most {} flights", sweep::MOST_FLIGHTS)))?;
+        let run = RunRequest { difficulty, crew, seed, until };
+        return Ok(sweep::sweep(&scene, &config, &args.sweep, &rows, (&run, args.seeds), &mut out)?);
+    }
     simulate::simulate(&scene, &levelled, &request, &mut out, &mut io::stderr())?;
     Ok(())
 }
 
-fn run_replay(path: &Path, config: Option<&Path>) -> ExitCode {
+fn run_replay(path: &Path, scene: Option<&str>, config: Option<&Path>) -> ExitCode {
     let config = match scene::config::find(config) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    match Replay::load(path).and_then(|replay| replay.verify(path, &config).map(|report| (replay, report))) {
+    match Replay::load(path).and_then(|replay| replay.verify(path, scene, &config).map(|report| (replay, report))) {
         Ok((replay, report)) => {
             eprintln!("{}: {} at T = {}, state {}, as it was", replay.scene, replay.outcome, report.time, replay.hash);
             ExitCode::SUCCESS

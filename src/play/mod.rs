@@ -46,8 +46,8 @@ pub struct PlayArgs {
     /// Flies at once, without the title.
     #[arg(long)]
     pub at_once: bool,
-    /// Shows the flight of a replay.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "seed", "difficulty", "headless"])]
+    /// Shows the flight of a replay; --scene is then the file of a mission of your own.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["seed", "difficulty", "headless"])]
     pub replay: Option<PathBuf>,
     /// The autopilot flies the player's ship.
     #[arg(long)]
@@ -124,7 +124,11 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         eprintln!("error: {error}");
         ExitCode::from(code)
     };
-    let replay = match args.replay.as_deref().map(|path| Replay::load(path).and_then(|replay| replay.scene(path).map(|_| replay))) {
+    let replay = match args
+        .replay
+        .as_deref()
+        .map(|path| Replay::load(path).and_then(|replay| replay.scene(path, args.scene.as_deref()).map(|_| replay)))
+    {
         None => None,
         Some(Ok(replay)) => Some(replay),
         Some(Err(error)) => return fail(&error, 2),

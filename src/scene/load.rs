@@ -93,6 +93,8 @@ impl Scene {
     pub fn config(&self, config: &GameConfig, difficulty: Difficulty) -> GameConfig {
         let mut config = config.clone();
         if let Some(mission) = &self.mission {
+            // Its own limit, unless a difficulty has another.
+            config.rules.time_limit = mission.time_limit;
             mission.levels[difficulty as usize].apply(&mut config);
         }
         config
@@ -103,8 +105,8 @@ impl Scene {
         let base = Rules::from(&config.rules);
         // Checked when the scene was loaded.
         let rules = self.rules.check(base).unwrap_or(base);
-        let limit = self.mission.as_ref().map_or(rules.time_limit, |mission| mission.time_limit.min(rules.time_limit));
-        Rules { time_limit: limit, ..rules }
+        // A mission's limit is that of its difficulty.
+        if self.mission.is_some() { Rules { time_limit: base.time_limit, ..rules } } else { rules }
     }
 
     /// Reads the text of a scene file; `file` names it in complaints and gives the scene its name.

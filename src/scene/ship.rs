@@ -208,9 +208,9 @@ pub fn check_ships(entries: &[Spanned<ShipEntry>]) -> Result<Vec<ShipSpec>, Faul
     }
     for entry in entries {
         let entry = entry.get_ref();
-        if let Some(target) = entry.target.as_ref().or(entry.facing.as_ref())
-            && (target.get_ref() == entry.name.get_ref() || !ships.iter().any(|ship| &ship.name == target.get_ref()))
-        {
+        let wrong =
+            |named: &&Spanned<String>| named.get_ref() == entry.name.get_ref() || !ships.iter().any(|ship| &ship.name == named.get_ref());
+        if let Some(target) = [&entry.target, &entry.facing].into_iter().flatten().find(wrong) {
             let names: Vec<&str> = ships.iter().map(|ship| ship.name.as_str()).filter(|name| name != entry.name.get_ref()).collect();
             let others = if names.is_empty() { "there is none".into() } else { format!("{names:?}") };
             return fault(target, format!("{:?} must be another ship of the scene: {others}", target.get_ref()));

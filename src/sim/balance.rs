@@ -82,13 +82,21 @@ pub fn run_command(args: &BalanceArgs) -> Result<(), CommandError> {
     std::fs::create_dir_all(&args.output).map_err(|error| named(&args.output, error))?;
     let flights = missions.len() as u64 * 9 * u64::from(args.seeds);
     let bar = indicatif::ProgressBar::new(flights);
-    let rows = fly_all(&missions, &config, args.first..args.first + u64::from(args.seeds), &|| bar.inc(1));
+    let seeds = seeds(args)?;
+    let rows = fly_all(&missions, &config, seeds, &|| bar.inc(1));
     bar.finish_and_clear();
-    for (file, text) in [("balance.csv", csv(&missions, &rows)), ("balance.md", table(&missions, &rows, args.seeds))] {
+    for (file, text) in [("balance.csv", csv(&missions, &rows)), ("balance.md", table(&missions, &rows, args))] {
         let path = args.output.join(file);
         std::fs::write(&path, text).map_err(|error| named(&path, error))?;
     }
     Ok(())
+}
+
+/// The seeds that were asked for.
+fn seeds(args: &BalanceArgs) -> Result<std::ops::Range<u64>, CommandError> {
+    let BalanceArgs { first, seeds, .. } = *args;
+    let last = first.checked_add(u64::from(seeds));
+    last.map(|last| first..last).ok_or_else(|| CommandError::Argument(format!("--first {first} and --seeds {seeds} go past the last seed")))
 }
 
 /// A scene that is a mission.
@@ -121,11 +129,14 @@ fn csv(missions: &[Scene], rows: &[BalanceRow]) -> String {
 }
 
 /// The table of the documents.
-fn table(missions: &[Scene], rows: &[BalanceRow], seeds: u32) -> String {
+fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String {
+    let seeds = args.seeds;
+    let named = if args.missions.is_empty() { String::new() } else { format!(" --missions {}", args.missions.join(",")) };
+    let first = if args.first == 0 { String::new() } else { format!(" --first {}", args.first) };
     let mut text = format!(
         "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
          assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Times are medians of won flights on the mission's clock, in \
-         r_s/c.\n\nMade by `lensrunner balance --seeds {seeds} -o docs/balance`.\n\n| mission | difficulty | naive | apprentice | expert | \
+         r_s/c.\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
          time naive | time expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
     );
     for (index, scene) in missions.iter().enumerate() {

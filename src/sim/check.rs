@@ -85,7 +85,10 @@ fn check_file(file: &Path, config: &GameConfig) -> Verdict {
 
 /// Flies a scene as it expects to be flown.
 pub fn check(scene: &Scene, config: &GameConfig) -> Verdict {
-    let Some(expect) = scene.expect.as_ref().filter(|_| !scene.ships.is_empty()) else { return Verdict::NothingExpected };
+    let Some(expect) = &scene.expect else { return Verdict::NothingExpected };
+    if scene.ships.is_empty() {
+        return Verdict::Failed(vec!["[expect] needs at least one [[ship]]".into()]);
+    }
     let request = RunRequest { difficulty: expect.difficulty, crew: expect.crew, seed: expect.seed, until: expect.until };
     let report = run(scene, config, &request);
     let wrong = differences(expect, &report);
@@ -125,7 +128,7 @@ fn differences(expect: &Expect, report: &FlightReport) -> Vec<String> {
     wrong
 }
 
-/// Flies scenes and missions as their [expect] says, in parallel; exit code 1 when one comes otherwise.
+/// Flies scenes and missions as their [expect] says, in parallel; exit code 1 when one comes otherwise, 2 when a file is wrong.
 ///
 /// A line for each file, then a summary. Files without [expect] are only read.
 #[derive(clap::Args, Clone, Debug)]
@@ -138,8 +141,8 @@ pub struct CheckArgs {
     pub config: Option<PathBuf>,
 }
 
-/// Runs the command; lines go to `out`. Whether all is as expected.
-pub fn run_command(args: &CheckArgs, out: &mut dyn std::io::Write) -> Result<bool, CommandError> {
+/// Runs the command; lines go to `out`. The exit code: 0 if all is as expected.
+pub fn run_command(args: &CheckArgs, out: &mut dyn std::io::Write) -> Result<u8, CommandError> {
     let config = crate::scene::config::find(args.config.as_deref())?;
     let mut paths = Vec::new();
     for path in &args.paths {
@@ -152,7 +155,8 @@ pub fn run_command(args: &CheckArgs, out: &mut dyn std::io::Write) -> Result<boo
     let failed = verdicts.iter().filter(|verdict| verdict.is_failure()).count();
     let held = verdicts.iter().filter(|verdict| matches!(verdict, Verdict::Held(_))).count();
     writeln!(out, "{held} as expected, {failed} failed, {} without [expect]", verdicts.len() - held - failed)?;
-    Ok(failed == 0)
+    let refused = verdicts.iter().any(|verdict| matches!(verdict, Verdict::Refused(_)));
+    Ok(if refused { 2 } else { u8::from(failed > 0) })
 }
 
 /// Why the command did not run.

@@ -24,6 +24,7 @@ pub mod setup;
 pub mod ship;
 pub mod sight;
 pub mod simulate;
+pub mod sweep;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::prelude::*;

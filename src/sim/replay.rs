@@ -82,6 +82,14 @@ pub enum ReplayError {
     /// Its scene is wrong or not there.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// Its scene is none of the game's.
+    #[error("{path}: there is no scene or mission {scene:?} among the game's; name its file as SCENE")]
+    NoScene {
+        /// The replay.
+        path: PathBuf,
+        /// The scene's name.
+        scene: String,
+    },
     /// Its scene is another one now.
     #[error("{path}: {scene} was another file when this was flown")]
     OtherScene {
@@ -91,7 +99,7 @@ pub enum ReplayError {
         scene: String,
     },
     /// It was flown to another end.
-    #[error("{path}: flown again it ends in the state {found}, not {expected}")]
+    #[error("{path}: flown again it ends otherwise: {found}, not {expected}")]
     Differs {
         /// The replay.
         path: PathBuf,
@@ -220,9 +228,15 @@ impl Replay {
         Replay::from_text(path, &text)
     }
 
-    /// Its scene, if that is still the same file.
-    pub fn scene(&self, path: &Path) -> Result<Scene, ReplayError> {
-        let scene = scene::load(&self.scene)?;
+    /// Its scene, if that is still the same file: `named`, by name or path, or the one of the game that has its name.
+    pub fn scene(&self, path: &Path, named: Option<&str>) -> Result<Scene, ReplayError> {
+        let scene = match named {
+            Some(named) => scene::load(named)?,
+            None if !scene::path(&self.scene).is_file() => {
+                return Err(ReplayError::NoScene { path: path.to_path_buf(), scene: self.scene.clone() });
+            }
+            None => scene::load(&self.scene)?,
+        };
         if scene.fingerprint == self.fingerprint {
             Ok(scene)
         } else {
@@ -240,17 +254,15 @@ impl Replay {
     }
 
     /// Flies it again, without graphics, and sees whether it comes to the same end.
-    pub fn verify(&self, path: &Path, config: &GameConfig) -> Result<FlightReport, ReplayError> {
-        let scene = self.scene(path)?;
+    pub fn verify(&self, path: &Path, named: Option<&str>, config: &GameConfig) -> Result<FlightReport, ReplayError> {
+        let scene = self.scene(path, named)?;
         let mut app = self.app(&scene, config);
         let step = app.world().resource::<Clock>().step;
         let report = fly_to_end(app.world_mut(), (self.ticks as f64 - 0.5) * step);
-        let found = report.hash.to_string();
-        if found == self.hash && report.steps == self.ticks {
-            Ok(report)
-        } else {
-            Err(ReplayError::Differs { path: path.to_path_buf(), found, expected: self.hash.clone() })
-        }
+        let end = |hash: &str, ticks: u64, outcome: &str| format!("{outcome} after {ticks} steps, state {hash}");
+        let found = end(&report.hash.to_string(), report.steps, report.outcome.map_or("undecided", super::Outcome::name));
+        let expected = end(&self.hash, self.ticks, &self.outcome);
+        if found == expected { Ok(report) } else { Err(ReplayError::Differs { path: path.to_path_buf(), found, expected }) }
     }
 
     /// Closes the log of the flight in `world`.

@@ -62,9 +62,13 @@ const KEEP: f64 = 150.0;
 
 /// Flies `scene` to its end. `config` is `game.toml`, to which the difficulty is applied.
 pub fn run(scene: &Scene, config: &GameConfig, request: &RunRequest) -> FlightReport {
-    let config = scene.config(config, request.difficulty);
-    let until = request.until.unwrap_or(scene.rules(&config).time_limit);
-    let mut app = app_of(scene, &config, request.seed);
+    run_levelled(scene, &scene.config(config, request.difficulty), request)
+}
+
+/// As [`run`]; the difficulty is in `config` already.
+pub fn run_levelled(scene: &Scene, config: &GameConfig, request: &RunRequest) -> FlightReport {
+    let until = request.until.unwrap_or(scene.rules(config).time_limit);
+    let mut app = app_of(scene, config, request.seed);
     let world = app.world_mut();
     board(world, request.crew);
     for mut history in world.query::<&mut History>().iter_mut(world) {

@@ -6,7 +6,7 @@
 //! idea = "A lower orbit is a faster one."      # what the mission rests on, in one sentence
 //! brief = "…"                                  # what the player reads before it begins
 //! clock = "T"                                  # what is scored: "T", the far clock, or "tau", the player's own
-//! time_limit = 200.0                           # T in r_s/c: later it is lost (or than rules.time_limit, if that is sooner)
+//! time_limit = 200.0                           # T in r_s/c: later it is lost; rules.time_limit of a difficulty goes before it
 //! proper_limit = 50.0                          # the player's own time in r_s/c: later it is lost; no limit if absent
 //! inside = false                               # whether the player's ship may cross the horizon
 //! caught_by = ["hunter"]                       # ships that win by holding the player's ship as [rules] say
@@ -131,8 +131,12 @@ pub fn check_mission(
     for (words, most) in [(&entry.title, MOST_LETTERS), (&entry.idea, MOST_LETTERS), (&entry.brief, 10 * MOST_LETTERS)] {
         short(words, most)?;
     }
-    if !ships.iter().any(|ship| ship.player) {
-        return fault(&entry.title, "a mission needs a [[ship]] with player = true".into());
+    let players: Vec<usize> = (0..ships.len()).filter(|&index| ships[index].player).collect();
+    let &[own] = players.as_slice() else {
+        return fault(&entry.title, format!("a mission needs one [[ship]] with player = true, not {}", players.len()));
+    };
+    if !entry.inside && ships[own].state.position.length() <= 1.0 {
+        return fault(&entry.title, "the player's ship starts inside the horizon, where a mission with inside = false is lost".into());
     }
     for parts in [goals.iter().map(Spanned::span).collect::<Vec<_>>(), gates.iter().map(Spanned::span).collect()] {
         if let Some(span) = parts.get(MOST_PARTS) {
@@ -156,7 +160,13 @@ pub fn check_mission(
     if mission.goals.is_empty() {
         return fault(&entry.title, "a mission needs at least one [[goal]]".into());
     }
+    if mission.caught_by.contains(&own) {
+        return fault(&entry.title, "caught_by names the player's own ship".into());
+    }
     for (goal, written) in mission.goals.iter().zip(goals) {
+        if goal.task.ship() == Some(own) {
+            return Err(Fault { span: written.get_ref().kind_span(), message: "the goal's ship is the player's own".into() });
+        }
         reachable(&mission, goal).map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
     }
     Ok(mission)
@@ -171,6 +181,12 @@ fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
             Ok(())
         }
     };
+    if let GoalTask::Reach { most, .. } | GoalTask::Whirl { most, .. } | GoalTask::Survive { most, .. } = goal.task
+        && most <= 1.0
+        && !mission.inside
+    {
+        return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
+    }
     match goal.task {
         GoalTask::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,
         GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
@@ -179,9 +195,6 @@ fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
                 let bolts = mission.bolts_on(difficulty);
                 return Err(format!("times = {times} needs as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}"));
             }
-        }
-        GoalTask::Reach { most, .. } if most < 1.0 && !mission.inside => {
-            return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
         }
         GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
             late(span, mission.time_limit.min(mission.proper_limit), "for", "limit")?;
