@@ -31,7 +31,7 @@ impl Flees {
 }
 
 /// T between two directions of a random quarry, in r_s/c: the game's replanning period.
-const PERIOD: f64 = 2.5;
+pub const PERIOD: f64 = 2.5;
 
 /// The arena may be left by this factor: its edge is where pilots turn back.
 const LEEWAY: f64 = 1.1;

@@ -96,11 +96,10 @@ fn choose_scene(world: &mut World, screen: Screen) {
 /// Keys that switch something.
 fn read_keys(
     hands: PlayerInput,
+    (screen, missions): (Res<State<Screen>>, Option<Res<Catalogue>>),
     typing: Option<Res<EguiWantsInput>>,
-    screen: Res<State<Screen>>,
     mut session: ResMut<Session>,
     mut player: ResMut<PlayerState>,
-    missions: Option<Res<Catalogue>>,
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {

@@ -498,7 +498,7 @@ mod tests {
             for axis in &mut turn {
                 *axis = 0.9 * *axis + chance.random_range(-12.0..12.0);
             }
-            let thrust = [0, 0, if tick / 200 % 3 == 0 { -76 } else { 0 }];
+            let thrust = [0, 0, if (tick / 200).is_multiple_of(3) { -76 } else { 0 }];
             Record { tick, hands: Hands { thrust, turn: [turn[0] as i8, turn[1] as i8, 0], assist: true, ..Hands::default() } }
         };
         (0..ticks).map(one).collect()

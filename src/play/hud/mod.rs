@@ -51,15 +51,17 @@ impl Plugin for HudPlugin {
     }
 }
 
+/// What is flown: a mission and how far it has come, a replay.
+type Flown<'w> = (Option<Res<'w, ActiveMission>>, Option<Res<'w, Progress>>, Option<Res<'w, Playback>>);
+
 /// Draws the HUD.
 fn draw(
     mut contexts: EguiContexts,
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
     (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
     panel: Res<Panel>,
-    (notice, real): (Res<Notice>, Res<Time<Real>>),
-    staged: Option<Res<Staged>>,
-    (mission, progress, playback): (Option<Res<ActiveMission>>, Option<Res<Progress>>, Option<Res<Playback>>),
+    (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
+    (mission, progress, playback): Flown,
     mut slow: Local<goals::Slow>,
 ) -> Result {
     let context = contexts.ctx_mut()?;
