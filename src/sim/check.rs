@@ -130,7 +130,7 @@ fn differences(expect: &Expect, report: &FlightReport) -> Vec<String> {
 
 /// Flies scenes and missions as their expect section says, in parallel; exit code 1 when one comes otherwise, 2 when a file is wrong.
 ///
-/// A line for each file, then a summary. Files without expect section are only read.
+/// A line for each file, then a summary. Files without one are only read.
 #[derive(clap::Args, Clone, Debug)]
 pub struct CheckArgs {
     /// Scene or mission files, and folders of them.
