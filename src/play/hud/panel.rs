@@ -65,7 +65,8 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
         let gate = mission.0.gates.get(progress.gates).filter(|_| is_next)?;
         Some((direction(&camera, gate.position, Order::ALL[0], 0.0)?, progress.gates + 1))
     });
-    let gun = now.gun().filter(|gun| gun.left > 0 || now.session.effective().ship.bolts > 0);
+    // One that never had a bolt is none.
+    let gun = now.gun().filter(|gun| gun.left > 0 || gun.ready > 0.0);
     let lines = if is_own {
         let target_line = target.map(|history| ahead::target_course(&camera, time, history)).unwrap_or_default();
         [ahead::course(&camera, &state), target_line, gun.map(|_| ahead::shot(&camera, &state)).unwrap_or_default()]
