@@ -42,6 +42,10 @@ const QUARRY_MEAN: f64 = 0.3;
 const QUARRY_END: f64 = 0.3;
 /// Of the quarry: r_s for each c of velocity change spent.
 const QUARRY_FUEL: f64 = 0.05;
+/// Of the quarry: r_s for each r_s/c that the hunter comes into [`REACH`] later.
+const HELD_OFF: f64 = 0.15;
+/// A hunter so near, in r_s, has come.
+const REACH: f64 = 1.0;
 /// Distance, in r_s, beyond which a quarry gains nothing by its mean or its end.
 const FAR: f64 = 12.0;
 /// r_s for a plan that comes below [`SAFE_RADIUS`]: more than distances come to; and for each r_s that it comes lower, so that the least
@@ -162,6 +166,7 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
     let mut penalty = 0.0;
     let mut lowest = f64::INFINITY;
     let mut end = 0.0;
+    let mut free = task.horizon;
     for (index, seen) in other.iter().enumerate() {
         let time = index as f64 * span.step;
         if index > 0 {
@@ -180,6 +185,9 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
             Aim::Keep(radius) => (r - radius).abs(),
         };
         lowest = lowest.min(r);
+        if distance < REACH {
+            free = free.min(time);
+        }
         // Who hunts follows wherever the other goes.
         if task.aim != Aim::Catch {
             penalty += (r - task.arena_radius).max(0.0);
@@ -212,7 +220,7 @@ fn cost(task: &Task, burn: &PlannedBurn, other: &[Point], span: Span) -> f64 {
             Aim::Keep(_) => mean + QUARRY_END * end.min(FAR) + HUNTER_FUEL * spent + penalty,
             Aim::Pass => nearest + HUNTER_FUEL * spent + penalty,
             Aim::Catch => nearest + HUNTER_END * end + HUNTER_FUEL * spent + penalty,
-            Aim::Escape => -nearest - QUARRY_MEAN * mean - QUARRY_END * end.min(FAR) + QUARRY_FUEL * spent + penalty,
+            Aim::Escape => -HELD_OFF * free - nearest - QUARRY_MEAN * mean - QUARRY_END * end.min(FAR) + QUARRY_FUEL * spent + penalty,
         }
 }
 
