@@ -15,7 +15,7 @@ use lensrunner::sim::replay::{Replay, ReplayError, record};
 use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
 use lensrunner::sim::sweep::{self, Axis};
-use lensrunner::sim::{balance, check};
+use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
@@ -133,6 +133,9 @@ struct SimulateArgs {
     /// Who flies the player's ship: naive, apprentice or expert.
     #[arg(long, value_name = "NAME", default_value_t)]
     pilot: Crew,
+    /// Another program flies: a line of JSON with what is seen goes to standard output, a line with what to do comes from standard input.
+    #[arg(long, conflicts_with_all = ["replay", "save_replay", "sweep", "output", "pilot"])]
+    agent: bool,
     /// Flies all combinations of settings instead, a row each: KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,… of game.toml; may be repeated.
     #[arg(long, value_name = "KEY=VALUES", conflicts_with_all = ["replay", "save_replay"])]
     sweep: Vec<Axis>,
@@ -311,6 +314,10 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     let request = simulate::SimulateRequest { until, every, seed, crew };
     let levelled = scene.config(&config, difficulty);
     request.check(&scene, &levelled)?;
+    if args.agent {
+        let until = request.check(&scene, &levelled)?;
+        return agent::fly(&scene, &levelled, &agent::AgentRequest { until, seed }, &mut io::stdin().lock(), &mut io::stdout().lock());
+    }
     if let Some(path) = &args.save_replay {
         let (report, replay) = record(&scene, &config, &RunRequest { difficulty, crew, seed, until });
         write!(output(Some(path))?, "{}", replay.to_text())?;

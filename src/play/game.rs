@@ -12,11 +12,13 @@ use crate::sim::ship::Player;
 use crate::sim::{Chase, Clock, Engine, Fleet, Hands, ShipMotion, SimSet, outcome, start};
 use crate::spacetime::matter::gamma;
 
+use crate::play::camera::orbit::Orbit;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::{Bindings, MouseTurn, PlayerInput};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
+use crate::play::pace::{PacePlugin, Slowing};
 use crate::play::picture::{Staged, restage};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
@@ -30,11 +32,18 @@ impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
         schedule::order(app);
         app.init_state::<Screen>()
+            .add_plugins(PacePlugin)
             .add_message::<MenuAction>()
             .init_resource::<Bindings>()
             .init_resource::<MouseTurn>()
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
-            .add_systems(Update, (read_keys.in_set(GameSet::Keys), (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer)))
+            .add_systems(
+                Update,
+                (
+                    (read_keys, lead_camera.run_if(resource_exists::<Playback>)).chain().in_set(GameSet::Keys),
+                    (answer_menus, end_chase, run_time).chain().in_set(GameSet::Answer),
+                ),
+            )
             .add_systems(Startup, begin_title)
             .add_systems(
                 FixedUpdate,
@@ -58,6 +67,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.autopilot = screen != Screen::Playing || player.always_autopilot;
     player.follower.reset();
     player.gaze = Gaze::default();
+    player.orbit = Orbit::default();
     player.flown = Flown::default();
     player.assist = None;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
@@ -67,7 +77,7 @@ pub fn begin(world: &mut World, screen: Screen) {
 /// Puts the scene of a screen into the session, with its seed, and has its models made if it is another one than before.
 fn choose_scene(world: &mut World, screen: Screen) {
     let Some(catalogue) = world.get_resource::<Catalogue>().cloned() else { return };
-    let choice = world.resource::<PlayerState>().choice;
+    let PlayerState { choice, free, .. } = *world.resource::<PlayerState>();
     let watched = world.get_resource::<Watched>().map(|watched| watched.0.clone()).filter(|_| screen == Screen::Playing);
     let mut session = world.resource_mut::<Session>();
     let before = (session.scene.name.clone(), session.scene.fingerprint);
@@ -80,7 +90,7 @@ fn choose_scene(world: &mut World, screen: Screen) {
             (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
         }
         (None, Screen::Playing) => {
-            session.scene = catalogue.scene(choice).clone();
+            session.scene = catalogue.scene(choice, free).clone();
             if !session.seed_stays {
                 session.seed += 1;
             }
@@ -90,6 +100,19 @@ fn choose_scene(world: &mut World, screen: Screen) {
     let is_other = before != (session.scene.name.clone(), session.scene.fingerprint);
     if is_other && world.contains_resource::<Staged>() {
         restage(world);
+    }
+}
+
+/// In a replay the mouse and the keys that otherwise fly lead the camera.
+fn lead_camera(hands: PlayerInput, real: Res<Time<Real>>, mut turn: ResMut<MouseTurn>, mut player: ResMut<PlayerState>) {
+    /// By the keys, in radians a second, and the logarithm of the distance a second.
+    const RATES: (f64, f64) = (1.2, 1.5);
+    let (stick, seconds) = (hands.stick(), real.delta_secs_f64());
+    let mouse = std::mem::take(&mut turn.0);
+    let keys = glam::DVec2::new(stick.turn.x, stick.turn.y) * (RATES.0 * seconds);
+    player.orbit.moved(mouse + keys, (stick.thrust.z * RATES.1 * seconds).exp());
+    if hands.holds(Action::LookAtTarget) {
+        player.orbit = Orbit::default();
     }
 }
 
@@ -119,6 +142,14 @@ fn read_keys(
     let moved = [(KeyCode::ArrowDown, 1), (KeyCode::ArrowUp, choices - 1)].into_iter().find(|(key, _)| hands.keys.just_pressed(*key));
     if let (Screen::Title, Some((_, by))) = (screen.get(), moved) {
         actions.write(MenuAction::Choose((player.choice + by) % choices));
+    }
+    if let (Screen::Title, Some(missions), true) = (screen.get(), &missions, player.choice + 1 == choices) {
+        let scenes = missions.free.len();
+        let turned =
+            [(KeyCode::ArrowRight, 1), (KeyCode::ArrowLeft, scenes - 1)].into_iter().find(|(key, _)| hands.keys.just_pressed(*key));
+        if let Some((_, by)) = turned {
+            actions.write(MenuAction::Scene((player.free + by) % scenes));
+        }
     }
     match screen.get() {
         Screen::Title if enter => _ = actions.write(MenuAction::Start),
@@ -160,6 +191,7 @@ fn answer_menus(world: &mut World) {
         match action {
             MenuAction::Quit => _ = world.write_message(AppExit::Success),
             MenuAction::Choose(choice) => world.resource_mut::<PlayerState>().choice = choice,
+            MenuAction::Scene(free) => world.resource_mut::<PlayerState>().free = free,
             MenuAction::Level(difficulty) => world.resource_mut::<Session>().difficulty = difficulty,
             MenuAction::Next => {
                 let count = world.get_resource::<Catalogue>().map_or(1, Catalogue::len);
@@ -205,12 +237,12 @@ fn goes_on(chase: Option<Res<Chase>>, screen: Res<State<Screen>>) -> bool {
 fn run_time(
     screen: Res<State<Screen>>,
     next: Res<NextState<Screen>>,
-    session: Res<Session>,
+    (session, slowing): (Res<Session>, Res<Slowing>),
     mut time: ResMut<Time<Virtual>>,
     mut fixed: ResMut<Time<Fixed>>,
 ) {
     let clock = &session.config.clock;
-    let step = clock.step / clock.pace;
+    let step = clock.step / (clock.pace * slowing.0);
     fixed.set_timestep_seconds(step);
     time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
     let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
@@ -228,7 +260,7 @@ fn note_pilot(mut player: ResMut<PlayerState>) {
 fn move_hands(
     input: PlayerInput,
     clock: Res<Clock>,
-    session: Res<Session>,
+    (session, slowing): (Res<Session>, Res<Slowing>),
     player: Res<PlayerState>,
     mut turn: ResMut<MouseTurn>,
     mut hands: ResMut<Hands>,
@@ -244,7 +276,7 @@ fn move_hands(
         autopilot: player.autopilot,
         looking: player.looking,
         fire: input.holds(Action::Fire),
-        pace: session.config.clock.pace,
+        pace: session.config.clock.pace * slowing.0,
         ..Hands::holding(&stick)
     };
 }

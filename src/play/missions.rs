@@ -11,22 +11,24 @@ use crate::play::records::{Best, Records};
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::scene::crew::Crew;
-use crate::scene::mission::{Mission, ScoreClock};
+use crate::scene::mission::{Mission, ScoredBy};
 use crate::scene::{self, Scene};
 use crate::sim::replay::{Playback, Replay, ReplayLog};
-use crate::sim::{Fleet, History, ShipMotion, outcome};
+use crate::sim::{Fleet, Fuel, History, ShipMotion, outcome};
 
 /// The missions in the order in which they are shown, and the scene that the game was started with.
 #[derive(Resource, Clone, Debug)]
 pub struct Catalogue {
     /// Their scenes.
     pub missions: Vec<Scene>,
-    /// What is behind the title, and flown freely.
+    /// What is behind the title.
     pub home: Scene,
+    /// What is flown freely; the home scene first.
+    pub free: Vec<Scene>,
 }
 
 impl Catalogue {
-    /// Reads `assets/missions`; missions that are wrong are left out and said.
+    /// Reads `assets/missions` and `assets/scenes`; those that are wrong are left out and said.
     pub fn read(home: Scene) -> (Catalogue, Vec<String>) {
         let (mut missions, mut wrong) = (Vec::new(), Vec::new());
         for name in scene::mission_names() {
@@ -36,17 +38,25 @@ impl Catalogue {
                 Err(error) => wrong.push(error.to_string()),
             }
         }
-        (Catalogue { missions, home }, wrong)
+        let mut free = vec![home.clone()];
+        for name in scene::names().into_iter().filter(|name| *name != home.name) {
+            match scene::load(&name).map(Scene::with_a_ship) {
+                Ok(scene) if scene.ships.is_empty() => (),
+                Ok(scene) => free.push(scene),
+                Err(error) => wrong.push(error.to_string()),
+            }
+        }
+        (Catalogue { missions, home, free }, wrong)
     }
 
-    /// The scene of a choice: a mission, or past the last the home scene.
-    pub fn scene(&self, choice: usize) -> &Scene {
-        self.missions.get(choice).unwrap_or(&self.home)
+    /// The scene of a choice: a mission, or past the last the one chosen for free flight.
+    pub fn scene(&self, choice: usize, free: usize) -> &Scene {
+        self.missions.get(choice).or_else(|| self.free.get(free)).unwrap_or(&self.home)
     }
 
     /// The scene of that name.
     pub fn find(&self, name: &str) -> Option<&Scene> {
-        self.missions.iter().chain([&self.home]).find(|scene| scene.name == name)
+        self.missions.iter().chain(&self.free).find(|scene| scene.name == name)
     }
 
     /// How many choices there are.
@@ -54,7 +64,7 @@ impl Catalogue {
         self.missions.len() + 1
     }
 
-    /// Never: the home scene is always there.
+    /// Never: free flight is always there.
     pub fn is_empty(&self) -> bool {
         false
     }
@@ -123,7 +133,7 @@ pub fn begin_log(world: &mut World, screen: Screen) {
 }
 
 /// The worldline of nothing.
-fn nobody() -> History {
+pub(in crate::play) fn nobody() -> History {
     let place = glam::DVec3::new(1e3, 0.0, 0.0);
     let mut history = History::new(0.0, &crate::spacetime::matter::ShipState::new(place, glam::DVec3::ZERO));
     history.begins(f64::INFINITY);
@@ -181,10 +191,11 @@ fn keep_score(world: &mut World) {
 
 /// The score of a won flight.
 fn score(world: &World, session: &Session, mission: &Arc<Mission>, time: f64) -> Best {
-    let own = world.resource::<Fleet>().0.get(session.player()).and_then(|&ship| world.get::<ShipMotion>(ship));
+    let own = world.resource::<Fleet>().0.get(session.player()).copied();
     let score = match mission.clock {
-        ScoreClock::Far => time,
-        ScoreClock::Own => own.map_or(time, |motion| motion.0.proper_time),
+        ScoredBy::Far => time,
+        ScoredBy::Own => own.and_then(|own| world.get::<ShipMotion>(own)).map_or(time, |motion| motion.0.proper_time),
+        ScoredBy::Fuel => own.and_then(|own| world.get::<Fuel>(own)).map_or(0.0, Fuel::spent),
     };
     Best { score, stars: mission.levels[session.difficulty as usize].stars_at(score) }
 }

@@ -12,6 +12,7 @@ pub mod input;
 pub mod menus;
 pub mod missions;
 pub mod overlay;
+pub mod pace;
 pub mod picture;
 pub mod player_state;
 pub mod records;
@@ -47,7 +48,7 @@ pub struct PlayArgs {
     #[arg(long)]
     pub at_once: bool,
     /// Shows the flight of a replay; --scene is then the file of a mission of your own.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["seed", "difficulty", "headless"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["seed", "difficulty"])]
     pub replay: Option<PathBuf>,
     /// The autopilot flies the player's ship.
     #[arg(long)]
@@ -139,6 +140,10 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         Err(error) => return fail(&error, 2),
     };
     session.difficulty = args.difficulty.unwrap_or_default();
+    if let Some(replay) = &replay {
+        session.config = replay.config(&session.config);
+        (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
+    }
     let without_window = args.headless || !has_display();
     if without_window && !args.headless {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
@@ -167,6 +172,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         frames: args.frames.unwrap_or(demonstration::FRAMES),
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),
+        replay,
     };
     warn_on_stderr();
     match demonstration::fly(&gpu, &session, &flight) {

@@ -1,5 +1,6 @@
 //! The player at the controls.
 
+use crate::play::camera::orbit::Orbit;
 use crate::play::camera::{CameraView, Follower};
 use crate::play::input::gaze::Gaze;
 use crate::scene::GameConfig;
@@ -32,6 +33,10 @@ pub struct PlayerState {
     pub looking: bool,
     /// Which mission is chosen on the title.
     pub choice: usize,
+    /// Which scene is chosen for free flight.
+    pub free: usize,
+    /// The free camera of a replay.
+    pub orbit: Orbit,
     /// How far the camera has turned to the target.
     pub gaze: Gaze,
 }

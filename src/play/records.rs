@@ -19,7 +19,7 @@ pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Best {
-    /// Time on the mission's clock, in r_s/c.
+    /// What the mission scores: r_s/c, or c of Δv.
     pub score: f64,
     /// One to three.
     pub stars: u32,

@@ -21,7 +21,7 @@ pub enum SessionError {
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// There is nobody to fly.
-    #[error("scene {0}: the game needs at least one [[ship]]; `shot` draws scenes without ships")]
+    #[error("scene {0}: the game needs at least one [[ship]] beside a planet; `shot` draws the scene without")]
     NoShip(String),
 }
 
@@ -47,7 +47,7 @@ impl Session {
     pub fn load(config: Option<&Path>, scene: Option<&str>, seed: Option<u64>) -> Result<Session, SessionError> {
         let config_file = scene::config::file(config);
         let config = config_file.as_deref().map(scene::config::load).transpose()?.unwrap_or_default();
-        let scene = scene::load(scene.unwrap_or(SCENE))?;
+        let scene = scene::load(scene.unwrap_or(SCENE))?.with_a_ship();
         if scene.ships.is_empty() {
             return Err(SessionError::NoShip(scene.name));
         }

@@ -13,6 +13,7 @@ pub mod crew;
 pub mod disk;
 pub mod document;
 pub mod expect;
+mod free_flight;
 pub mod lighting;
 mod load;
 pub mod mission;

@@ -13,7 +13,7 @@
 //! attitude = [1.0, 0.0, 0.0, 0.0]  # w, x, y, z: body to rain axes through the pure boost of the momentum; forward is −z
 //! ai = "none"                      # or "flee", "pursue"
 //! target = "hunter"                # whom the AI flees or pursues; the first other ship if absent
-//! sees = "now"                     # what the AI knows of others: "now", or "light", only what light has brought it
+//! sees = "now"                     # what the AI knows of others: "now"; "light", what light has brought; "second-image", older light alone
 //! thrust = [{ from = 0.0, until = 10.0, acceleration = [0.0, 0.0, -0.05] }]  # body axes, c²/r_s; with ai = "none" only
 //! fuel = 2.0                       # Δv in c (∫ |proper acceleration| dτ); if absent the game's for player and AI, for others without end
 //! max_thrust = 0.06                # c²/r_s, for AI and player; the game's value if absent
@@ -58,13 +58,15 @@ pub enum Ai {
 
 /// By what a pilot knows other ships.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Sees {
     /// Where they are, a reaction delay ago.
     #[default]
     Now,
     /// By the light of their primary image, a reaction delay ago.
     Light,
+    /// By the light of their second image alone, which went round the hole's far side and is older.
+    SecondImage,
 }
 
 /// A stretch of constant thrust.

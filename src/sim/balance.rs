@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
-use super::check::{CommandError, outcome_name};
+use super::check::{CommandError, files, outcome_name};
 use super::rules::Outcome;
 use super::run::{FlightReport, RunRequest, run};
 use crate::scene::crew::Crew;
@@ -16,7 +16,7 @@ use crate::scene::{self, GameConfig, Scene};
 /// balance.md.
 #[derive(clap::Args, Clone, Debug)]
 pub struct BalanceArgs {
-    /// Names or files of missions [default: all of assets/missions].
+    /// Names, files or folders of missions [default: all of assets/missions].
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     pub missions: Vec<String>,
     /// Flights of each.
@@ -78,7 +78,7 @@ pub fn wins<'a>(rows: impl Iterator<Item = &'a BalanceRow>) -> f64 {
 pub fn run_command(args: &BalanceArgs) -> Result<(), CommandError> {
     let config = scene::config::find(args.config.as_deref())?;
     let names = if args.missions.is_empty() { scene::mission_names() } else { args.missions.clone() };
-    let missions = names.iter().map(|name| mission(name)).collect::<Result<Vec<_>, _>>()?;
+    let missions = names.iter().map(|name| missions(name)).collect::<Result<Vec<_>, _>>()?.concat();
     std::fs::create_dir_all(&args.output).map_err(|error| named(&args.output, error))?;
     let flights = missions.len() as u64 * 9 * u64::from(args.seeds);
     let bar = indicatif::ProgressBar::new(flights);
@@ -97,6 +97,14 @@ fn seeds(args: &BalanceArgs) -> Result<std::ops::Range<u64>, CommandError> {
     let BalanceArgs { first, seeds, .. } = *args;
     let last = first.checked_add(u64::from(seeds));
     last.map(|last| first..last).ok_or_else(|| CommandError::Argument(format!("--first {first} and --seeds {seeds} go past the last seed")))
+}
+
+/// The mission of that name, or those of a folder.
+fn missions(name: &str) -> Result<Vec<Scene>, CommandError> {
+    if !Path::new(name).is_dir() {
+        return Ok(vec![mission(name)?]);
+    }
+    files(Path::new(name))?.iter().map(|file| mission(&file.to_string_lossy())).collect()
 }
 
 /// A scene that is a mission.
@@ -135,9 +143,9 @@ fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String 
     let first = if args.first == 0 { String::new() } else { format!(" --first {}", args.first) };
     let mut text = format!(
         "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
-         assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Times are medians of won flights on the mission's clock, in \
-         r_s/c.\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
-         time naive | time expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
+         assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Scores are medians of won flights: \
+         r_s/c on\nthe mission's clock, or c of Δv for \"Hunted\".\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
+         score naive | score expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
     );
     for (index, scene) in missions.iter().enumerate() {
         let Some(mission) = &scene.mission else { continue };
@@ -158,7 +166,7 @@ fn middle<'a>(rows: impl Iterator<Item = &'a BalanceRow>, mission: &Mission) -> 
     let won = rows.filter(|row| row.report.outcome.is_some_and(Outcome::is_won));
     let mut scores: Vec<f64> = won.map(|row| row.report.score(mission.clock)).collect();
     scores.sort_by(f64::total_cmp);
-    scores.get(scores.len() / 2).map_or("–".into(), |score| format!("{score:.0}"))
+    scores.get(scores.len() / 2).map_or("–".into(), |score| if *score < 20.0 { format!("{score:.1}") } else { format!("{score:.0}") })
 }
 
 /// How those end that are not won, the most frequent first.

@@ -4,6 +4,7 @@
 //! One fixed step is the schedule `FixedUpdate` with the sets [`SimSet`] in their order. The same scene, seed and inputs give the same
 //! bits: ships go in scene order, chance comes from one seeded generator, time from [`Clock`] alone.
 
+pub mod agent;
 pub mod assist;
 pub mod balance;
 pub mod bolts;

@@ -300,7 +300,8 @@ fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
             toml::Value::String(word) => Value::Word(word),
             _ => return Err(format!("{path} has the wrong type")),
         };
-        Ok((path, setting.check(value)?))
+        let value = setting.check(value).map_err(|problem| format!("{path}: {problem}"))?;
+        Ok((path, value))
     };
     table.into_iter().map(one).collect()
 }

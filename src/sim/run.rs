@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use crate::scene::crew::Crew;
-use crate::scene::mission::{Difficulty, ScoreClock};
+use crate::scene::mission::{Difficulty, ScoredBy};
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::{angular_momentum, energy};
 
@@ -36,6 +36,8 @@ pub struct FlightReport {
     pub proper_time: f64,
     /// What that ship has left of its Δv, in c; infinite for one without limits.
     pub fuel: f64,
+    /// The Δv that ship has spent, in c.
+    pub spent: f64,
     /// The least and the greatest radius that ship came to, in r_s.
     pub radius: [f64; 2],
     /// The largest change of any ship's energy and angular momentum per mass from its first value, in 1 and r_s c: 0 for what coasts, but
@@ -48,11 +50,12 @@ pub struct FlightReport {
 }
 
 impl FlightReport {
-    /// What the mission scores: the time at the end on its clock, in r_s/c.
-    pub fn score(&self, clock: ScoreClock) -> f64 {
+    /// What the mission scores, in r_s/c or c of Δv.
+    pub fn score(&self, clock: ScoredBy) -> f64 {
         match clock {
-            ScoreClock::Far => self.time,
-            ScoreClock::Own => self.proper_time,
+            ScoredBy::Far => self.time,
+            ScoredBy::Own => self.proper_time,
+            ScoredBy::Fuel => self.spent,
         }
     }
 }
@@ -129,6 +132,7 @@ impl FlightWatch {
             time: clock.time,
             proper_time: own.and_then(|own| world.get::<ShipMotion>(own)).map_or(0.0, |motion| motion.0.proper_time),
             fuel: own.and_then(|own| world.get::<Fuel>(own)).map_or(f64::INFINITY, |fuel| fuel.left),
+            spent: own.and_then(|own| world.get::<Fuel>(own)).map_or(0.0, Fuel::spent),
             radius: self.radius,
             drift: self.drift,
             steps: clock.tick,

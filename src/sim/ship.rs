@@ -35,6 +35,13 @@ pub struct Fuel {
     pub capacity: f64,
 }
 
+impl Fuel {
+    /// The Δv spent so far, in c; 0 where the tanks have no bottom.
+    pub fn spent(&self) -> f64 {
+        if self.capacity.is_finite() { self.capacity - self.left } else { 0.0 }
+    }
+}
+
 /// What the ship can do.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Engine {

@@ -59,7 +59,7 @@ impl SimulateRequest {
             return Err(SimulateError::Input(format!("--until {until} must be from 0 to 1e9 r_s/c")));
         }
         if !(every > 0.0 && every.is_finite() && until / every <= MAX_ROWS) {
-            return Err(SimulateError::Input(format!("--every {every} must be above 0 and give at most {MAX_ROWS:e} rows")));
+            return Err(SimulateError::Input(format!("--every {every:?} must be above 0 and give at most {MAX_ROWS:e} rows")));
         }
         Ok(until)
     }

@@ -1,6 +1,7 @@
 //! Where the player's camera is: behind the ship or in its cockpit, following its turns smoothly.
 
 pub mod director;
+pub mod orbit;
 
 use crate::spacetime::Observer;
 use glam::{DQuat, DVec3};

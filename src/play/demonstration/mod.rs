@@ -21,10 +21,13 @@ use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
 use crate::sim::app_of;
+use crate::sim::bolts::Bolts;
+use crate::sim::replay::Replay;
 use crate::sim::{Clock, Fleet, History, outcome};
 
 use crate::play::camera::director::{Cast, Director};
 use crate::play::demonstration::sheet::Sheet;
+use crate::play::missions::nobody;
 use crate::play::session::Session;
 
 /// Frames, unless asked otherwise.
@@ -45,6 +48,8 @@ pub struct DemonstrationRequest {
     pub size: [u32; 2],
     /// Where they go.
     pub folder: PathBuf,
+    /// The flight that is shown; without it the autopilot's.
+    pub replay: Option<Replay>,
 }
 
 /// Why the flight was not drawn.
@@ -100,9 +105,14 @@ impl std::fmt::Display for Report {
 
 /// Plays the chase without graphics, then draws it.
 pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Result<Report, FlightError> {
-    let (world, span, end) = play(session);
+    let (world, span, end) = play(session, flight.replay.as_ref());
     let names: Vec<Entity> = world.world().resource::<Fleet>().0.clone();
-    let histories: Vec<&History> = names.iter().filter_map(|&ship| world.world().get::<History>(ship)).collect();
+    let mut histories: Vec<&History> = names.iter().filter_map(|&ship| world.world().get::<History>(ship)).collect();
+    let cast = cast(session, &histories);
+    // No ghost flies along; bolts come after it.
+    let nobody = nobody();
+    histories.push(&nobody);
+    histories.extend(world.world().resource::<Bolts>().0.iter().map(|bolt| &bolt.history));
 
     let frames_folder = flight.folder.join("frames");
     empty_folder(&frames_folder)?;
@@ -113,7 +123,6 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     settings.own_ship = Some(session.player());
     settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
-    let cast = cast(session, &histories);
 
     let sheet_file = flight.folder.join("contact-sheet.png");
     let writer = Writer::start(frames_folder.clone(), sheet_file.clone(), flight.size, flight.frames);
@@ -173,9 +182,14 @@ fn progress(frames: u32) -> ProgressBar {
 }
 
 /// Plays the chase to its end; the app, the span to show, and how it ended.
-fn play(session: &Session) -> (App, [f64; 2], String) {
+fn play(session: &Session, replay: Option<&Replay>) -> (App, [f64; 2], String) {
     let config = session.effective();
-    let mut app = app_of(&session.scene, &config, session.seed);
+    let mut app = match replay {
+        Some(replay) => replay.app(&session.scene, &session.config),
+        None => app_of(&session.scene, &config, session.seed),
+    };
+    // Of a replay all is shown.
+    let longest = if replay.is_some() { f64::INFINITY } else { SPAN.1 };
     let limit = session.scene.rules(&config).time_limit;
     loop {
         app.world_mut().run_schedule(FixedUpdate);
@@ -184,7 +198,7 @@ fn play(session: &Session) -> (App, [f64; 2], String) {
         let until = decided.map_or(limit, |(_, at)| at + AFTERWARDS).max(SPAN.0);
         if now >= until {
             let end = decided.map_or("undecided".to_owned(), |(outcome, at)| format!("{outcome} at T = {at:.1}"));
-            return (app, [(now - SPAN.1).max(0.0), now], end);
+            return (app, [(now - longest).max(0.0), now], end);
         }
     }
 }

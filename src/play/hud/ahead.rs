@@ -37,13 +37,25 @@ pub fn shot(camera: &Observer, state: &ShipState) -> AheadLine {
     seen(camera, places(bolt, SHOT))
 }
 
-/// Where and when two ships that coast come nearest: the distance in r_s, and in how many r_s/c of T. None if they part from now on.
-pub fn closest(own: &ShipState, target: &ShipState) -> Option<(f64, f64)> {
+/// Where and when two ships that coast come nearest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// How near, in r_s.
+    pub distance: f64,
+    /// In how many r_s/c of T.
+    pub ahead: f64,
+    /// Where one's own ship and the target are then, in camera axes; None where that place is not seen.
+    pub directions: [Option<DVec3>; 2],
+}
+
+/// The nearest approach of two ships that coast; None if they part from now on.
+pub fn closest(camera: &Observer, own: &ShipState, target: &ShipState) -> Option<Approach> {
     let [a, b] = [own, target].map(|state| places(Point::from(state), COURSE));
     let step = COURSE.0 / COURSE.1 as f64;
     let distances = a.iter().zip(&b).map(|(a, b)| a.distance(*b));
-    let (index, nearest) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
-    (index > 0).then_some((nearest, (index as f64 + 1.0) * step))
+    let (index, distance) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let directions = [a[index], b[index]].map(|place| seen_at(camera, place));
+    (index > 0).then_some(Approach { distance, ahead: (index as f64 + 1.0) * step, directions })
 }
 
 /// The places of a free fall, from the end of the first piece on.
@@ -60,7 +72,12 @@ fn places(start: Point, (span, pieces): (f64, usize)) -> Vec<DVec3> {
 
 /// Each place as a camera sees what is held there.
 fn seen(camera: &Observer, places: Vec<DVec3>) -> AheadLine {
-    places.into_iter().map(|place| (place.length() > 1.0).then(|| direction(camera, place, Order::ALL[0], 0.0)).flatten()).collect()
+    places.into_iter().map(|place| seen_at(camera, place)).collect()
+}
+
+/// Where a camera sees what is held at a place.
+fn seen_at(camera: &Observer, place: DVec3) -> Option<DVec3> {
+    (place.length() > 1.0).then(|| direction(camera, place, Order::ALL[0], 0.0)).flatten()
 }
 
 #[cfg(test)]
@@ -75,7 +92,9 @@ mod tests {
         let mut other = circular_orbit(8.0, std::f64::consts::FRAC_PI_4).expect("a circle");
         let rain = other.position / other.position.length() * (other.momentum.dot(other.position) / other.position.length());
         other.momentum = 2.0 * rain - other.momentum;
-        let (nearest, when) = closest(&own, &other).expect("they meet");
+        let camera = Observer { position: own.position, momentum: own.momentum, attitude: own.attitude, field_of_view: 1.0 };
+        let Approach { distance: nearest, ahead: when, directions } = closest(&camera, &own, &other).expect("they meet");
+        assert!(directions[0].expect("seen").angle_between(directions[1].expect("seen")) < 0.3);
         let sixteenth = std::f64::consts::FRAC_PI_8 / crate::spacetime::orbit::orbital_frequency(8.0);
         assert!(nearest < 0.5 && (when - sixteenth).abs() < 1.0, "{nearest} {when} {sixteenth}");
     }

@@ -16,13 +16,22 @@ const HEAVY: f64 = 15.0;
 /// Nearer to the hole than this, in r_s, the distance is drawn in another colour: the innermost stable orbit.
 const NEAR: f64 = 3.0;
 
-/// Lays out all dials in `rect`; `replayed`: nobody flies, a replay is shown.
-pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, replayed: bool) -> Vec<TextBox> {
+/// How the flight goes on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Going {
+    /// Nobody flies, a replay is shown.
+    pub replayed: bool,
+    /// The share of the chosen pace.
+    pub slowing: f64,
+}
+
+/// Lays out all dials in `rect`.
+pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> Vec<TextBox> {
     let scale = Scale::of(session.config.hole.mass_solar);
     let rect = rect.shrink(MARGIN);
     let speed = speed(painter, rect.left_bottom(), &scale, read);
     // Above the speed: below the middle it would lie on one's own ship.
-    let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, replayed);
+    let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, going);
     let mut dials = vec![clocks(painter, rect.left_top(), &scale, read), distance(painter, rect.right_top(), &scale, read), speed, state];
     dials.extend(read.target.map(|read| target(painter, rect.right_bottom(), &scale, &read)));
     dials
@@ -84,9 +93,9 @@ fn target(painter: &Painter, at: Pos2, scale: &Scale, read: &Bearing) -> TextBox
 }
 
 /// Who flies, where one looks from, the pace, and what is in the tanks, over a bar of it.
-fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, read: &Instruments, replayed: bool) -> TextBox {
+fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> TextBox {
     let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
-    let pilot = match (replayed, player.autopilot) {
+    let pilot = match (going.replayed, player.autopilot) {
         (true, _) => "REPLAY",
         (false, true) => "AUTOPILOT",
         (false, false) => assist,
@@ -98,9 +107,10 @@ fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, r
     };
     let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     let [colour, filled] = if read.fuel.is_some_and(|share| share < LOW_FUEL) { [ALARM; 2] } else { [TEXT, OWN] };
+    let slowed = if going.slowing < 0.98 { ", slowed" } else { "" };
     let lines = [
         (&*format!("{pilot}  ·  {view}"), 12.0, TEXT),
-        (&*format!("pace {:.2} r_s/c a second", session.config.clock.pace), 12.0, TEXT),
+        (&*format!("pace {:.2} r_s/c a second{slowed}", session.config.clock.pace * going.slowing), 12.0, TEXT),
         (&*tanks, 12.0, colour),
     ];
     text_box(painter, at, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled)

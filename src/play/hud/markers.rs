@@ -92,6 +92,15 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
             .collect();
         dotted(painter, &points, colour);
     }
+    if let Some(near) = panel.closest {
+        for (direction, colour) in near.directions.into_iter().zip(colours) {
+            if let Some(MarkerPosition::On(at)) = direction.map(find) {
+                let at = point(at);
+                rimmed(painter, Stroke::new(1.6, colour), |stroke| Shape::circle_stroke(at, 4.0, stroke));
+                board.takes(at, 4.0);
+            }
+        }
+    }
     let [first, second] = panel.images.map(|image| image.map(|image| (find(image.direction), image.age)));
     let truth = panel.truth.map(find);
     let heading = panel.heading.map(find);

@@ -21,11 +21,13 @@ use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
 use crate::play::camera::CameraView;
+use crate::play::hud::dials::Going;
 use crate::play::hud::instruments::{Countdown, Scale, hold_words};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::Screen;
+use crate::play::pace::Slowing;
 use crate::play::picture::Staged;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
@@ -62,7 +64,7 @@ fn draw(
     panel: Res<Panel>,
     (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
     (mission, progress, playback): Flown,
-    mut slow: Local<goals::Slow>,
+    (slowing, mut slow): (Res<Slowing>, Local<goals::Slow>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -94,7 +96,7 @@ fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read, playback.is_some());
+    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read, Going { replayed: playback.is_some(), slowing: slowing.0 });
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         let holds = match (&mission, &progress) {
@@ -163,7 +165,7 @@ const ABOVE_TARGET: f32 = 130.0;
 /// Bolts left, and how near one comes.
 fn extra(panel: &Panel) -> Option<String> {
     let bolts = panel.bolts.map(|left| format!("{left} bolts"));
-    let near = panel.closest.map(|(distance, when)| format!("nearest {distance:.1} r_s in {when:.0} r_s/c"));
+    let near = panel.closest.map(|near| format!("nearest {:.1} r_s in {:.0} r_s/c", near.distance, near.ahead));
     let words: Vec<String> = bolts.into_iter().chain(near).collect();
     (!words.is_empty()).then(|| words.join("\n"))
 }
@@ -247,7 +249,8 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut text_boxes = dials::lay(painter, rect, &session, &PlayerState::default(), &read, false);
+                let mut text_boxes =
+                    dials::lay(painter, rect, &session, &PlayerState::default(), &read, Going { replayed: false, slowing: 0.5 });
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);
                 for (k, text_box) in text_boxes.iter().enumerate() {

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use crate::play::camera::state_of;
-use crate::play::hud::ahead::{self, AheadLine};
+use crate::play::hud::ahead::{self, AheadLine, Approach};
 use crate::play::hud::instruments::Instruments;
 use crate::play::picture::CurrentShot;
 use crate::play::picture::now::Now;
@@ -39,8 +39,8 @@ pub struct Panel {
     pub gate: Option<(glam::DVec3, usize)>,
     /// One's own course, that of the target, and the way of a bolt fired now, if there are bolts.
     pub lines: [AheadLine; 3],
-    /// How near one comes to the target by falling on, in r_s, and in how many r_s/c.
-    pub closest: Option<(f64, f64)>,
+    /// How near one comes to the target by falling on.
+    pub closest: Option<Approach>,
     /// Bolts left, in a mission that has some.
     pub bolts: Option<u32>,
 }
@@ -86,7 +86,7 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
         aside: player.gaze.aside(),
         gate,
         lines,
-        closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&state, &there)),
+        closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),
         bolts: gun.map(|gun| gun.left),
     };
 }

@@ -7,7 +7,8 @@ use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::Difficulty;
-use crate::scene::mission::ScoreClock;
+use crate::scene::mission::ScoredBy;
+use crate::scene::ship::Ai;
 use crate::sim::replay::Playback;
 use crate::sim::{Chase, Clock, Outcome};
 
@@ -51,7 +52,7 @@ fn draw(
         Screen::Playing => (),
         Screen::Title => card(context, "title", TITLE, |ui| {
             if let Some(catalogue) = &catalogue {
-                title(ui, &mut session, &Title { catalogue, records: &records, choice: player.choice }, &mut ask);
+                title(ui, &mut session, &Title { catalogue, records: &records, choice: player.choice, free: player.free }, &mut ask);
             }
         }),
         // At the side: the pointer rests in the middle, where a button would be pressed by mistake.
@@ -127,6 +128,7 @@ struct Title<'a> {
     catalogue: &'a Catalogue,
     records: &'a Records,
     choice: usize,
+    free: usize,
 }
 
 /// Width of the list of missions, in points.
@@ -169,7 +171,7 @@ fn list(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(Menu
     });
     ui.add_space(4.0);
     for choice in 0..title.catalogue.len() {
-        let scene = title.catalogue.scene(choice);
+        let scene = title.catalogue.scene(choice, title.free);
         let words = match &scene.mission {
             Some(mission) if choice < title.catalogue.missions.len() => {
                 let best = title.records.best(&scene.name, session.difficulty);
@@ -195,7 +197,7 @@ fn stars(won: u32) -> String {
 
 /// What the chosen mission is about, and the way into it.
 fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    let scene = title.catalogue.scene(title.choice);
+    let scene = title.catalogue.scene(title.choice, title.free);
     match &scene.mission {
         Some(mission) => {
             ui.label(RichText::new(&mission.title).size(22.0).color(PALE));
@@ -204,17 +206,40 @@ fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(Men
             ui.label(RichText::new(&mission.brief).size(13.0).color(PALE));
             ui.add_space(6.0);
             let scale = Scale::of(session.config.hole.mass_solar);
-            let clock = if mission.clock == ScoreClock::Far { "the far clock" } else { "your own clock" };
+            let clock = match mission.clock {
+                ScoredBy::Far => "Best on the far clock",
+                ScoredBy::Own => "Best on your own clock",
+                ScoredBy::Fuel => "Least Δv",
+            };
+            let unit = unit(mission.clock);
             let best = title.records.best(&scene.name, session.difficulty);
-            let best = best.map_or("not yet won".to_owned(), |best| format!("{:.1} r_s/c ({})", best.score, scale.span(best.score)));
-            ui.label(RichText::new(format!("Best on {clock}, {}: {best}", session.difficulty)).size(12.5).color(FAINT));
-            if let Some([three, two]) = mission.levels[session.difficulty as usize].stars.filter(|[_, two]| *two < mission.time_limit) {
-                ui.label(RichText::new(format!("★★★ by {three} r_s/c  ·  ★★☆ by {two} r_s/c")).size(12.5).color(FAINT));
+            let best = best.map_or("not yet won".to_owned(), |best| match mission.clock {
+                ScoredBy::Fuel => format!("{:.2} {unit}", best.score),
+                ScoredBy::Far | ScoredBy::Own => format!("{:.1} {unit} ({})", best.score, scale.span(best.score)),
+            });
+            ui.label(RichText::new(format!("{clock}, {}: {best}", session.difficulty)).size(12.5).color(FAINT));
+            if let Some([three, two]) = mission.levels[session.difficulty as usize].stars {
+                ui.label(RichText::new(format!("★★★ by {three} {unit}  ·  ★★☆ by {two} {unit}")).size(12.5).color(FAINT));
             }
         }
         None => {
             ui.label(RichText::new("Free flight").size(22.0).color(PALE));
-            ui.label(RichText::new(goal(session)).size(13.0).color(PALE));
+            ui.horizontal(|ui| {
+                let count = title.catalogue.free.len();
+                for (words, by) in [("◀", count - 1), ("▶", 1)] {
+                    if ui.button(RichText::new(words).size(16.0)).clicked() {
+                        ask(MenuAction::Scene((title.free + by) % count));
+                    }
+                }
+                let place = format!("{}  ({} of {count}, ← →)", scene.name, title.free + 1);
+                ui.label(RichText::new(place).size(14.0).color(TRUE));
+            });
+            let words = if scene.ships.iter().any(|ship| ship.ai == Ai::Flee) {
+                goal(session)
+            } else {
+                "Fly where you like: nothing is to be won.".into()
+            };
+            ui.label(RichText::new(words).size(13.0).color(PALE));
             ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
         }
     }
@@ -258,8 +283,12 @@ fn welcome(
         player.begun = player.hinted > HINTED;
     }
     // A mission says its goals by itself.
-    let goal = ((clock.time < SHOWN || !player.begun) && session.scene.mission.is_none()).then(|| goal(&session));
-    let hint = (!player.begun && playback.is_none()).then(|| hint(&session));
+    let has_quarry = session.scene.mission.is_none() && session.scene.ships.iter().any(|ship| ship.ai == Ai::Flee);
+    let goal = ((clock.time < SHOWN || !player.begun) && has_quarry).then(|| goal(&session));
+    let hint = match &playback {
+        Some(_) => (clock.time < SHOWN).then(|| camera_hint(&session)),
+        None => (!player.begun).then(|| hint(&session)),
+    };
     let words: Vec<String> = goal.into_iter().chain(hint).collect();
     if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
         *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
@@ -293,6 +322,20 @@ fn hint(session: &Session) -> String {
     let keys = format!("{thrust}  ·  {look}  ·  {pilot}");
     // A mission says by itself where to fly.
     if session.scene.mission.is_some() { keys } else { format!("{keys}  ·  fly to the dashed ring “now”") }
+}
+
+/// What leads the camera of a replay.
+fn camera_hint(session: &Session) -> String {
+    let keys = &session.config.controls;
+    let [near, far, look, slow, fast] =
+        [&keys.thrust_forward, &keys.thrust_back, &keys.look_at_target, &keys.slower, &keys.faster].map(|name| key(name));
+    let words = [
+        "mouse: round the ship".to_owned(),
+        format!("{near} {far}: nearer, farther"),
+        format!("{look}: back"),
+        format!("{slow} {fast}: pace"),
+    ];
+    words.map(|words| together(&words)).join("  ·  ")
 }
 
 /// The keys, as they are bound.
@@ -377,16 +420,25 @@ fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, 
 
 /// The stars and the score of a mission.
 fn score(ui: &mut Ui, session: &Session, last: &LastFlight) {
-    let Some(won) = last.won.filter(|_| session.scene.mission.is_some()) else { return };
+    let Some((won, mission)) = last.won.zip(session.scene.mission.as_ref()) else { return };
+    let unit = unit(mission.clock);
     ui.label(RichText::new(stars(won.stars)).size(30.0).color(TRUE));
     let words = match (last.is_best, last.before) {
-        (true, Some(before)) => format!("{:.1} r_s/c: your best, before {:.1}", won.score, before.score),
-        (true, None) => format!("{:.1} r_s/c: your first", won.score),
-        (false, Some(before)) => format!("{:.1} r_s/c, your best {:.1}", won.score, before.score),
-        (false, None) => format!("{:.1} r_s/c", won.score),
+        (true, Some(before)) => format!("{:.1} {unit}: your best, before {:.1}", won.score, before.score),
+        (true, None) => format!("{:.1} {unit}: your first", won.score),
+        (false, Some(before)) => format!("{:.1} {unit}, your best {:.1}", won.score, before.score),
+        (false, None) => format!("{:.1} {unit}", won.score),
     };
     ui.label(RichText::new(words).size(14.0).color(PALE));
     ui.add_space(8.0);
+}
+
+/// The unit of a score.
+fn unit(scored: ScoredBy) -> &'static str {
+    match scored {
+        ScoredBy::Far | ScoredBy::Own => "r_s/c",
+        ScoredBy::Fuel => "c of Δv",
+    }
 }
 
 /// What the result says of the autopilot, if it flew.
@@ -465,7 +517,7 @@ mod tests {
         crate::play::hud::paint::tests::on_canvas(INTERFACE, |painter, _| {
             // The first picture of an area only measures it.
             card(painter.ctx(), "title", TITLE, |ui| {
-                title(ui, &mut session, &Title { catalogue: &catalogue, records: &Records::default(), choice: 3 }, &mut |_| ());
+                title(ui, &mut session, &Title { catalogue: &catalogue, records: &Records::default(), choice: 3, free: 0 }, &mut |_| ());
                 height = ui.min_rect().height() + 2.0 * INSIDE;
             });
         });

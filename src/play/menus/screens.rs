@@ -36,6 +36,8 @@ pub enum MenuAction {
     Watch,
     /// This entry of the title's list: a mission, or the last for free flight.
     Choose(usize),
+    /// This scene for free flight.
+    Scene(usize),
     /// How hard it is to be.
     Level(Difficulty),
     /// Stop, or go on.

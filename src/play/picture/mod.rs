@@ -16,6 +16,7 @@ use crate::play::session::Session;
 use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
 use crate::render::settings::ANY_FILL;
 use crate::render::stage::{Stage, settings};
+use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
 use now::Now;
 use sight::{FrameCamera, ScreenContent, is_cut};
@@ -92,8 +93,9 @@ fn point_camera(
     let sought = now.target().filter(|_| (player.looking || watches) && sight == ScreenContent::Own);
     let facing = sought.and_then(|(_, target)| player.gaze.facing(&state, player.view, now.session.length(me), attitude, time, target));
     let attitude = player.gaze.turned(attitude, facing, seconds, video.reduced_motion);
+    let (attitude, zoom) = if playback.is_some() { (player.orbit.attitude(attitude), player.orbit.zoom()) } else { (attitude, 1.0) };
     shot.0 = Some(match (sight, now.target()) {
-        (ScreenContent::Own, _) => FrameCamera::own(me, &state, player.view, attitude, now.session.length(me), field_of_view),
+        (ScreenContent::Own, _) => FrameCamera::own(me, &state, player.view, attitude, now.session.length(me) * zoom, field_of_view),
         (ScreenContent::Caught, Some((caught, history))) => {
             FrameCamera::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
         }
@@ -133,7 +135,10 @@ fn make_frame(
 
 /// What the screen shows of the chase.
 fn sight(now: &Now, screen: Screen) -> ScreenContent {
-    ScreenContent::of(screen, now.chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome))
+    let outcome = now.chase.as_ref().and_then(|chase| chase.outcome).map(|(outcome, _)| outcome);
+    let by_holding =
+        now.mission.as_ref().and_then(|mission| mission.0.goals.last()).is_some_and(|goal| matches!(goal.task, GoalTask::Hold { .. }));
+    ScreenContent::of(screen, outcome, by_holding)
 }
 
 /// Width and height of the window in pixels, if it has an area: a minimised one has none.

@@ -23,11 +23,12 @@ pub enum ScreenContent {
 }
 
 impl ScreenContent {
-    /// What a screen shows, of a chase that is undecided or has this outcome.
-    pub fn of(screen: Screen, outcome: Option<Outcome>) -> ScreenContent {
+    /// What a screen shows, of a chase that is undecided or has this outcome. `by_holding`: its mission is done by holding a ship.
+    pub fn of(screen: Screen, outcome: Option<Outcome>, by_holding: bool) -> ScreenContent {
         match (screen, outcome) {
             (Screen::Title, _) => ScreenContent::Afar,
             (Screen::Result, Some(Outcome::Caught)) => ScreenContent::Caught,
+            (Screen::Result, Some(Outcome::Done)) if by_holding => ScreenContent::Caught,
             (Screen::Result, Some(_)) => ScreenContent::Afar,
             _ => ScreenContent::Own,
         }
@@ -95,12 +96,14 @@ mod tests {
 
     #[test]
     fn the_result_shows_what_it_tells_of() {
-        assert_eq!(ScreenContent::of(Screen::Title, None), ScreenContent::Afar);
-        assert_eq!(ScreenContent::of(Screen::Result, Some(Outcome::Caught)), ScreenContent::Caught);
+        assert_eq!(ScreenContent::of(Screen::Title, None, true), ScreenContent::Afar);
+        assert_eq!(ScreenContent::of(Screen::Result, Some(Outcome::Caught), false), ScreenContent::Caught);
         for lost in [Outcome::HunterLost, Outcome::QuarryLost, Outcome::TimeOut] {
-            assert_eq!(ScreenContent::of(Screen::Result, Some(lost)), ScreenContent::Afar);
+            assert_eq!(ScreenContent::of(Screen::Result, Some(lost), true), ScreenContent::Afar);
         }
-        assert_eq!(ScreenContent::of(Screen::Playing, Some(Outcome::HunterLost)), ScreenContent::Own);
-        assert_eq!(ScreenContent::of(Screen::Paused, None), ScreenContent::Own);
+        assert_eq!(ScreenContent::of(Screen::Playing, Some(Outcome::HunterLost), true), ScreenContent::Own);
+        let done = |by_holding| ScreenContent::of(Screen::Result, Some(Outcome::Done), by_holding);
+        assert_eq!([done(true), done(false)], [ScreenContent::Caught, ScreenContent::Afar]);
+        assert_eq!(ScreenContent::of(Screen::Paused, None, true), ScreenContent::Own);
     }
 }

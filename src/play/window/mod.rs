@@ -56,11 +56,18 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     };
     // Behind the title nothing is to be won.
     let home = if session.scene.mission.is_some() { scene::load(SCENE).unwrap_or(session.scene.clone()) } else { session.scene.clone() };
-    let (catalogue, wrong) = Catalogue::read(home);
+    let (mut catalogue, wrong) = Catalogue::read(home);
     for words in wrong {
         eprintln!("{words}");
     }
-    let choice = catalogue.missions.iter().position(|mission| mission.name == session.scene.name).unwrap_or(0);
+    // A mission of one's own joins the list.
+    if session.scene.mission.is_some() && !catalogue.missions.iter().any(|mission| mission.name == session.scene.name) {
+        catalogue.missions.push(session.scene.clone());
+    }
+    let chosen = catalogue.missions.iter().position(|mission| mission.name == session.scene.name);
+    // Another scene that was named is flown freely.
+    let freely = if options.at_once || session.scene.name != SCENE { catalogue.missions.len() } else { 0 };
+    let choice = chosen.unwrap_or(freely);
     let mut app = App::new();
     app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
         filter: "warn,lensrunner=info,wgpu_hal=error,bevy_egui=error".into(),

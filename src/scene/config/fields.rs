@@ -112,6 +112,7 @@ config! {
     clock: Clock {
         pace: f64 = 1.5, number(0.01, 50.0), "r_s/c per second", "game time T that passes in a second before the screen";
         step: f64 = 0.03125, number(0.0005, 0.5), "r_s/c", "fixed step of the simulation";
+        slow_near_danger: bool = true, Switch, "", "by hand: slower by itself where ships meet or one falls deep";
         max_steps: u32 = 200u32, integer(1, 10000), "steps", "most steps in one frame; beyond it the game slows down";
     }
     /// The picture.

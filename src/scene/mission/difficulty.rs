@@ -51,7 +51,7 @@ impl FromStr for Difficulty {
 pub struct DifficultyLevel {
     /// Dotted keys of `game.toml` and their values, checked.
     keys: Vec<(String, Value)>,
-    /// At most so long on the mission's clock for three stars and for two, in r_s/c; none: who wins gets three.
+    /// At most such a score for three stars and for two, in r_s/c or c of Δv; none: who wins gets three.
     pub stars: Option<[f64; 2]>,
 }
 
@@ -66,11 +66,19 @@ impl DifficultyLevel {
         }
     }
 
-    /// The stars of a win at `time` on the mission's clock, 1 to 3.
-    pub fn stars_at(&self, time: f64) -> u32 {
+    /// The number that it gives a setting, if it does.
+    pub fn number(&self, path: &str) -> Option<f64> {
+        self.keys.iter().find_map(|(key, value)| match value {
+            Value::Number(number) if key == path => Some(*number),
+            _ => None,
+        })
+    }
+
+    /// The stars of a win with this score, 1 to 3.
+    pub fn stars_at(&self, score: f64) -> u32 {
         match self.stars {
-            Some([_, two]) if time > two => 1,
-            Some([three, _]) if time > three => 2,
+            Some([_, two]) if score > two => 1,
+            Some([three, _]) if score > three => 2,
             _ => 3,
         }
     }
@@ -143,6 +151,9 @@ fn limits(value: &Spanned<DeValue<'_>>) -> Result<[f64; 2], Fault> {
     };
     match pair.as_deref() {
         Some(&[three, two]) if 0.0 < three && three <= two && two <= 1e6 => Ok([three, two]),
-        _ => Err(Fault { span: value.span(), message: "stars must be two times in r_s/c, the shorter first, from 0 to 1e6".into() }),
+        _ => Err(Fault {
+            span: value.span(),
+            message: "stars must be two scores (r_s/c, or c of Δv with clock = \"fuel\"), the smaller first, above 0 and up to 1e6".into(),
+        }),
     }
 }

@@ -190,6 +190,11 @@ impl GoalEntry {
         self.kind.span()
     }
 
+    /// T by which it must be done, if the file says so.
+    pub(super) fn given_before(&self) -> Option<f64> {
+        self.before.as_ref().map(|before| *before.get_ref())
+    }
+
     /// The keys that are there, and where.
     fn given(&self) -> impl Iterator<Item = (&'static str, Range<usize>)> + '_ {
         fn at<T>(value: &Option<Spanned<T>>) -> Option<Range<usize>> {

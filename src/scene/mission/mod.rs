@@ -5,7 +5,7 @@
 //! title = "First pursuit"
 //! idea = "A lower orbit is a faster one."      # what the mission rests on, in one sentence
 //! brief = "…"                                  # what the player reads before it begins
-//! clock = "T"                                  # what is scored: "T", the far clock, or "tau", the player's own
+//! clock = "T"                                  # what is scored: "T", the far clock; "tau", the player's own; or "fuel", the Δv spent
 //! time_limit = 200.0                           # T in r_s/c: later it is lost; rules.time_limit of a difficulty goes before it
 //! proper_limit = 50.0                          # the player's own time in r_s/c: later it is lost; no limit if absent
 //! inside = false                               # whether the player's ship may cross the horizon
@@ -22,7 +22,7 @@
 //! radius = 0.6
 //!
 //! [difficulty.easy]                            # also normal and hard: keys of game.toml that are otherwise than there
-//! stars = [60.0, 100.0]                        # at most so long on the mission's clock for three stars and for two
+//! stars = [60.0, 100.0]                        # scores of three stars and of two, at most: r_s/c, or c of Δv
 //! enemy.thrust = 0.03
 //! ship.bolts = 12
 //! ```
@@ -52,7 +52,7 @@ pub struct Mission {
     /// What the player reads before it begins.
     pub brief: String,
     /// What is scored.
-    pub clock: ScoreClock,
+    pub clock: ScoredBy,
     /// T in r_s/c after which it is lost.
     pub time_limit: f64,
     /// Proper time of the player's ship in r_s/c after which it is lost; infinite if there is none.
@@ -72,17 +72,17 @@ pub struct Mission {
 }
 
 impl Mission {
-    /// How many bolts the player's ship may fire on a difficulty, if `game.toml` does not say.
-    fn bolts_on(&self, difficulty: Difficulty) -> u32 {
+    /// `game.toml` as it is on a difficulty where nobody has changed it.
+    fn on(&self, difficulty: Difficulty) -> GameConfig {
         let mut config = GameConfig::default();
         self.levels[difficulty as usize].apply(&mut config);
-        config.ship.bolts
+        config
     }
 }
 
-/// The clock that a mission's score is read from.
+/// What a mission's score is: the less the better.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
-pub enum ScoreClock {
+pub enum ScoredBy {
     /// Painlevé–Gullstrand T, the time far away.
     #[default]
     #[serde(rename = "T")]
@@ -90,6 +90,9 @@ pub enum ScoreClock {
     /// The proper time of the player's ship.
     #[serde(rename = "tau")]
     Own,
+    /// The velocity change that the player's ship has spent, in c.
+    #[serde(rename = "fuel")]
+    Fuel,
 }
 
 /// `[mission]` as the file has it, before any check.
@@ -100,7 +103,7 @@ pub struct MissionEntry {
     idea: Spanned<String>,
     brief: Spanned<String>,
     #[serde(default)]
-    clock: ScoreClock,
+    clock: ScoredBy,
     time_limit: Spanned<f64>,
     proper_limit: Option<Spanned<f64>>,
     #[serde(default)]
@@ -163,23 +166,56 @@ pub fn check_mission(
     if mission.caught_by.contains(&own) {
         return fault(&entry.title, "caught_by names the player's own ship".into());
     }
+    enough_bolts(&mission, goals)?;
     for (goal, written) in mission.goals.iter().zip(goals) {
         if goal.task.ship() == Some(own) {
             return Err(Fault { span: written.get_ref().kind_span(), message: "the goal's ship is the player's own".into() });
         }
-        reachable(&mission, goal).map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
+        reachable(&mission, goal, written.get_ref().given_before())
+            .map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
     }
     Ok(mission)
 }
 
-/// Whether a goal can be reached at all in its mission, else why not.
-fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
-    let late = |value: f64, limit: f64, key: &str, of: &str| {
-        if value > limit {
-            Err(format!("{key} = {value} is later than the mission's {of} = {limit}: it cannot be reached"))
-        } else {
-            Ok(())
+/// Whether there is a bolt for each hit that is asked for, on each difficulty.
+fn enough_bolts(mission: &Mission, goals: &[Spanned<GoalEntry>]) -> Result<(), Fault> {
+    let mut times_so_far = 0;
+    // Hits on one ship count for all goals about it.
+    let mut ships = Vec::new();
+    for (goal, written) in mission.goals.iter().zip(goals) {
+        let GoalTask::Hit { ship, times } = goal.task else { continue };
+        if !ships.contains(&ship) {
+            ships.push(ship);
+            times_so_far += times;
         }
+        if let Some(difficulty) = Difficulty::ALL.into_iter().find(|&difficulty| mission.on(difficulty).ship.bolts < times_so_far) {
+            let bolts = mission.on(difficulty).ship.bolts;
+            let message = format!("{times_so_far} hits up to here need as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}");
+            return Err(Fault { span: written.get_ref().kind_span(), message });
+        }
+    }
+    Ok(())
+}
+
+/// Whether a goal can be reached at all in its mission, on each difficulty, else why not. `before`: the goal's own limit, if it has one.
+fn reachable(mission: &Mission, goal: &Goal, before: Option<f64>) -> Result<(), String> {
+    let limits = Difficulty::ALL.map(|difficulty| match mission.levels[difficulty as usize].number("rules.time_limit") {
+        Some(limit) => (format!("rules.time_limit = {limit} of [difficulty.{difficulty}]"), limit),
+        None => (format!("time_limit = {} of [mission]", mission.time_limit), mission.time_limit),
+    });
+    let mut limits: Vec<(String, f64)> = limits.into();
+    if let Some(before) = before {
+        if before > mission.time_limit {
+            return Err(format!("before = {before} is later than time_limit = {} of [mission]: it never counts", mission.time_limit));
+        }
+        if before == 0.0 {
+            return Err("before = 0 is the beginning: it cannot be reached".into());
+        }
+        limits.push((format!("before = {before}"), before));
+    }
+    let in_time = |value: f64, key: &str| match limits.iter().find(|(_, limit)| value > *limit) {
+        Some((what, _)) => Err(format!("{key} = {value} is later than {what}: it cannot be reached")),
+        None => Ok(()),
     };
     if let GoalTask::Reach { most, .. } | GoalTask::Whirl { most, .. } | GoalTask::Survive { most, .. } = goal.task
         && most <= 1.0
@@ -188,20 +224,14 @@ fn reachable(mission: &Mission, goal: &Goal) -> Result<(), String> {
         return Err(format!("radius = [.., {most}] lies inside the horizon, where a mission with inside = false is lost"));
     }
     match goal.task {
-        GoalTask::Survive { until, .. } => late(until, mission.time_limit, "until", "time_limit")?,
+        GoalTask::Survive { until, .. } => in_time(until, "until")?,
         GoalTask::Gates if mission.gates.is_empty() => return Err("kind = \"gates\" needs at least one [[gate]]".into()),
-        GoalTask::Hit { times, .. } => {
-            if let Some(difficulty) = Difficulty::ALL.into_iter().find(|&difficulty| mission.bolts_on(difficulty) < times) {
-                let bolts = mission.bolts_on(difficulty);
-                return Err(format!("times = {times} needs as many bolts; [difficulty.{difficulty}] has ship.bolts = {bolts}"));
-            }
-        }
         GoalTask::Hold { span, .. } | GoalTask::Reach { span, .. } | GoalTask::Look { span, .. } | GoalTask::Coast { span } => {
-            late(span, mission.time_limit.min(mission.proper_limit), "for", "limit")?;
+            in_time(span, "for")?;
         }
         _ => (),
     }
-    late(goal.before.min(mission.time_limit), mission.time_limit, "before", "time_limit")
+    Ok(())
 }
 
 /// The index of the ship of that name.
@@ -218,5 +248,8 @@ fn ship_named(name: &Spanned<String>, ships: &[ShipSpec]) -> Result<usize, Fault
 /// Words that are there and fit.
 fn short(words: &Spanned<String>, most: usize) -> Result<(), Fault> {
     let length = words.get_ref().chars().count();
+    if words.get_ref().chars().any(|letter| letter.is_control() && letter != '\n') {
+        return fault(words, "the text has control characters".into());
+    }
     if (1..=most).contains(&length) { Ok(()) } else { fault(words, format!("the text has {length} characters, allowed 1 to {most}")) }
 }

@@ -233,8 +233,9 @@ impl Seat<'_> {
     fn reckon(&self, history: &History, delay: f64, known: &mut f64) -> (Point, PlannedBurn) {
         match self.sees {
             Sees::Now => *known = self.now - delay,
-            Sees::Light => {
-                if let Some(emitted) = emission_time(&self.eye(), self.now - delay, history, ImageOrder::ALL[0]) {
+            Sees::Light | Sees::SecondImage => {
+                let order = ImageOrder::ALL[usize::from(self.sees == Sees::SecondImage)];
+                if let Some(emitted) = emission_time(&self.eye(), self.now - delay, history, order) {
                     *known = emitted;
                 }
             }

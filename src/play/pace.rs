@@ -1,0 +1,123 @@
+//! The game's pace: near danger it slows by itself, where the player lets it (`clock.slow_near_danger`).
+
+use bevy::prelude::*;
+
+use crate::play::menus::screens::Screen;
+use crate::play::player_state::PlayerState;
+use crate::play::schedule::GameSet;
+use crate::play::session::Session;
+use crate::sim::pilot::rollout::{Point, advance};
+use crate::sim::replay::Playback;
+use crate::sim::{ActiveMission, Fleet, ShipMotion};
+
+/// The share of the chosen pace at which the game goes on, [`SLOWEST`] to 1.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Slowing(pub f64);
+
+impl Default for Slowing {
+    fn default() -> Self {
+        Slowing(1.0)
+    }
+}
+
+/// The least share of the pace.
+const SLOWEST: f64 = 0.4;
+/// The game slows when danger is less far ahead than this, in r_s/c of T, and is slowest at [`HERE`].
+const AHEAD: f64 = 6.0;
+/// See [`AHEAD`].
+const HERE: f64 = 2.0;
+/// How finely the way ahead is looked through, in r_s/c.
+const STEP: f64 = 0.5;
+/// Below this radius, in r_s, the hole is a danger: free fall from the photon sphere, 1.5, comes back only outward.
+const DEEP: f64 = 1.7;
+/// Another ship is near within this distance, in r_s: it takes a hand to hold it or to keep off.
+const NEAR: f64 = 0.8;
+/// Wall time in which the pace changes, in seconds.
+const LAG: f64 = 0.5;
+
+/// Slows the game near danger. Needs [`Session`] and [`PlayerState`].
+pub struct PacePlugin;
+
+impl Plugin for PacePlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<Slowing>().add_systems(Update, slow_down.in_set(GameSet::Answer));
+    }
+}
+
+fn slow_down(
+    (session, player, screen): (Res<Session>, Res<PlayerState>, Res<State<Screen>>),
+    (playback, mission): (Option<Res<Playback>>, Option<Res<ActiveMission>>),
+    fleet: Option<Res<Fleet>>,
+    real: Res<Time<Real>>,
+    ships: Query<&ShipMotion>,
+    mut slowing: ResMut<Slowing>,
+) {
+    let by_hand = *screen.get() == Screen::Playing && !player.autopilot && playback.is_none();
+    let wanted = if by_hand && session.config.clock.slow_near_danger {
+        let points: Vec<Point> =
+            fleet.iter().flat_map(|fleet| &fleet.0).filter_map(|&ship| ships.get(ship).ok()).map(|m| Point::from(&m.0)).collect();
+        let me = session.player();
+        let others = points.iter().enumerate().filter(|(index, _)| *index != me).map(|(_, point)| *point).collect();
+        points.get(me).map_or(1.0, |own| share(danger(*own, others, mission.is_some_and(|mission| mission.0.inside))))
+    } else {
+        1.0
+    };
+    slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / LAG).exp());
+}
+
+/// The share of the pace with danger `ahead`, in r_s/c of T.
+fn share(ahead: f64) -> f64 {
+    let way = ((ahead - HERE) / (AHEAD - HERE)).clamp(0.0, 1.0);
+    SLOWEST + (1.0 - SLOWEST) * way
+}
+
+/// How far ahead danger is if all coast, in r_s/c of T; infinite beyond [`AHEAD`]. `inside`: the hole is none.
+fn danger(mut own: Point, mut others: Vec<Point>, inside: bool) -> f64 {
+    let mut time = 0.0;
+    while time < AHEAD {
+        let deep = !inside && own.x.length_squared() < DEEP * DEEP;
+        if deep || others.iter().any(|other| other.x.distance_squared(own.x) < NEAR * NEAR) {
+            return time;
+        }
+        own = advance(&own, STEP, 1.0, |_| glam::DVec3::ZERO);
+        for other in &mut others {
+            *other = advance(other, STEP, 1.0, |_| glam::DVec3::ZERO);
+        }
+        time += STEP;
+    }
+    f64::INFINITY
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::matter::ShipState;
+    use crate::spacetime::orbit::circular_orbit;
+    use glam::DVec3;
+
+    fn orbit(radius: f64, phase: f64) -> Point {
+        Point::from(&circular_orbit(radius, phase).expect("a circle"))
+    }
+
+    #[test]
+    fn a_fall_is_danger_and_an_orbit_is_none() {
+        assert_eq!(danger(orbit(6.0, 0.0), vec![], false), f64::INFINITY);
+        // The rain falls from r to 1.7 in 2/3 (r^1.5 − 1.7^1.5).
+        let rain = Point::from(&ShipState::new(DVec3::X * 3.0, DVec3::ZERO));
+        let fall = 2.0 / 3.0 * (3f64.powf(1.5) - DEEP.powf(1.5));
+        assert!((danger(rain, vec![], false) - fall).abs() <= STEP, "{} {fall}", danger(rain, vec![], false));
+        assert_eq!(danger(rain, vec![], true), f64::INFINITY);
+    }
+
+    #[test]
+    fn ships_that_meet_are_danger() {
+        assert_eq!(danger(orbit(6.0, 0.0), vec![orbit(6.0, 0.1)], false), 0.0);
+        assert_eq!(danger(orbit(6.0, 0.0), vec![orbit(6.0, 1.0)], false), f64::INFINITY, "they stay apart");
+    }
+
+    #[test]
+    fn the_pace_is_whole_far_from_danger_and_never_stands() {
+        assert_eq!((share(f64::INFINITY), share(0.0)), (1.0, SLOWEST));
+        assert!(share(3.0) < share(5.0));
+    }
+}

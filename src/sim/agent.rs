@@ -1,0 +1,267 @@
+//! `lensrunner simulate SCENE --agent`: another program flies the player's ship. For each decision it gets a line of JSON, what is to be
+//! seen, and answers with a line of JSON, what the hands do (see `docs/missions.md`).
+
+use std::io::{BufRead, Write};
+
+use bevy::prelude::*;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use super::assist::Stick;
+use super::bolts::Gun;
+use super::goals::{ActiveMission, Progress};
+use super::hands::Hands;
+use super::history::History;
+use super::ship::{Engine, Fleet, Fuel, Player, Ship, ShipMotion};
+use super::sight::apparition;
+use super::simulate::SimulateError;
+use super::{ChaseRules, Clock, app_of, outcome, step};
+use crate::scene::ship::Sees;
+use crate::scene::{GameConfig, Scene};
+use crate::spacetime::Observer;
+use crate::spacetime::light::Order;
+use crate::spacetime::matter::{ShipState, gamma};
+use crate::spacetime::metric::river_speed;
+
+/// T between two decisions unless an action says otherwise, in r_s/c.
+const DECISION: f64 = 0.25;
+/// The longest that an action may last, in r_s/c.
+const LONGEST: f64 = 100.0;
+
+/// What is asked of a flight.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AgentRequest {
+    /// T at which it ends undecided, in r_s/c.
+    pub until: f64,
+    /// For everything left to chance.
+    pub seed: u64,
+}
+
+/// What the agent is told, a line of JSON.
+#[derive(Clone, Debug, Serialize)]
+struct Observation {
+    /// Painlevé–Gullstrand time, r_s/c.
+    #[serde(rename = "T")]
+    time: f64,
+    /// Proper time of the own ship, r_s/c.
+    tau: f64,
+    own: Own,
+    others: Vec<Seen>,
+    goal: Option<GoalSeen>,
+    /// Present in the last line alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outcome: Option<&'static str>,
+}
+
+/// The own ship.
+#[derive(Clone, Debug, Serialize)]
+struct Own {
+    /// r_s, the hole in the origin.
+    position: DVec3,
+    /// dx/dT, c.
+    velocity: DVec3,
+    /// Body axes to coordinate axes: x, y, z, w; the nose is −z.
+    attitude: [f64; 4],
+    /// Velocity change left, c; null without limit.
+    fuel: Option<f64>,
+    /// Largest proper acceleration, c²/r_s.
+    thrust: f64,
+    bolts: u32,
+}
+
+/// Another ship, as far as is known of it.
+#[derive(Clone, Debug, Serialize)]
+struct Seen {
+    name: String,
+    /// Age of what is known, r_s/c.
+    age: f64,
+    position: DVec3,
+    velocity: DVec3,
+    /// Where its first and its second image are, on body axes; null where none is.
+    images: [Option<DVec3>; 2],
+}
+
+/// What is to be done now.
+#[derive(Clone, Debug, Serialize)]
+struct GoalSeen {
+    text: String,
+    number: usize,
+    of: usize,
+    /// 0 to 1.
+    done: f64,
+    /// Middle of the next gate, r_s.
+    gate: Option<DVec3>,
+}
+
+/// What the hands do, a line of JSON. What is left out is at rest.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Action {
+    /// Right, up, backwards: each −1 to 1 of the engine's thrust.
+    thrust: [f64; 3],
+    /// Pitch up, yaw left, roll left: each −1 to 1 of the fastest turn.
+    turn: [f64; 3],
+    fire: bool,
+    look: bool,
+    assist: bool,
+    /// For so long, r_s/c of T; 0.25 if absent.
+    #[serde(rename = "for")]
+    span: Option<f64>,
+}
+
+impl Action {
+    /// The hands, and for how long.
+    fn check(&self) -> Result<(Hands, f64), String> {
+        for (name, axes) in [("thrust", self.thrust), ("turn", self.turn)] {
+            if let Some(axis) = axes.iter().find(|axis| !(-1.0..=1.0).contains(*axis)) {
+                return Err(format!("{name}: {axis} must be from -1 to 1"));
+            }
+        }
+        let span = self.span.unwrap_or(DECISION);
+        if !(span > 0.0 && span <= LONGEST) {
+            return Err(format!("for: {span} must be above 0 and at most {LONGEST} r_s/c"));
+        }
+        let stick = Stick { thrust: self.thrust.into(), turn: self.turn.into() };
+        Ok((Hands { fire: self.fire, looking: self.look, assist: self.assist, ..Hands::holding(&stick) }, span))
+    }
+}
+
+/// Flies `scene` (with its difficulty in `config`) as `actions` say until it is decided, until T = `until`, or until there are no more.
+pub fn fly(
+    scene: &Scene,
+    config: &GameConfig,
+    request: &AgentRequest,
+    actions: &mut dyn BufRead,
+    observations: &mut dyn Write,
+) -> Result<(), SimulateError> {
+    let mut app = app_of(scene, config, request.seed);
+    let world = app.world_mut();
+    let own = world.query_filtered::<Entity, With<Player>>().iter(world).next();
+    let own = own.or_else(|| world.resource::<Fleet>().0.first().copied());
+    let Some(own) = own else { return Err(SimulateError::Input(format!("scene {}: there is no ship to fly", scene.name))) };
+    world.entity_mut(own).insert(Player);
+    let sees = scene.ships.get(world.get::<Ship>(own).map_or(0, |ship| ship.index)).map_or(Sees::Now, |spec| spec.sees);
+    let pace = config.clock.pace;
+    for number in 1.. {
+        let decided = outcome(world).map(|(outcome, _)| outcome.name());
+        let over = decided.or((world.resource::<Clock>().time >= request.until).then_some("undecided"));
+        let line = serde_json::to_string(&observe(world, own, sees, over)).map_err(std::io::Error::other)?;
+        writeln!(observations, "{line}")?;
+        observations.flush()?;
+        let mut answer = String::new();
+        if over.is_some() || actions.read_line(&mut answer)? == 0 {
+            break;
+        }
+        let wrong = |problem: String| SimulateError::Input(format!("standard input, line {number}: {problem}"));
+        let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(error.to_string()))?;
+        let (hands, span) = action.check().map_err(wrong)?;
+        world.insert_resource(Hands { pace, ..hands });
+        let steps = (span / world.resource::<Clock>().step).round().max(1.0) as u64;
+        for _ in 0..steps {
+            step(world);
+            if outcome(world).is_some() {
+                break;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>) -> Observation {
+    let clock = world.resource::<Clock>();
+    let state = world.get::<ShipMotion>(own).map(|motion| motion.0).unwrap_or(ShipState::new(DVec3::X, DVec3::ZERO));
+    let fuel = world.get::<Fuel>(own).map(|fuel| fuel.left).filter(|fuel| fuel.is_finite());
+    let others = world.resource::<Fleet>().0.iter().filter(|&&ship| ship != own);
+    Observation {
+        time: clock.time,
+        tau: state.proper_time,
+        own: Own {
+            position: state.position,
+            velocity: velocity(state.position, state.momentum),
+            attitude: state.attitude.to_array(),
+            fuel,
+            thrust: world.get::<Engine>(own).map_or(0.0, |engine| engine.max_thrust),
+            bolts: world.get::<Gun>(own).map_or(0, |gun| gun.left),
+        },
+        others: others.filter_map(|&ship| see(world, &state, ship, sees)).collect(),
+        goal: goal(world),
+        outcome,
+    }
+}
+
+/// dx/dT in c of a body at `position` (r_s) with the rain-frame momentum `momentum` per mass (c).
+fn velocity(position: DVec3, momentum: DVec3) -> DVec3 {
+    let r = position.length();
+    momentum / gamma(momentum) - position * (river_speed(r) / r)
+}
+
+/// What is known of a ship; None before any light of it has come.
+fn see(world: &World, own: &ShipState, ship: Entity, sees: Sees) -> Option<Seen> {
+    let (history, name) = (world.get::<History>(ship)?, world.get::<Ship>(ship)?.name.clone());
+    let now = world.resource::<Clock>().time;
+    let eye = Observer { position: own.position, momentum: own.momentum, attitude: own.attitude, field_of_view: 1.0 };
+    let images = [0, 1].map(|order| apparition(&eye, now, history, Order::ALL[order]));
+    let age = match sees {
+        Sees::Now => 0.0,
+        Sees::Light => images[0].as_ref()?.age,
+        Sees::SecondImage => images[1].as_ref()?.age,
+    };
+    let sample = history.at(now - age);
+    let velocity = velocity(sample.position, sample.momentum);
+    Some(Seen { name, age, position: sample.position, velocity, images: images.map(|image| image.map(|image| image.direction)) })
+}
+
+fn goal(world: &World) -> Option<GoalSeen> {
+    let (mission, progress) = (&world.get_resource::<ActiveMission>()?.0, world.get_resource::<Progress>()?);
+    let goal = mission.goals.get(progress.goal)?;
+    Some(GoalSeen {
+        text: goal.text.clone(),
+        number: progress.goal + 1,
+        of: mission.goals.len(),
+        done: progress.share(mission, world.resource::<ChaseRules>()),
+        gate: mission.gates.get(progress.gates).map(|gate| gate.position),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene;
+
+    fn flown(actions: &str, until: f64) -> Result<Vec<serde_json::Value>, String> {
+        let scene = scene::load("02-first-pursuit").expect("a mission");
+        let mut out = Vec::new();
+        fly(&scene, &GameConfig::default(), &AgentRequest { until, seed: 1 }, &mut actions.as_bytes(), &mut out)
+            .map_err(|e| e.to_string())?;
+        let text = String::from_utf8(out).expect("text");
+        Ok(text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect())
+    }
+
+    #[test]
+    fn each_action_gets_an_observation_and_the_last_says_the_end() {
+        let lines = flown("{}\n{\"thrust\":[0,0,-1],\"for\":1}\n{}\n", 1.25).expect("a flight");
+        let times: Vec<f64> = lines.iter().map(|line| line["T"].as_f64().expect("a number")).collect();
+        assert_eq!(times, [0.0, 0.25, 1.25]);
+        assert_eq!(lines[2]["outcome"], "undecided");
+        assert!(lines[1].get("outcome").is_none());
+        let spent = lines[1]["own"]["fuel"].as_f64().unwrap_or(0.0) - lines[2]["own"]["fuel"].as_f64().unwrap_or(0.0);
+        // Full thrust for 1 r_s/c; a little less of the ship's own time.
+        assert!((0.05..=0.06).contains(&spent), "{spent}");
+        assert_eq!(lines[0]["others"][0]["name"], "freighter");
+        assert_eq!(lines[0]["goal"]["of"], 1);
+        assert_eq!(flown("", 5.0).expect("a flight").len(), 1, "nothing more is asked for");
+    }
+
+    #[test]
+    fn wrong_actions_are_refused_with_their_line() {
+        for (actions, words) in [
+            ("{}\n{\"thrust\":[2,0,0]}\n", ["line 2", "from -1 to 1"]),
+            ("{\"burn\":1}\n", ["line 1", "burn"]),
+            ("{\"for\":0}\n", ["line 1", "above 0"]),
+            ("nonsense\n", ["line 1", "expected"]),
+        ] {
+            let said = flown(actions, 9.0).expect_err(actions);
+            assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        }
+    }
+}
