@@ -22,6 +22,7 @@ pub enum ChartCommand {
     Frame(ChartFrameArgs),
     Disk(ChartDiskArgs),
     Quarry(ChartQuarryArgs),
+    Steps(ChartStepsArgs),
 }
 
 /// Where a chart goes.
@@ -53,6 +54,14 @@ pub struct ChartQuarryArgs {
     /// T at which a chase ends undecided, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 270.0)]
     limit: f64,
+}
+
+/// What a step of the simulation costs, by the number of ships: a table.
+#[derive(Args)]
+pub struct ChartStepsArgs {
+    /// Steps of two ships in each of five runs; with more ships fewer.
+    #[arg(long, value_name = "N", default_value_t = 40_000, value_parser = clap::value_parser!(u64).range(1..=100_000_000))]
+    steps: u64,
 }
 
 /// Every method of projection on the same adversarial points: error against time per lookup and against memory.
@@ -184,6 +193,10 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
+        ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, 1),
+        },
     }
 }
 

@@ -4,6 +4,7 @@
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
+//! - [`steps`]: what a step of the simulation costs.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
@@ -21,6 +22,7 @@ pub mod plot;
 pub mod projection;
 pub mod quarry;
 mod say;
+pub mod steps;
 mod stopwatch;
 pub mod straight;
 pub mod thin_disk;

@@ -47,7 +47,14 @@ pub struct Chased {
     pub fell: bool,
     /// Its least distance from the hole, in r_s.
     pub least: f64,
+    /// The hunter came within [`CORNERED`] of it in the last [`LATE`].
+    pub cornered: bool,
 }
+
+/// A hunter so near, in r_s, leaves no other way.
+const CORNERED: f64 = 1.5;
+/// How long before the end, in r_s/c: a fall from r = 3 takes half of it.
+const LATE: f64 = 8.0;
 
 /// The quarry's ship, flown blindly.
 struct Blind {
@@ -68,6 +75,7 @@ pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f
     }
     let arena = scene.rules(config).arena_radius * LEEWAY;
     let mut least = f64::INFINITY;
+    let mut near_at = f64::NEG_INFINITY;
     loop {
         let world = app.world_mut();
         let [there, here] = [hunter, quarry].map(|ship| world.get::<ShipMotion>(ship).map_or(DVec3::ZERO, |motion| motion.0.position));
@@ -81,15 +89,19 @@ pub fn chase(scene: &Scene, config: &GameConfig, seed: u64, how: Flees, limit: f
         let r = world.get::<ShipMotion>(quarry).map_or(0.0, |motion| motion.0.position.length());
         least = least.min(r);
         let time = world.resource::<Clock>().time;
+        if there.distance(here) < CORNERED {
+            near_at = time;
+        }
+        let cornered = time - near_at < LATE;
         if let Some((_, decided)) = outcome(world) {
-            return Chased { time: decided, lost: decided < limit, fell: r < 1.0, least };
+            return Chased { time: decided, lost: decided < limit, fell: r < 1.0, least, cornered };
         }
         // The chase is held within the arena: who leaves it has given up.
         if r > arena {
-            return Chased { time, lost: true, fell: false, least };
+            return Chased { time, lost: true, fell: false, least, cornered };
         }
         if time >= limit {
-            return Chased { time, lost: false, fell: r < 1.0, least };
+            return Chased { time, lost: false, fell: r < 1.0, least, cornered };
         }
     }
 }
@@ -111,16 +123,17 @@ impl Blind {
 
 /// Flies `seeds` chases of each difficulty and each way to flee, and writes how long the quarry lasts.
 pub fn run(scene: &Scene, config: &GameConfig, seeds: u64, limit: f64, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(out, "| difficulty | quarry | mean time | lost | fell in | least r |\n|---|---|---|---|---|---|")?;
+    writeln!(out, "| difficulty | quarry | mean time | lost | fell in | not cornered | least r |\n|---|---|---|---|---|---|---|")?;
     for difficulty in Difficulty::ALL {
         let config = scene.config(config, difficulty);
         for how in Flees::ALL {
             let all: Vec<Chased> = (0..seeds).into_par_iter().map(|seed| chase(scene, &config, seed, how, limit)).collect();
             let count = all.len().max(1) as f64;
             let mean = all.iter().map(|chase| chase.time).sum::<f64>() / count;
-            let [lost, fell] = [|c: &Chased| c.lost, |c: &Chased| c.fell].map(|is| all.iter().filter(|c| is(c)).count());
+            let [lost, fell, free] = [|c: &Chased| c.lost, |c: &Chased| c.fell, |c: &Chased| c.fell && !c.cornered]
+                .map(|is| all.iter().filter(|c| is(c)).count());
             let least = all.iter().map(|chase| chase.least).fold(f64::INFINITY, f64::min);
-            writeln!(out, "| {difficulty} | {} | {mean:.1} r_s/c | {lost} of {seeds} | {fell} | {least:.2} r_s |", how.name())?;
+            writeln!(out, "| {difficulty} | {} | {mean:.1} r_s/c | {lost} of {seeds} | {fell} | {free} | {least:.2} r_s |", how.name())?;
         }
     }
     Ok(())

@@ -1,8 +1,6 @@
 //! The game without its window: screens, keys, time, and the player's hands on the ship. Runs in a minimal app, for tests.
 
 use crate::play::player_state::{Flown, PlayerState};
-use std::time::Duration;
-
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
@@ -15,10 +13,11 @@ use crate::spacetime::matter::gamma;
 use crate::play::camera::orbit::Orbit;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
+use crate::play::input::lead::lead_camera;
 use crate::play::input::{Bindings, MouseTurn, PlayerInput};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
-use crate::play::pace::{PacePlugin, Slowing};
+use crate::play::pace::{PacePlugin, Slowing, run_time};
 use crate::play::picture::{Staged, restage};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
@@ -100,19 +99,6 @@ fn choose_scene(world: &mut World, screen: Screen) {
     let is_other = before != (session.scene.name.clone(), session.scene.fingerprint);
     if is_other && world.contains_resource::<Staged>() {
         restage(world);
-    }
-}
-
-/// In a replay the mouse and the keys that otherwise fly lead the camera.
-fn lead_camera(hands: PlayerInput, real: Res<Time<Real>>, mut turn: ResMut<MouseTurn>, mut player: ResMut<PlayerState>) {
-    /// By the keys, in radians a second, and the logarithm of the distance a second.
-    const RATES: (f64, f64) = (1.2, 1.5);
-    let (stick, seconds) = (hands.stick(), real.delta_secs_f64());
-    let mouse = std::mem::take(&mut turn.0);
-    let keys = glam::DVec2::new(stick.turn.x, stick.turn.y) * (RATES.0 * seconds);
-    player.orbit.moved(mouse + keys, (stick.thrust.z * RATES.1 * seconds).exp());
-    if hands.holds(Action::LookAtTarget) {
-        player.orbit = Orbit::default();
     }
 }
 
@@ -233,22 +219,6 @@ fn goes_on(chase: Option<Res<Chase>>, screen: Res<State<Screen>>) -> bool {
     *screen.get() == Screen::Title || chase.is_none_or(|chase| chase.outcome.is_none())
 }
 
-/// Game time: its pace, its step, and whether it passes.
-fn run_time(
-    screen: Res<State<Screen>>,
-    next: Res<NextState<Screen>>,
-    (session, slowing): (Res<Session>, Res<Slowing>),
-    mut time: ResMut<Time<Virtual>>,
-    mut fixed: ResMut<Time<Fixed>>,
-) {
-    let clock = &session.config.clock;
-    let step = clock.step / (clock.pace * slowing.0);
-    fixed.set_timestep_seconds(step);
-    time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
-    let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
-    if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
-}
-
 /// Keeps who flies, for the result to say.
 fn note_pilot(mut player: ResMut<PlayerState>) {
     let autopilot = player.autopilot;
@@ -289,6 +259,7 @@ mod tests {
     use bevy::input::InputPlugin;
     use bevy::state::app::StatesPlugin;
     use bevy::time::TimeUpdateStrategy;
+    use std::time::Duration;
 
     /// The game at the title, 0.1 s a frame.
     fn game() -> App {
@@ -480,7 +451,7 @@ mod tests {
     #[test]
     fn the_file_is_read_again_and_a_wrong_one_refused() {
         use crate::play::hud::notice::Notice;
-        use std::time::{Duration, SystemTime};
+        use std::time::SystemTime;
         let file = std::env::temp_dir().join(format!("lensrunner-reload-{}.toml", std::process::id()));
         let write = |text: &str, age: u64| {
             std::fs::write(&file, text).expect("a temporary file");

@@ -1,5 +1,7 @@
 //! The game's pace: near danger it slows by itself, where the player lets it (`clock.slow_near_danger`).
 
+use std::time::Duration;
+
 use bevy::prelude::*;
 
 use crate::play::menus::screens::Screen;
@@ -63,6 +65,22 @@ fn slow_down(
         1.0
     };
     slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / LAG).exp());
+}
+
+/// Game time: its pace, its step, and whether it passes.
+pub(in crate::play) fn run_time(
+    screen: Res<State<Screen>>,
+    next: Res<NextState<Screen>>,
+    (session, slowing): (Res<Session>, Res<Slowing>),
+    mut time: ResMut<Time<Virtual>>,
+    mut fixed: ResMut<Time<Fixed>>,
+) {
+    let clock = &session.config.clock;
+    let step = clock.step / (clock.pace * slowing.0);
+    fixed.set_timestep_seconds(step);
+    time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
+    let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
+    if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
 }
 
 /// The share of the pace with danger `ahead`, in r_s/c of T.

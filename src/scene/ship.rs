@@ -83,7 +83,7 @@ pub struct Burn {
 /// How much a start may differ from the scene's by chance: each evenly from −1 to 1 times this.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scatter {
-    /// Distance from the hole, in r_s. An orbit keeps its shape.
+    /// Distance from the hole, or the semi-latus rectum of an orbit, which keeps its shape, in r_s.
     pub radius: f64,
     /// Angle round the hole's z axis, in radians.
     pub phase: f64,

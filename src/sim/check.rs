@@ -30,7 +30,7 @@ pub enum CheckError {
 pub enum Verdict {
     /// As expected.
     Held(FlightReport),
-    /// It has ships, flew, and expects nothing: only that the file is right was checked.
+    /// It expects nothing and was not flown: only that the file is right was checked.
     NothingExpected,
     /// Otherwise than expected: one sentence each.
     Failed(Vec<String>),

@@ -80,18 +80,23 @@ fn missions_are_balanced() {
         let of = |row: &&BalanceRow| row.mission == index && row.difficulty == difficulty && row.crew == crew;
         wins(rows.iter().filter(of))
     };
-    for (index, name) in names.iter().enumerate().skip(1) {
+    for (index, name) in names.iter().enumerate() {
         let hard = share(index, Difficulty::Hard, Crew::Expert);
         assert!((0.05..=0.97).contains(&hard), "{name}: the expert wins {hard} on hard");
         for crew in Crew::ALL {
             let [easy, hard] = [Difficulty::Easy, Difficulty::Hard].map(|difficulty| share(index, difficulty, crew));
             assert!(hard <= easy, "{name}: {crew} wins {hard} on hard and {easy} on easy");
         }
+        // Training on easy is for everybody.
+        for difficulty in Difficulty::ALL.into_iter().filter(|&difficulty| index > 0 || difficulty != Difficulty::Easy) {
+            let shares = Crew::ALL.map(|crew| share(index, difficulty, crew));
+            assert!(shares != [0.0; 3] && shares != [1.0; 3], "{name}, {difficulty}: {shares:?}");
+        }
     }
     for name in ["02-first-pursuit", "03-through-the-disk"] {
         let index = names.iter().position(|known| known == name).expect("a mission");
         let naive = share(index, Difficulty::Easy, Crew::Naive);
-        assert!((0.4..=1.0).contains(&naive), "{name}: who plays for the first time wins {naive}");
+        assert!((0.4..=0.95).contains(&naive), "{name}: who plays for the first time wins {naive}");
     }
 }
 
@@ -110,7 +115,7 @@ fn goals_are_reached_by_doing_them() {
     ] {
         assert_eq!(done(&format!("[[goal]]\ntext = \"x\"\n{goal}")), Some(Outcome::Done), "{goal}");
     }
-    assert_eq!(done("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 30.0\nbefore = 10.0"), Some(Outcome::TimeOut));
+    assert_eq!(done("[[goal]]\ntext = \"x\"\nkind = \"whirl\"\nturns = 50.0\nradius = [6.0, 10.0]\nbefore = 10.0"), Some(Outcome::TimeOut));
     assert_eq!(done("[[goal]]\ntext = \"x\"\nkind = \"survive\"\nuntil = 50.0\nradius = [0.0, 7.9]"), Some(Outcome::Strayed));
 }
 
@@ -136,6 +141,14 @@ fn bad_missions_are_refused_with_place_and_range() {
         ("[[goal]]\ntext = \"x\"\nkind = \"hold\"\nship = \"nobody\"", vec!["m.toml:9", "nobody", "other"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"gates\"", vec!["m.toml:8", "[[gate]]"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"survive\"\nuntil = 1000", vec!["until = 1000", "time_limit = 100"]),
+        (
+            "[[goal]]\ntext = \"x\"\nkind = \"survive\"\nuntil = 90\n[difficulty.hard]\nrules.time_limit = 50",
+            vec!["until = 90", "50 of [difficulty.hard]"],
+        ),
+        ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 9\nbefore = 5", vec!["for = 9", "before = 5"]),
+        ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 0\nbefore = 0", vec!["before = 0"]),
+        ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 1\nbefore = 500", vec!["before = 500", "time_limit = 100"]),
+        ("[[goal]]\ntext = \"a\\u0007b\"\nkind = \"coast\"\nfor = 1", vec!["m.toml:7", "control characters"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"reach\"\nradius = [0.0, 0.5]", vec!["inside the horizon"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"hit\"\nship = \"other\"", vec!["ship.bolts = 0"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 1\n[[gate]]\nposition = [0.5, 0, 0]\nradius = 1", vec!["m.toml:11", "1.05"]),

@@ -2,6 +2,7 @@
 
 pub mod action;
 pub mod gaze;
+pub mod lead;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;

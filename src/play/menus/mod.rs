@@ -1,13 +1,14 @@
 //! Title, pause and result.
 
+mod parts;
 pub mod screens;
+mod title;
+mod words;
 
 use bevy::prelude::*;
 use bevy_egui::egui::{self, Align2, Color32, RichText, Ui};
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
-use crate::scene::Difficulty;
-use crate::scene::mission::ScoredBy;
 use crate::scene::ship::Ai;
 use crate::sim::replay::Playback;
 use crate::sim::{Chase, Clock, Outcome};
@@ -22,11 +23,9 @@ use crate::play::player_state::{Flown, PlayerState};
 use crate::play::records::Records;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
-
-const PALE: Color32 = Color32::from_rgb(226, 234, 242);
-const FAINT: Color32 = Color32::from_rgb(150, 166, 182);
-const WARM: Color32 = Color32::from_rgb(255, 190, 110);
-
+use parts::{FAINT, PALE, WARM, buttons, calm, table};
+use title::{ABOUT, LIST, Title, title};
+use words::{camera_hint, goal, hint, key, stars, unit};
 /// The cards of the screens, and what a chase begins with. Needs [`HudPlugin`](crate::play::hud::HudPlugin).
 pub struct MenusPlugin;
 
@@ -112,155 +111,6 @@ fn card(context: &egui::Context, name: &'static str, width: f32, content: impl F
         });
     });
 }
-
-fn buttons(ui: &mut Ui, ask: &mut impl FnMut(MenuAction), choices: &[(&str, MenuAction)]) {
-    for &(words, action) in choices {
-        let button = egui::Button::new(RichText::new(words).size(18.0).color(PALE)).min_size(egui::vec2(230.0, 34.0));
-        if ui.add(button).clicked() {
-            ask(action);
-        }
-        ui.add_space(4.0);
-    }
-}
-
-/// What the title is made of.
-struct Title<'a> {
-    catalogue: &'a Catalogue,
-    records: &'a Records,
-    choice: usize,
-    free: usize,
-}
-
-/// Width of the list of missions, in points.
-const LIST: f32 = 270.0;
-/// Width of what is said of the chosen one, in points.
-const ABOUT: f32 = 330.0;
-
-fn title(ui: &mut Ui, session: &mut Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    ui.label(RichText::new("LENSRUNNER").size(38.0).color(PALE).strong());
-    ui.label(RichText::new("flights in the spacetime of a black hole").size(14.0).color(FAINT));
-    ui.add_space(4.0);
-    ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
-    calm(ui, session);
-    ui.add_space(8.0);
-    ui.horizontal_top(|ui| {
-        ui.vertical(|ui| {
-            ui.set_width(LIST);
-            list(ui, session, title, ask);
-        });
-        ui.add_space(16.0);
-        ui.vertical(|ui| {
-            ui.set_width(ABOUT);
-            about(ui, session, title, ask);
-        });
-    });
-    ui.add_space(8.0);
-    let keys = format!("{} pauses and shows the keys", key(&session.config.controls.pause));
-    ui.label(RichText::new(keys).size(12.5).color(FAINT));
-}
-
-/// The missions, each with its stars on the chosen difficulty.
-fn list(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    ui.horizontal(|ui| {
-        for difficulty in Difficulty::ALL {
-            let words = RichText::new(difficulty.name()).size(14.0);
-            if ui.selectable_label(session.difficulty == difficulty, words).clicked() {
-                ask(MenuAction::Level(difficulty));
-            }
-        }
-    });
-    ui.add_space(4.0);
-    for choice in 0..title.catalogue.len() {
-        let scene = title.catalogue.scene(choice, title.free);
-        let words = match &scene.mission {
-            Some(mission) if choice < title.catalogue.missions.len() => {
-                let best = title.records.best(&scene.name, session.difficulty);
-                format!("{}  {}  {}", choice + 1, mission.title, stars(best.map_or(0, |best| best.stars)))
-            }
-            _ => format!("Free flight: {}", scene.name),
-        };
-        let label = egui::Button::selectable(title.choice == choice, RichText::new(words).size(15.0)).min_size(egui::vec2(LIST, 24.0));
-        let entry = ui.add(label);
-        if entry.clicked() {
-            ask(MenuAction::Choose(choice));
-        }
-        if entry.double_clicked() {
-            ask(MenuAction::Start);
-        }
-    }
-}
-
-/// Stars that were won, of three.
-fn stars(won: u32) -> String {
-    (1..=3).map(|star| if star <= won { '★' } else { '☆' }).collect()
-}
-
-/// What the chosen mission is about, and the way into it.
-fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    let scene = title.catalogue.scene(title.choice, title.free);
-    match &scene.mission {
-        Some(mission) => {
-            ui.label(RichText::new(&mission.title).size(22.0).color(PALE));
-            ui.label(RichText::new(&mission.idea).size(14.0).color(TRUE));
-            ui.add_space(4.0);
-            ui.label(RichText::new(&mission.brief).size(13.0).color(PALE));
-            ui.add_space(6.0);
-            let scale = Scale::of(session.config.hole.mass_solar);
-            let clock = match mission.clock {
-                ScoredBy::Far => "Best on the far clock",
-                ScoredBy::Own => "Best on your own clock",
-                ScoredBy::Fuel => "Least Δv",
-            };
-            let unit = unit(mission.clock);
-            let best = title.records.best(&scene.name, session.difficulty);
-            let best = best.map_or("not yet won".to_owned(), |best| match mission.clock {
-                ScoredBy::Fuel => format!("{:.2} {unit}", best.score),
-                ScoredBy::Far | ScoredBy::Own => format!("{:.1} {unit} ({})", best.score, scale.span(best.score)),
-            });
-            ui.label(RichText::new(format!("{clock}, {}: {best}", session.difficulty)).size(12.5).color(FAINT));
-            if let Some([three, two]) = mission.levels[session.difficulty as usize].stars {
-                ui.label(RichText::new(format!("★★★ by {three} {unit}  ·  ★★☆ by {two} {unit}")).size(12.5).color(FAINT));
-            }
-        }
-        None => {
-            ui.label(RichText::new("Free flight").size(22.0).color(PALE));
-            ui.horizontal(|ui| {
-                let count = title.catalogue.free.len();
-                for (words, by) in [("◀", count - 1), ("▶", 1)] {
-                    if ui.button(RichText::new(words).size(16.0)).clicked() {
-                        ask(MenuAction::Scene((title.free + by) % count));
-                    }
-                }
-                let place = format!("{}  ({} of {count}, ← →)", scene.name, title.free + 1);
-                ui.label(RichText::new(place).size(14.0).color(TRUE));
-            });
-            let words = if scene.ships.iter().any(|ship| ship.ai == Ai::Flee) {
-                goal(session)
-            } else {
-                "Fly where you like: nothing is to be won.".into()
-            };
-            ui.label(RichText::new(words).size(13.0).color(PALE));
-            ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
-        }
-    }
-    ui.add_space(10.0);
-    buttons(ui, ask, &[("Fly  (Enter)", MenuAction::Start), ("Quit", MenuAction::Quit)]);
-}
-
-/// The switch of `video.reduced_motion`, until the game ends or `game.toml` says otherwise.
-fn calm(ui: &mut Ui, session: &mut Session) {
-    let mut on = session.config.video.reduced_motion;
-    let words = RichText::new("Reduced motion: the camera does not sway or glide").size(12.5).color(PALE);
-    if ui.checkbox(&mut on, words).changed() {
-        session.config.video.reduced_motion = on;
-    }
-}
-
-/// A number and its unit, which stay on one line.
-fn together(words: &str) -> String {
-    words.replace(' ', "\u{a0}")
-}
-
 /// Says the goal when a chase begins, and on the first flight what to begin with: until the player has, or has had time to read it.
 fn welcome(
     session: Res<Session>,
@@ -295,49 +145,6 @@ fn welcome(
     }
 }
 
-/// What the chase is about, in a sentence.
-fn goal(session: &Session) -> String {
-    let rules = session.scene.rules(&session.config);
-    let scale = Scale::of(session.config.hole.mass_solar);
-    let within = together(&format!("{} r_s", rules.capture_radius));
-    let hold = together(&format!("{} r_s/c ({})", rules.hold_time, scale.span(rules.hold_time)));
-    let before = together(&format!("T = {} r_s/c ({})", rules.time_limit, scale.span(rules.time_limit)));
-    format!("Catch the quarry: stay within {within} of it for {hold}, before {before}, and do not fall into the hole.")
-}
-
-/// What r_s is, in a sentence.
-fn measure(session: &Session) -> String {
-    let scale = Scale::of(session.config.hole.mass_solar);
-    let [radius, light] = [scale.kilometres(1.0), scale.span(1.0)].map(|words| together(&words));
-    format!("r_s is the hole's radius, {radius}; light goes as far in r_s/c, {light}.")
-}
-
-/// What to begin with, for the first flight.
-fn hint(session: &Session) -> String {
-    let keys = &session.config.controls;
-    let [thrust, look, pilot] = [&keys.thrust_forward, &keys.look_at_target, &keys.toggle_autopilot].map(|name| key(name));
-    let [thrust, look, pilot] =
-        [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
-            .map(|words| together(&words));
-    let keys = format!("{thrust}  ·  {look}  ·  {pilot}");
-    // A mission says by itself where to fly.
-    if session.scene.mission.is_some() { keys } else { format!("{keys}  ·  fly to the dashed ring “now”") }
-}
-
-/// What leads the camera of a replay.
-fn camera_hint(session: &Session) -> String {
-    let keys = &session.config.controls;
-    let [near, far, look, slow, fast] =
-        [&keys.thrust_forward, &keys.thrust_back, &keys.look_at_target, &keys.slower, &keys.faster].map(|name| key(name));
-    let words = [
-        "mouse: round the ship".to_owned(),
-        format!("{near} {far}: nearer, farther"),
-        format!("{look}: back"),
-        format!("{slow} {fast}: pace"),
-    ];
-    words.map(|words| together(&words)).join("  ·  ")
-}
-
 /// The keys, as they are bound.
 fn controls(ui: &mut Ui, session: &Session) {
     let keys = &session.config.controls;
@@ -370,30 +177,6 @@ const MARKERS: [(&str, Color32, &str); 4] = [
     ("2nd image", SEEN, "the same ship by light that went round the hole's far side."),
     ("course", OWN, "where you fly to; the nose points to the middle."),
 ];
-
-fn table<const N: usize>(ui: &mut Ui, name: &str, rows: [(RichText, RichText); N]) {
-    egui::Grid::new(name).num_columns(2).min_row_height(15.0).spacing([16.0, 2.0]).show(ui, |ui| {
-        for (what, how) in rows {
-            ui.label(what.size(12.5));
-            ui.label(how.size(12.5));
-            ui.end_row();
-        }
-    });
-}
-
-/// A key as it is written on the keyboard.
-fn key(name: &str) -> &str {
-    let name = name.strip_prefix("Key").or_else(|| name.strip_prefix("Digit")).unwrap_or(name);
-    match name {
-        "ControlLeft" => "Ctrl",
-        "ShiftLeft" => "Shift",
-        "Escape" => "Esc",
-        "Comma" => ", (comma)",
-        "Period" => ". (period)",
-        other => other,
-    }
-}
-
 fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
     let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };
     let (words, colour) = headline(outcome);
@@ -433,14 +216,6 @@ fn score(ui: &mut Ui, session: &Session, last: &LastFlight) {
     ui.add_space(8.0);
 }
 
-/// The unit of a score.
-fn unit(scored: ScoredBy) -> &'static str {
-    match scored {
-        ScoredBy::Far | ScoredBy::Own => "r_s/c",
-        ScoredBy::Fuel => "c of Δv",
-    }
-}
-
 /// What the result says of the autopilot, if it flew.
 fn pilot(flown: Flown) -> Option<&'static str> {
     match (flown.by_autopilot, flown.by_hand) {
@@ -466,6 +241,7 @@ fn headline(outcome: Outcome) -> (&'static str, Color32) {
 
 #[cfg(test)]
 mod tests {
+    use super::words::measure;
     use super::*;
     use crate::play::window::interface::INTERFACE;
 

@@ -1,0 +1,22 @@
+//! In a replay nobody flies: the hands lead the camera.
+
+use bevy::prelude::*;
+use glam::DVec2;
+
+use crate::play::camera::orbit::Orbit;
+use crate::play::input::action::Action;
+use crate::play::input::{MouseTurn, PlayerInput};
+use crate::play::player_state::PlayerState;
+
+/// In a replay the mouse and the keys that otherwise fly lead the camera.
+pub fn lead_camera(input: PlayerInput, real: Res<Time<Real>>, mut turn: ResMut<MouseTurn>, mut player: ResMut<PlayerState>) {
+    /// By the keys, in radians a second, and the logarithm of the distance a second.
+    const RATES: (f64, f64) = (1.2, 1.5);
+    let (stick, seconds) = (input.stick(), real.delta_secs_f64());
+    let mouse = std::mem::take(&mut turn.0);
+    let keys = DVec2::new(stick.turn.x, stick.turn.y) * (RATES.0 * seconds);
+    player.orbit.moved(mouse + keys, (stick.thrust.z * RATES.1 * seconds).exp());
+    if input.holds(Action::LookAtTarget) {
+        player.orbit = Orbit::default();
+    }
+}
