@@ -165,7 +165,7 @@ fn what_cannot_be_run_is_refused_with_the_range() {
     };
     assert!(refuse(SimulateRequest { until: Some(-1.0), ..SimulateRequest::default() }).contains("--until -1 must be from 0"));
     assert!(refuse(SimulateRequest { until: Some(f64::NAN), ..SimulateRequest::default() }).contains("--until NaN must be from 0"));
-    assert!(refuse(SimulateRequest { every: 0.0, ..SimulateRequest::default() }).contains("--every 0 must be above 0"));
+    assert!(refuse(SimulateRequest { every: 0.0, ..SimulateRequest::default() }).contains("--every 0.0 must be above 0"));
     let empty = Scene::from_toml(Path::new("empty.toml"), "").expect("a scene");
     let error =
         simulate(&empty, &GameConfig::default(), &SimulateRequest::default(), &mut Vec::new(), &mut Vec::new()).expect_err("refused");

@@ -21,7 +21,6 @@ use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
 use crate::play::camera::CameraView;
-use crate::play::hud::dials::Going;
 use crate::play::hud::instruments::{Countdown, Scale, hold_words};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
@@ -96,7 +95,8 @@ fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes = dials::lay(&painter, rect, &session, &player, &read, Going { replayed: playback.is_some(), slowing: slowing.0 });
+    let mut text_boxes =
+        dials::lay(&painter, rect, &session, &player, &read, dials::Going { replayed: playback.is_some(), slowing: slowing.0 });
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         let holds = match (&mission, &progress) {
@@ -250,7 +250,7 @@ mod tests {
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
                 let mut text_boxes =
-                    dials::lay(painter, rect, &session, &PlayerState::default(), &read, Going { replayed: false, slowing: 0.5 });
+                    dials::lay(painter, rect, &session, &PlayerState::default(), &read, dials::Going { replayed: false, slowing: 0.5 });
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);
                 for (k, text_box) in text_boxes.iter().enumerate() {
