@@ -24,6 +24,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use crate::render::Gpu;
+use crate::scene::Difficulty;
 use crate::sim::replay::Replay;
 use demonstration::DemonstrationRequest;
 use session::Session;
@@ -41,7 +42,7 @@ pub struct PlayArgs {
     /// Seed for everything left to chance [default: 0].
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-    /// Of a mission: easy, normal or hard [default: normal].
+    /// Of a mission: easy, normal or hard [default: easy on the title, normal where a scene is named].
     #[arg(long, value_name = "LEVEL")]
     pub difficulty: Option<crate::scene::Difficulty>,
     /// Flies at once, without the title.
@@ -139,7 +140,9 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         Ok(session) => session,
         Err(error) => return fail(&error, 2),
     };
-    session.difficulty = args.difficulty.unwrap_or_default();
+    // Who opens the game begins easily; a flight that is named is as elsewhere.
+    let first = if args.scene.is_none() && !args.headless { Difficulty::Easy } else { Difficulty::default() };
+    session.difficulty = args.difficulty.unwrap_or(first);
     if let Some(replay) = &replay {
         session.config = replay.config(&session.config);
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);

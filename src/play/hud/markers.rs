@@ -148,6 +148,9 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     if let Some((MarkerPosition::Edge(at, towards), _)) = first {
         board.arrow(at, towards, "target", SEEN);
     }
+    if let Some(MarkerPosition::Edge(at, towards)) = truth {
+        board.arrow(at, towards, "now", TRUE);
+    }
     // The hole's shadow shows it where it is on the screen.
     if let Some(MarkerPosition::Edge(at, towards)) = panel.hole.map(find) {
         board.arrow(at, towards, "hole", ALARM);

@@ -155,6 +155,7 @@ fn controls(ui: &mut Ui, session: &Session) {
         ),
         ("Up, down, full thrust", format!("{}  {}  {}", key(&keys.thrust_up), key(&keys.thrust_down), key(&keys.boost))),
         ("Turn", "mouse or arrow keys".to_owned()),
+        ("Fire, in missions with bolts", key(&keys.fire).to_owned()),
         ("Roll", format!("{}  {}", key(&keys.roll_left), key(&keys.roll_right))),
         ("Assist, autopilot", format!("{}  {}", key(&keys.toggle_assist), key(&keys.toggle_autopilot))),
         ("Camera, look at the target", format!("{}  {} (hold)", key(&keys.toggle_camera), key(&keys.look_at_target))),
@@ -171,11 +172,12 @@ fn controls(ui: &mut Ui, session: &Session) {
 }
 
 /// The names of the HUD's markers, their colours, and what they mean.
-const MARKERS: [(&str, Color32, &str); 4] = [
+const MARKERS: [(&str, Color32, &str); 5] = [
     ("now", TRUE, "dashed ring: where the quarry is at this moment. Fly to this one."),
     ("seen, 7.8 r_s/c ago", SEEN, "its picture: the light left so long ago, from where it was."),
     ("2nd image", SEEN, "the same ship by light that went round the hole's far side."),
     ("course", OWN, "where you fly to; the nose points to the middle."),
+    ("dotted lines", FAINT, "how you and the target fall on; small rings: where you pass nearest."),
 ];
 fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
     let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };

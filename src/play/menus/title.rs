@@ -117,7 +117,7 @@ fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(Men
                         ask(MenuAction::Scene((title.free + by) % count));
                     }
                 }
-                let place = format!("{}  ({} of {count}, ← →)", scene.name, title.free + 1);
+                let place = format!("{}  ({} of {count}, keys left and right)", scene.name, title.free + 1);
                 ui.label(RichText::new(place).size(14.0).color(TRUE));
             });
             let words = if scene.ships.iter().any(|ship| ship.ai == Ai::Flee) {

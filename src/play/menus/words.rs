@@ -35,7 +35,11 @@ pub(super) fn hint(session: &Session) -> String {
             .map(|words| together(&words));
     let keys = format!("{thrust}  ·  {look}  ·  {pilot}");
     // A mission says by itself where to fly.
-    if session.scene.mission.is_some() { keys } else { format!("{keys}  ·  fly to the dashed ring “now”") }
+    if session.scene.mission.is_some() || session.target().is_none() {
+        keys
+    } else {
+        format!("{keys}  ·  fly to the dashed ring “now”")
+    }
 }
 
 /// What leads the camera of a replay.
@@ -61,6 +65,9 @@ pub(super) fn key(name: &str) -> &str {
         "Escape" => "Esc",
         "Comma" => ", (comma)",
         "Period" => ". (period)",
+        "MouseLeft" => "left mouse button",
+        "MouseRight" => "right mouse button",
+        "MouseMiddle" => "middle mouse button",
         other => other,
     }
 }
