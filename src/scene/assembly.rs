@@ -59,8 +59,9 @@ pub enum Body {
 pub const MOST_BOLTS: usize = 24;
 /// Diameter of a bolt, in r_s.
 const BOLT_SIZE: f64 = 0.07;
-/// Light of a bolt, of 1 for a white surface in full light: one that flies away at 0.8 c is beamed down to 1/81 of it.
-const BOLT_LIGHT: [f32; 3] = [100.0, 40.0, 9.0];
+/// Light of a bolt, of 1 for a white surface in full light: one that flies away at 0.8 c is beamed down to 1/81 of it
+/// and reddened.
+const BOLT_LIGHT: [f32; 3] = [300.0, 450.0, 900.0];
 /// Light of a gate.
 const GATE_LIGHT: [f32; 3] = [0.25, 2.4, 1.6];
 /// Light of a ghost.
