@@ -23,6 +23,8 @@ pub struct Going {
     pub replayed: bool,
     /// The share of the chosen pace.
     pub slowing: f64,
+    /// The target is shown as it was when its light left it.
+    pub by_light: bool,
 }
 
 /// Lays out all dials in `rect`.
@@ -33,7 +35,7 @@ pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerStat
     // Above the speed: below the middle it would lie on one's own ship.
     let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, going);
     let mut dials = vec![clocks(painter, rect.left_top(), &scale, read), distance(painter, rect.right_top(), &scale, read), speed, state];
-    dials.extend(read.target.map(|read| target(painter, rect.right_bottom(), &scale, &read)));
+    dials.extend(read.target.map(|read| target(painter, rect.right_bottom(), &scale, &read, going.by_light)));
     dials
 }
 
@@ -81,9 +83,9 @@ fn speed(painter: &Painter, at: Pos2, scale: &Scale, read: &Instruments) -> Text
     text_box(painter, at, Align2::LEFT_BOTTOM, &lines)
 }
 
-fn target(painter: &Painter, at: Pos2, scale: &Scale, read: &Bearing) -> TextBox {
+fn target(painter: &Painter, at: Pos2, scale: &Scale, read: &Bearing, by_light: bool) -> TextBox {
     let lines = [
-        ("RANGE", 11.0, FAINT),
+        (if by_light { "RANGE, as seen" } else { "RANGE" }, 11.0, FAINT),
         (&*format!("{:.2} r_s", read.range), 30.0, TEXT),
         (&*scale.kilometres(read.range), 12.0, FAINT),
         ("CLOSING", 11.0, FAINT),

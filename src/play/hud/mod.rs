@@ -95,8 +95,14 @@ fn draw(
         return Ok(());
     }
     let Some(read) = panel.instruments else { return Ok(()) };
-    let mut text_boxes =
-        dials::lay(&painter, rect, &session, &player, &read, dials::Going { replayed: playback.is_some(), slowing: slowing.0 });
+    let mut text_boxes = dials::lay(
+        &painter,
+        rect,
+        &session,
+        &player,
+        &read,
+        dials::Going { replayed: playback.is_some(), slowing: slowing.0, by_light: panel.by_light },
+    );
     let rules = rules.0;
     if let Some(chase) = chase.filter(|chase| chase.outcome.is_none()) {
         let holds = match (&mission, &progress) {
@@ -249,8 +255,14 @@ mod tests {
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let mut text_boxes =
-                    dials::lay(painter, rect, &session, &PlayerState::default(), &read, dials::Going { replayed: false, slowing: 0.5 });
+                let mut text_boxes = dials::lay(
+                    painter,
+                    rect,
+                    &session,
+                    &PlayerState::default(),
+                    &read,
+                    dials::Going { replayed: false, slowing: 0.5, by_light: true },
+                );
                 text_boxes.push(countdown(painter, rect, &scale, &Countdown::at(1.0, 400.0)));
                 assert_eq!(text_boxes.len(), 6);
                 for (k, text_box) in text_boxes.iter().enumerate() {

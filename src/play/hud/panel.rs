@@ -11,7 +11,7 @@ use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
-use crate::sim::sight::{Apparition, apparition, direction, true_direction};
+use crate::sim::sight::{Apparition, apparition, direction, emission_time, true_direction};
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
@@ -33,6 +33,8 @@ pub struct Panel {
     pub heading: Option<glam::DVec3>,
     /// The camera's horizontal field of view, in radians.
     pub field_of_view: f64,
+    /// What the dials say of the target is what is seen of it.
+    pub by_light: bool,
     /// The camera has turned from where the ship points.
     pub aside: bool,
     /// The next gate, in camera axes, and its number from 1.
@@ -57,6 +59,13 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
     let state = state_of(&history.at(time));
     let target = now.target().map(|(_, history)| history);
     let there = target.map(|history| state_of(&history.at(time)));
+    let marked_now = now.mission.as_ref().is_none_or(|mission| mission.0.now_marker);
+    // Where nobody says where the target is now, the dials go by its light.
+    let shown = if marked_now {
+        there
+    } else {
+        target.and_then(|history| Some(state_of(&history.at(emission_time(&camera, time, history, Order::ALL[0])?))))
+    };
     let thrust = engine.limit(&controls.0).thrust.length();
     let resting = static_momentum(state.position).unwrap_or_default();
     let is_own = camera_is_own(&player, now.chase.as_deref().and_then(|chase| chase.outcome));
@@ -73,16 +82,16 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
     } else {
         Default::default()
     };
-    let marked_now = now.mission.as_ref().is_none_or(|mission| mission.0.now_marker);
     let moving = -relative_momentum(state.momentum, resting);
     *panel = Panel {
-        instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), there.as_ref())),
+        instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), shown.as_ref())),
         images: [0, 1].map(|order| target.and_then(|history| apparition(&camera, time, history, Order::ALL[order]))),
         truth: there.filter(|_| marked_now).and_then(|there| true_direction(&camera, there.position)),
         hole: camera.position.try_normalize().map(|out| camera.seen_direction(-out)),
         decided: now.chase.as_ref().and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
         heading: (moving.length() > 0.01).then(|| camera.attitude.conjugate() * moving.normalize()),
         field_of_view: now.session.config.video.fov.to_radians(),
+        by_light: !marked_now,
         aside: player.gaze.aside(),
         gate,
         lines,

@@ -33,7 +33,7 @@ pub(super) fn hint(session: &Session) -> String {
     let [thrust, look, pilot] =
         [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
             .map(|words| together(&words));
-    let keys = format!("{thrust}  ·  {look}  ·  {pilot}");
+    let keys = if session.target().is_some() { format!("{thrust}  ·  {look}  ·  {pilot}") } else { format!("{thrust}  ·  {pilot}") };
     // A mission says by itself where to fly.
     if session.scene.mission.is_some() || session.target().is_none() {
         keys
