@@ -47,7 +47,7 @@ pub struct Chased {
     pub fell: bool,
     /// Its least distance from the hole, in r_s.
     pub least: f64,
-    /// The hunter came within [`CORNERED`] of it in the last [`LATE`].
+    /// The hunter came near it shortly before the end.
     pub cornered: bool,
 }
 

@@ -12,7 +12,7 @@ use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Fleet, ShipMotion};
 
-/// The share of the chosen pace at which the game goes on, [`SLOWEST`] to 1.
+/// The share of the chosen pace at which the game goes on, 0.4 to 1.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Slowing(pub f64);
 

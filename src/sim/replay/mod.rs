@@ -19,23 +19,14 @@ use crate::scene::config::{self, Value};
 use crate::scene::crew::Crew;
 use crate::scene::mission::Difficulty;
 use crate::scene::{self, GameConfig, Scene, SceneError};
-use packing::{pack, unpack};
+use packing::{MOST_BYTES, pack, unpack};
+
+pub use packing::Record;
 
 /// The version of the format.
 const FORMAT: u32 = 1;
-/// The most bytes of a file, and of its records unpacked: hours of flight.
-const MOST_BYTES: u64 = 16 << 20;
 /// The sections of `game.toml` that a flight depends on.
 const SECTIONS: [&str; 5] = ["clock", "ship", "enemy", "assist", "rules"];
-
-/// What the hands did from a step on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Record {
-    /// The step, counted from 0.
-    pub tick: u64,
-    /// From then on.
-    pub hands: Hands,
-}
 
 /// A flight, ready to be flown again.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,22 @@
-//! How the records of a replay are packed: column by column, each number less the one before, then DEFLATE.
+//! The records of a replay, and how they are packed: column by column, each number less the one before, then DEFLATE.
 
 use std::io::Read as _;
 
 use flate2::{Compression, read::ZlibDecoder, read::ZlibEncoder};
 
-use super::{MOST_BYTES, Record};
 use crate::sim::hands::Hands;
+
+/// The most bytes of a file, and of its records unpacked: hours of flight.
+pub(super) const MOST_BYTES: u64 = 16 << 20;
+
+/// What the hands did from a step on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Record {
+    /// The step, counted from 0.
+    pub tick: u64,
+    /// From then on.
+    pub hands: Hands,
+}
 
 /// Numbers of a record besides its pace: steps since the one before, six sticks, four switches.
 const COLUMNS: usize = 8;
