@@ -134,7 +134,7 @@ struct SimulateArgs {
     #[arg(long, value_name = "NAME", default_value_t)]
     pilot: Crew,
     /// Another program flies: a line of JSON with what is seen goes to standard output, a line with what to do comes from standard input.
-    #[arg(long, conflicts_with_all = ["replay", "save_replay", "sweep", "output", "pilot"])]
+    #[arg(long, conflicts_with_all = ["replay", "sweep", "output", "pilot"])]
     agent: bool,
     /// Flies all combinations of settings instead, a row each: KEY=FROM:TO:COUNT or KEY=VALUE,VALUE,… of game.toml; may be repeated.
     #[arg(long, value_name = "KEY=VALUES", conflicts_with_all = ["replay", "save_replay"])]
@@ -316,11 +316,16 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     request.check(&scene, &levelled)?;
     if args.agent {
         let until = request.check(&scene, &levelled)?;
-        return agent::fly(&scene, &levelled, &agent::AgentRequest { until, seed }, &mut io::stdin().lock(), &mut io::stdout().lock());
+        let request = agent::AgentRequest { until, seed, config: &config, difficulty };
+        let replay = agent::fly(&scene, &levelled, &request, &mut io::stdin().lock(), &mut io::stdout().lock())?;
+        if replay.outcome == "undecided" {
+            eprintln!("there were no more actions, or the time was out: undecided after {} steps", replay.ticks);
+        }
+        return args.save_replay.as_ref().map_or(Ok(()), |path| save(path, &replay.to_text()));
     }
     if let Some(path) = &args.save_replay {
         let (report, replay) = record(&scene, &config, &RunRequest { difficulty, crew, seed, until });
-        write!(output(Some(path))?, "{}", replay.to_text())?;
+        save(path, &replay.to_text())?;
         eprintln!("{}: {} at T = {}", path.display(), replay.outcome, report.time);
         return Ok(());
     }
@@ -332,6 +337,13 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
         return Ok(sweep::sweep(&scene, &config, &args.sweep, &rows, (&run, args.seeds), &mut out)?);
     }
     simulate::simulate(&scene, &levelled, &request, &mut out, &mut io::stderr())?;
+    Ok(())
+}
+
+/// Writes a whole file; what goes wrong names it.
+fn save(path: &Path, text: &str) -> Result<(), SimulateError> {
+    let named = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+    std::fs::create_dir_all(path.parent().unwrap_or(Path::new(""))).and_then(|()| std::fs::write(path, text)).map_err(named)?;
     Ok(())
 }
 

@@ -69,6 +69,7 @@ pub fn begin(world: &mut World, screen: Screen) {
     player.orbit = Orbit::default();
     player.flown = Flown::default();
     player.assist = None;
+    player.fired = false;
     *world.resource_mut::<MouseTurn>() = MouseTurn::default();
     begin_log(world, screen);
 }
@@ -82,7 +83,7 @@ fn choose_scene(world: &mut World, screen: Screen) {
     let before = (session.scene.name.clone(), session.scene.fingerprint);
     match (&watched, screen) {
         (Some(replay), _) => {
-            if let Some(scene) = catalogue.find(&replay.scene) {
+            if let Some(scene) = catalogue.find(replay) {
                 session.scene = scene.clone();
             }
             session.config = replay.config(&session.config);
@@ -120,6 +121,7 @@ fn read_keys(
     }
     let typing = typing.is_some_and(|typing| typing.wants_keyboard_input());
     player.looking = !typing && hands.holds(Action::LookAtTarget);
+    player.fired |= *screen.get() == Screen::Playing && !typing && hands.pushed(Action::Fire);
     if typing {
         return;
     }
@@ -231,7 +233,7 @@ fn move_hands(
     input: PlayerInput,
     clock: Res<Clock>,
     (session, slowing): (Res<Session>, Res<Slowing>),
-    player: Res<PlayerState>,
+    mut player: ResMut<PlayerState>,
     mut turn: ResMut<MouseTurn>,
     mut hands: ResMut<Hands>,
     ships: Query<(&ShipMotion, &Engine), With<Player>>,
@@ -245,7 +247,7 @@ fn move_hands(
         assist: player.assisted(&session.config),
         autopilot: player.autopilot,
         looking: player.looking,
-        fire: input.holds(Action::Fire),
+        fire: std::mem::take(&mut player.fired) || input.holds(Action::Fire),
         pace: session.config.clock.pace * slowing.0,
         ..Hands::holding(&stick)
     };

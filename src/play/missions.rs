@@ -54,9 +54,9 @@ impl Catalogue {
         self.missions.get(choice).or_else(|| self.free.get(free)).unwrap_or(&self.home)
     }
 
-    /// The scene of that name.
-    pub fn find(&self, name: &str) -> Option<&Scene> {
-        self.missions.iter().chain(&self.free).find(|scene| scene.name == name)
+    /// The scene that was flown in a replay.
+    pub fn find(&self, replay: &Replay) -> Option<&Scene> {
+        self.missions.iter().chain(&self.free).find(|scene| scene.name == replay.scene && scene.fingerprint == replay.fingerprint)
     }
 
     /// How many choices there are.
@@ -146,7 +146,7 @@ fn ghost(world: &World, session: &Session) -> Option<History> {
     if world.contains_resource::<Watched>() {
         return None;
     }
-    let replay = world.get_resource::<Records>()?.replay(&session.scene.name, session.difficulty)?;
+    let replay = world.get_resource::<Records>()?.replay(&session.scene.record_name(), session.difficulty)?;
     if replay.fingerprint != session.scene.fingerprint {
         return None;
     }
@@ -169,7 +169,7 @@ fn keep_score(world: &mut World) {
     let session = world.resource::<Session>().clone();
     let mut last = LastFlight { replay: Some(recording.0.clone()), ..LastFlight::default() };
     if let Some(mission) = &session.scene.mission {
-        last.before = world.resource::<Records>().best(&session.scene.name, session.difficulty);
+        last.before = world.resource::<Records>().best(&session.scene.record_name(), session.difficulty);
         let flown_by_hand = !world.resource::<PlayerState>().flown.by_autopilot;
         if outcome.is_won() {
             let best = score(world, &session, mission, time);
@@ -177,7 +177,7 @@ fn keep_score(world: &mut World) {
             // The autopilot's flights are nobody's best.
             if flown_by_hand {
                 let mut records = world.resource_mut::<Records>();
-                let (is_best, wrong) = records.take(&session.scene.name, session.difficulty, best, &recording.0);
+                let (is_best, wrong) = records.take(&session.scene.record_name(), session.difficulty, best, &recording.0);
                 last.is_best = is_best;
                 if let Some(text) = wrong {
                     let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 8.0;

@@ -44,6 +44,8 @@ pub struct Scene {
     pub expect: Option<Expect>,
     /// A fingerprint of the file's text.
     pub fingerprint: u64,
+    /// It is no file of the game's own: another may have its name.
+    pub foreign: bool,
 }
 
 /// The text of a `[disk]` section, checked once, applied to a configuration that may change while the game runs.
@@ -76,6 +78,11 @@ struct SceneFile {
 }
 
 impl Scene {
+    /// The name under which scores are kept: those of another file of the same name are others.
+    pub fn record_name(&self) -> String {
+        if self.foreign { format!("{}-{:016x}", self.name, self.fingerprint) } else { self.name.clone() }
+    }
+
     /// The disk of this scene: the scene's own keys over those of `game.toml`; `None` for a scene without a disk.
     pub fn disk(&self, config: &GameConfig) -> Option<config::Disk> {
         let keys = self.disk.as_ref()?;
@@ -136,6 +143,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
         mission: None,
         expect: entry.expect.as_ref().map(check_expect).transpose()?,
         fingerprint: 0,
+        foreign: false,
         ships,
     })
 }
@@ -186,7 +194,10 @@ pub fn load(name_or_path: &str) -> Result<Scene, SceneError> {
         return Err(SceneError::NotFound { name: name_or_path.into(), tried: path, known: [names(), mission_names()].concat().join(", ") });
     }
     let text = std::fs::read_to_string(&path).map_err(|source| SceneError::Read { path: path.clone(), source })?;
-    Scene::from_toml(&path, &text).map_err(SceneError::Invalid)
+    let scene = Scene::from_toml(&path, &text).map_err(SceneError::Invalid)?;
+    let folder = path.canonicalize().ok().and_then(|path| path.parent().map(PathBuf::from));
+    let own = [scenes_folder(), missions_folder()].map(|folder| folder.canonicalize().ok());
+    Ok(Scene { foreign: !own.contains(&folder), ..scene })
 }
 
 /// The file that a name or path stands for, whether it exists or not.

@@ -12,10 +12,13 @@ use super::bolts::Gun;
 use super::goals::{ActiveMission, Progress};
 use super::hands::Hands;
 use super::history::History;
+use super::replay::{Replay, ReplayLog};
 use super::ship::{Engine, Fleet, Fuel, Player, Ship, ShipMotion};
 use super::sight::apparition;
 use super::simulate::SimulateError;
 use super::{ChaseRules, Clock, app_of, outcome, step};
+use crate::scene::crew::Crew;
+use crate::scene::mission::Difficulty;
 use crate::scene::ship::Sees;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
@@ -29,8 +32,12 @@ const DECISION: f64 = 0.25;
 const LONGEST: f64 = 100.0;
 
 /// What is asked of a flight.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AgentRequest {
+#[derive(Clone, Copy, Debug)]
+pub struct AgentRequest<'a> {
+    /// `game.toml` before the difficulty, for the replay.
+    pub config: &'a GameConfig,
+    /// Of a mission.
+    pub difficulty: Difficulty,
     /// T at which it ends undecided, in r_s/c.
     pub until: f64,
     /// For everything left to chance.
@@ -126,14 +133,15 @@ impl Action {
     }
 }
 
-/// Flies `scene` (with its difficulty in `config`) as `actions` say until it is decided, until T = `until`, or until there are no more.
+/// Flies `scene` (with its difficulty in `config`) as `actions` say until it is decided, until T = `until`, or until there are no more. The
+/// replay of it.
 pub fn fly(
     scene: &Scene,
     config: &GameConfig,
-    request: &AgentRequest,
+    request: &AgentRequest<'_>,
     actions: &mut dyn BufRead,
     observations: &mut dyn Write,
-) -> Result<(), SimulateError> {
+) -> Result<Replay, SimulateError> {
     let mut app = app_of(scene, config, request.seed);
     let world = app.world_mut();
     let own = world.query_filtered::<Entity, With<Player>>().iter(world).next();
@@ -142,6 +150,8 @@ pub fn fly(
     world.entity_mut(own).insert(Player);
     let sees = scene.ships.get(world.get::<Ship>(own).map_or(0, |ship| ship.index)).map_or(Sees::Now, |spec| spec.sees);
     let pace = config.clock.pace;
+    let AgentRequest { difficulty, seed, .. } = *request;
+    world.insert_resource(ReplayLog(Replay::begin(scene, request.config, difficulty, Crew::Expert, seed)));
     for number in 1.. {
         let decided = outcome(world).map(|(outcome, _)| outcome.name());
         let over = decided.or((world.resource::<Clock>().time >= request.until).then_some("undecided"));
@@ -151,6 +161,9 @@ pub fn fly(
         let mut answer = String::new();
         if over.is_some() || actions.read_line(&mut answer)? == 0 {
             break;
+        }
+        if !answer.trim_start().starts_with('{') {
+            return Err(SimulateError::Input(format!("standard input, line {number}: an action is an object: {{\"thrust\": [0, 0, -1]}}")));
         }
         let wrong = |problem: String| SimulateError::Input(format!("standard input, line {number}: {problem}"));
         let action: Action = serde_json::from_str(&answer).map_err(|error| wrong(error.to_string()))?;
@@ -164,7 +177,9 @@ pub fn fly(
             }
         }
     }
-    Ok(())
+    let mut log = world.remove_resource::<ReplayLog>().ok_or_else(|| SimulateError::Input("nothing was recorded".into()))?;
+    log.0.finish(world);
+    Ok(log.0)
 }
 
 fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>) -> Observation {
@@ -231,8 +246,13 @@ mod tests {
     fn flown(actions: &str, until: f64) -> Result<Vec<serde_json::Value>, String> {
         let scene = scene::load("02-first-pursuit").expect("a mission");
         let mut out = Vec::new();
-        fly(&scene, &GameConfig::default(), &AgentRequest { until, seed: 1 }, &mut actions.as_bytes(), &mut out)
-            .map_err(|e| e.to_string())?;
+        let config = GameConfig::default();
+        let request = AgentRequest { until, seed: 1, config: &config, difficulty: Difficulty::Normal };
+        let levelled = scene.config(&config, Difficulty::Normal);
+        let replay = fly(&scene, &levelled, &request, &mut actions.as_bytes(), &mut out).map_err(|e| e.to_string())?;
+        if replay.ticks > 0 {
+            replay.verify(std::path::Path::new("r"), None, &config).map_err(|e| e.to_string())?;
+        }
         let text = String::from_utf8(out).expect("text");
         Ok(text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect())
     }
@@ -258,7 +278,8 @@ mod tests {
             ("{}\n{\"thrust\":[2,0,0]}\n", ["line 2", "from -1 to 1"]),
             ("{\"burn\":1}\n", ["line 1", "burn"]),
             ("{\"for\":0}\n", ["line 1", "above 0"]),
-            ("nonsense\n", ["line 1", "expected"]),
+            ("nonsense\n", ["line 1", "an object"]),
+            ("[]\n", ["line 1", "an object"]),
         ] {
             let said = flown(actions, 9.0).expect_err(actions);
             assert!(words.iter().all(|word| said.contains(word)), "{said}");

@@ -144,7 +144,7 @@ fn table(missions: &[Scene], rows: &[BalanceRow], args: &BalanceArgs) -> String 
     let mut text = format!(
         "# Balance\n\nHow missions end when nobody sits at the controls, {seeds} flights each. `naive` flies nose to the marker with full thrust and \
          assist,\n`apprentice` and `expert` are the autopilot, slow and quick. Scores are medians of won flights: \
-         r_s/c on\nthe mission's clock, or c of Δv for \"Hunted\".\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
+         r_s/c on\nthe mission's clock, or c of Δv where it scores fuel.\n\nMade by `lensrunner balance --seeds {seeds}{first}{named}`.\n\n| mission | difficulty | naive | apprentice | expert | \
          score naive | score expert | how the others end |\n|---|---|---|---|---|---|---|---|\n"
     );
     for (index, scene) in missions.iter().enumerate() {

@@ -157,7 +157,7 @@ fn fly_bolts(
 }
 
 /// The least distance from the origin to the straight line between two places, in their unit.
-fn nearest(from: DVec3, to: DVec3) -> f64 {
+pub fn nearest(from: DVec3, to: DVec3) -> f64 {
     let way = to - from;
     let share = (-from.dot(way) / way.length_squared().max(1e-30)).clamp(0.0, 1.0);
     (from + way * share).length()

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::rules::Outcome;
 use super::run::{FlightReport, RunRequest, run};
 use crate::scene::expect::Expect;
+use crate::scene::model::import::load_or_placeholder;
 use crate::scene::{GameConfig, Scene, SceneError};
 
 /// Why nothing can be checked.
@@ -85,6 +86,11 @@ fn check_file(file: &Path, config: &GameConfig) -> Verdict {
 
 /// Flies a scene as it expects to be flown.
 pub fn check(scene: &Scene, config: &GameConfig) -> Verdict {
+    let missing: Vec<String> =
+        scene.ships.iter().filter_map(|ship| load_or_placeholder(ship.model.as_deref()?).1).map(|error| error.to_string()).collect();
+    if !missing.is_empty() {
+        return Verdict::Failed(missing);
+    }
     let Some(expect) = &scene.expect else { return Verdict::NothingExpected };
     if scene.ships.is_empty() {
         return Verdict::Failed(vec!["[expect] needs at least one [[ship]]".into()]);

@@ -147,9 +147,10 @@ impl Step<'_, '_, '_, '_> {
         Some(self.ships.get(*self.fleet.0.get(ship)?).ok()?.0.0)
     }
 
-    fn is_lost(&self, ship: usize) -> bool {
+    /// Whether a ship is gone; `inside`: only at the singularity.
+    fn is_lost(&self, ship: usize, inside: bool) -> bool {
         let Some(Ok((.., crossed, ended))) = self.fleet.0.get(ship).map(|&entity| self.ships.get(entity)) else { return true };
-        crossed || ended
+        ended || (crossed && !inside)
     }
 
     /// How the mission was lost in this step, if it was.
@@ -160,14 +161,17 @@ impl Step<'_, '_, '_, '_> {
         }
         let near = |&ship: &usize| {
             let there = self.state(ship);
-            there.is_some_and(|there| there.position.distance(own.0.position) <= self.rules.0.capture_radius) && !self.is_lost(ship)
+            there.is_some_and(|there| there.position.distance(own.0.position) <= self.rules.0.capture_radius)
+                && !self.is_lost(ship, mission.inside)
         };
         progress.held_by = if mission.caught_by.iter().any(near) { progress.held_by + self.clock.step } else { 0.0 };
         if !mission.caught_by.is_empty() && progress.held_by >= self.rules.0.hold_time {
             return Some(Outcome::Taken);
         }
         let goal = mission.goals.get(progress.goal)?;
-        let gone = goal.task.ship().is_some_and(|ship| self.is_lost(ship) && !mission.inside);
+        // Also what a later goal is about.
+        let to_come = mission.goals.iter().skip(progress.goal).filter_map(|goal| goal.task.ship());
+        let gone = to_come.into_iter().any(|ship| self.is_lost(ship, mission.inside));
         let late = self.clock.time >= self.rules.0.time_limit.min(goal.before) - 1e-9;
         // Who is to survive until the limit has done so when it comes.
         let surviving = matches!(goal.task, GoalTask::Survive { until, .. } if self.clock.time >= until);

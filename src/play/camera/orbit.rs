@@ -18,7 +18,7 @@ impl Default for Orbit {
 }
 
 /// The distances that are allowed, over the usual one.
-const ZOOM: (f64, f64) = (0.6, 12.0);
+const ZOOM: (f64, f64) = (0.6, 6.0);
 /// The farthest up and down, in radians: short of where left and right change places.
 const STEEPEST: f64 = 1.5;
 

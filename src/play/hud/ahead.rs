@@ -4,7 +4,7 @@
 use glam::DVec3;
 
 use crate::sim::History;
-use crate::sim::bolts::bolt_momentum;
+use crate::sim::bolts::{self, bolt_momentum, fired_by};
 use crate::sim::pilot::rollout::{Point, advance};
 use crate::sim::sight::{direction, emission_time};
 use crate::spacetime::Observer;
@@ -56,6 +56,22 @@ pub fn closest(camera: &Observer, own: &ShipState, target: &ShipState) -> Option
     let (index, distance) = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1))?;
     let directions = [a[index], b[index]].map(|place| seen_at(camera, place));
     (index > 0).then_some(Approach { distance, ahead: (index as f64 + 1.0) * step, directions })
+}
+
+/// How near a bolt fired now comes to a target that coasts, in r_s, before it is past.
+pub fn shot_passes(own: &ShipState, target: &ShipState) -> f64 {
+    /// T of a piece, in r_s/c; between its ends both fly straight.
+    const STEP: f64 = 0.25;
+    let mut bolt = Point::from(&fired_by(own));
+    let mut other = Point::from(target);
+    let mut nearest = f64::INFINITY;
+    for _ in 0..(SHOT.0 / STEP) as usize {
+        let before = bolt.x - other.x;
+        bolt = advance(&bolt, STEP, 1.0, |_| DVec3::ZERO);
+        other = advance(&other, STEP, 1.0, |_| DVec3::ZERO);
+        nearest = nearest.min(bolts::nearest(before, bolt.x - other.x));
+    }
+    nearest
 }
 
 /// The places of a free fall, from the end of the first piece on.

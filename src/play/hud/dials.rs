@@ -103,6 +103,7 @@ fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, r
         (false, false) => assist,
     };
     let view = match player.view {
+        _ if going.replayed => "the mouse leads the camera",
         _ if player.gaze.aside() => "at the target",
         CameraView::Cockpit => "cockpit",
         CameraView::ThirdPerson => "third person",

@@ -151,6 +151,9 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     if let Some(MarkerPosition::Edge(at, towards)) = truth {
         board.arrow(at, towards, "now", TRUE);
     }
+    if let (Some((MarkerPosition::Edge(at, towards), _)), true) = (second, panel.by_light) {
+        board.arrow(at, towards, "2nd image", SEEN);
+    }
     // The hole's shadow shows it where it is on the screen.
     if let Some(MarkerPosition::Edge(at, towards)) = panel.hole.map(find) {
         board.arrow(at, towards, "hole", ALARM);

@@ -16,6 +16,7 @@ use bevy_egui::egui::{self, Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, v
 use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
 
 use crate::scene::GameConfig;
+use crate::sim::bolts::HIT_RADIUS;
 use crate::sim::hands::Avoiding;
 use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
@@ -171,8 +172,12 @@ const ABOVE_TARGET: f32 = 130.0;
 /// Bolts left, and how near one comes.
 fn extra(panel: &Panel) -> Option<String> {
     let bolts = panel.bolts.map(|left| format!("{left} bolts"));
-    let near = panel.closest.map(|near| format!("nearest {:.1} r_s in {:.0} r_s/c", near.distance, near.ahead));
-    let words: Vec<String> = bolts.into_iter().chain(near).collect();
+    let shot = panel.shot_passes.map(|distance| match distance {
+        _ if distance <= HIT_RADIUS => "a bolt now: HIT, if the target coasts".to_owned(),
+        _ => format!("a bolt now passes the target at {distance:.1} r_s"),
+    });
+    let near = panel.closest.map(|near| format!("you pass the target at {:.1} r_s in {:.0} r_s/c", near.distance, near.ahead));
+    let words: Vec<String> = bolts.into_iter().chain(shot).chain(near).collect();
     (!words.is_empty()).then(|| words.join("\n"))
 }
 

@@ -43,6 +43,8 @@ pub struct Panel {
     pub lines: [AheadLine; 3],
     /// How near one comes to the target by falling on.
     pub closest: Option<Approach>,
+    /// How near a bolt fired now comes to the target as the dials show it, in r_s.
+    pub shot_passes: Option<f64>,
     /// Bolts left, in a mission that has some.
     pub bolts: Option<u32>,
 }
@@ -96,6 +98,7 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
         gate,
         lines,
         closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),
+        shot_passes: gun.filter(|_| is_own).and(shown).map(|there| ahead::shot_passes(&state, &there)),
         bolts: gun.map(|gun| gun.left),
     };
 }

@@ -222,8 +222,8 @@ fn score(ui: &mut Ui, session: &Session, last: &LastFlight) {
 fn pilot(flown: Flown) -> Option<&'static str> {
     match (flown.by_autopilot, flown.by_hand) {
         (false, _) => None,
-        (true, true) => Some("the autopilot flew a part of the way"),
-        (true, false) => Some("the autopilot flew"),
+        (true, true) => Some("the autopilot flew a part of the way: not counted"),
+        (true, false) => Some("the autopilot flew: not counted"),
     }
 }
 

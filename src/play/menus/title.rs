@@ -65,7 +65,7 @@ fn list(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(Menu
         let scene = title.catalogue.scene(choice, title.free);
         let words = match &scene.mission {
             Some(mission) if choice < title.catalogue.missions.len() => {
-                let best = title.records.best(&scene.name, session.difficulty);
+                let best = title.records.best(&scene.record_name(), session.difficulty);
                 format!("{}  {}  {}", choice + 1, mission.title, stars(best.map_or(0, |best| best.stars)))
             }
             _ => format!("Free flight: {}", scene.name),
@@ -98,7 +98,7 @@ fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(Men
                 ScoredBy::Fuel => "Least Δv",
             };
             let unit = unit(mission.clock);
-            let best = title.records.best(&scene.name, session.difficulty);
+            let best = title.records.best(&scene.record_name(), session.difficulty);
             let best = best.map_or("not yet won".to_owned(), |best| match mission.clock {
                 ScoredBy::Fuel => format!("{:.2} {unit}", best.score),
                 ScoredBy::Far | ScoredBy::Own => format!("{:.1} {unit} ({})", best.score, scale.span(best.score)),

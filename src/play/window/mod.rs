@@ -61,10 +61,10 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         eprintln!("{words}");
     }
     // A mission of one's own joins the list.
-    if session.scene.mission.is_some() && !catalogue.missions.iter().any(|mission| mission.name == session.scene.name) {
+    if session.scene.mission.is_some() && !catalogue.missions.iter().any(|mission| mission.fingerprint == session.scene.fingerprint) {
         catalogue.missions.push(session.scene.clone());
     }
-    let chosen = catalogue.missions.iter().position(|mission| mission.name == session.scene.name);
+    let chosen = catalogue.missions.iter().position(|mission| mission.fingerprint == session.scene.fingerprint);
     // Another scene that was named is flown freely.
     let freely = if options.at_once || session.scene.name != SCENE { catalogue.missions.len() } else { 0 };
     let choice = chosen.unwrap_or(freely);

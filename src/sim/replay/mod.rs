@@ -83,6 +83,16 @@ pub enum ReplayError {
         /// The scene's name.
         scene: String,
     },
+    /// Another scene was named than the one it was flown in.
+    #[error("{path}: it is a flight of {flown}, not of {named}")]
+    AnotherScene {
+        /// The replay.
+        path: PathBuf,
+        /// Its scene.
+        flown: String,
+        /// The one that was named.
+        named: String,
+    },
     /// Its scene is another one now.
     #[error("{path}: {scene} was another file when this was flown")]
     OtherScene {
@@ -230,7 +240,9 @@ impl Replay {
             }
             None => scene::load(&self.scene)?,
         };
-        if scene.fingerprint == self.fingerprint {
+        if scene.name != self.scene {
+            Err(ReplayError::AnotherScene { path: path.to_path_buf(), flown: self.scene.clone(), named: scene.name })
+        } else if scene.fingerprint == self.fingerprint {
             Ok(scene)
         } else {
             Err(ReplayError::OtherScene { path: path.to_path_buf(), scene: self.scene.clone() })
