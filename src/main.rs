@@ -331,6 +331,9 @@ fn simulate_scene(args: &SimulateArgs) -> Result<(), SimulateError> {
     }
     let mut out = output(args.output.as_ref())?;
     if !args.sweep.is_empty() {
+        if let Some(path) = sweep::repeated(&args.sweep) {
+            return Err(SimulateError::Input(format!("--sweep {path} is given twice")));
+        }
         let rows = sweep::combinations(&args.sweep, args.seeds)
             .ok_or_else(|| SimulateError::Input(format!("a sweep has at most {} flights", sweep::MOST_FLIGHTS)))?;
         let run = RunRequest { difficulty, crew, seed, until };

@@ -75,8 +75,13 @@ pub struct ExpectEntry {
     hash: Option<Spanned<String>>,
 }
 
-/// Checks `[expect]`.
-pub fn check_expect(entry: &ExpectEntry) -> Result<Expect, Fault> {
+/// Of [`OUTCOMES`], those that a chase alone can have, and those that a mission alone can have.
+const OF_CHASES: [&str; 2] = ["caught", "hunter-lost"];
+/// See [`OF_CHASES`].
+const OF_MISSIONS: [&str; 4] = ["done", "taken", "ship-lost", "strayed"];
+
+/// Checks `[expect]` of a mission, or of another scene.
+pub fn check_expect(entry: &ExpectEntry, is_mission: bool) -> Result<Expect, Fault> {
     let range = |value: &Option<Spanned<[f64; 2]>>, key: &str| match value {
         Some(written) => match *written.get_ref() {
             [low, high] if 0.0 <= low && low <= high => Ok(Some([low, high])),
@@ -93,6 +98,10 @@ pub fn check_expect(entry: &ExpectEntry) -> Result<Expect, Fault> {
     let outcome = match &entry.outcome {
         Some(outcome) if !OUTCOMES.contains(&outcome.get_ref().as_str()) => {
             return fault(outcome, format!("outcome = {:?} must be one of {}", outcome.get_ref(), OUTCOMES.join(", ")));
+        }
+        Some(outcome) if (if is_mission { &OF_CHASES[..] } else { &OF_MISSIONS[..] }).contains(&outcome.get_ref().as_str()) => {
+            let [own, other] = if is_mission { ["a mission", "a chase"] } else { ["a chase", "a mission"] };
+            return fault(outcome, format!("outcome = {:?}: {own} never ends so, only {other}", outcome.get_ref()));
         }
         outcome => outcome.as_ref().map(|outcome| outcome.get_ref().clone()),
     };

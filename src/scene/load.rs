@@ -141,7 +141,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
         disk: None,
         rules: entry.rules.clone(),
         mission: None,
-        expect: entry.expect.as_ref().map(check_expect).transpose()?,
+        expect: entry.expect.as_ref().map(|expect| check_expect(expect, entry.mission.is_some())).transpose()?,
         fingerprint: 0,
         foreign: false,
         ships,

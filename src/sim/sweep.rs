@@ -49,14 +49,23 @@ impl std::str::FromStr for Axis {
                     .filter(|count| (2..=10_000).contains(count))
                     .ok_or_else(|| format!("{path}: COUNT = {count:?} must be a whole number, 2 to 10000"))?;
                 let (from, to) = (number(from)?, number(to)?);
-                let at = |index: usize| from + (to - from) * index as f64 / (count - 1) as f64;
-                (0..count).map(|index| one(&at(index).to_string())).collect::<Result<_, _>>()?
+                // Twelve digits: 0.04 and not 0.039999999999999994.
+                let at = |index: usize| format!("{:.11e}", from + (to - from) * index as f64 / (count - 1) as f64);
+                (0..count).map(|index| one(&at(index))).collect::<Result<_, _>>()?
             }
             [list] => list.split(',').map(one).collect::<Result<_, _>>()?,
             _ => return Err(format!("{text:?} must be {usage}")),
         };
         Ok(Axis { path: path.to_owned(), values })
     }
+}
+
+/// A key that stands in two axes.
+pub fn repeated(axes: &[Axis]) -> Option<&str> {
+    axes.iter()
+        .enumerate()
+        .find(|(index, axis)| axes[..*index].iter().any(|before| before.path == axis.path))
+        .map(|(_, axis)| axis.path.as_str())
 }
 
 /// The settings of every flight, the last axis changing the fastest; None if there are more than [`MOST_FLIGHTS`].
@@ -149,6 +158,7 @@ mod tests {
         assert!((0..6).all(|k| !rows[..k].contains(&rows[k])));
         assert_eq!(combinations(&[], 1).expect("one").len(), 1);
         assert!(combinations(&axes, u64::MAX).is_none());
+        assert_eq!((repeated(&axes), repeated(&[axes[0].clone(), axes[0].clone()])), (None, Some("enemy.thrust")));
     }
 
     /// The same rows from one thread and from two.

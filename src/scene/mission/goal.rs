@@ -190,6 +190,11 @@ impl GoalEntry {
         self.kind.span()
     }
 
+    /// Where the file names the ship, else the kind.
+    pub(super) fn ship_span(&self) -> Range<usize> {
+        self.ship.as_ref().map_or_else(|| self.kind.span(), Spanned::span)
+    }
+
     /// T by which it must be done, if the file says so.
     pub(super) fn given_before(&self) -> Option<f64> {
         self.before.as_ref().map(|before| *before.get_ref())

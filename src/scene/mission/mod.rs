@@ -163,13 +163,23 @@ pub fn check_mission(
     if mission.goals.is_empty() {
         return fault(&entry.title, "a mission needs at least one [[goal]]".into());
     }
-    if mission.caught_by.contains(&own) {
-        return fault(&entry.title, "caught_by names the player's own ship".into());
+    if let Some(index) = mission.caught_by.iter().position(|&ship| ship == own) {
+        return fault(&entry.caught_by[index], "caught_by names the player's own ship".into());
+    }
+    let burns: f64 = mission.goals.iter().map(|goal| if let GoalTask::Burn { amount } = goal.task { amount } else { 0.0 }).sum();
+    for difficulty in Difficulty::ALL {
+        let tank = if ships[own].fuel.is_finite() { ships[own].fuel } else { mission.on(difficulty).ship.fuel };
+        if burns > tank {
+            return fault(
+                &entry.title,
+                format!("its goals burn {burns} c, more than the {tank} c in the tanks on {difficulty}: it cannot be won"),
+            );
+        }
     }
     enough_bolts(&mission, goals)?;
     for (goal, written) in mission.goals.iter().zip(goals) {
         if goal.task.ship() == Some(own) {
-            return Err(Fault { span: written.get_ref().kind_span(), message: "the goal's ship is the player's own".into() });
+            return Err(Fault { span: written.get_ref().ship_span(), message: "the goal's ship is the player's own".into() });
         }
         reachable(&mission, goal, written.get_ref().given_before())
             .map_err(|message| Fault { span: written.get_ref().kind_span(), message })?;
