@@ -147,7 +147,7 @@ fn bad_missions_are_refused_with_place_and_range() {
         ),
         ("[[goal]]\ntext = \"x\"\nkind = \"burn\"\namount = 50", vec!["50 c", "7 c"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 1\n[expect]\noutcome = \"caught\"", vec!["m.toml:11", "never ends so"]),
-        ("[[goal]]\ntext = \"x\"\nkind = \"hit\"\nship = \"own\"", vec!["m.toml:10", "the player's own"]),
+        ("[[goal]]\ntext = \"x\"\nkind = \"look\"\nship = \"own\"", vec!["m.toml:9", "the player's own"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 9\nbefore = 5", vec!["for = 9", "before = 5"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 0\nbefore = 0", vec!["before = 0"]),
         ("[[goal]]\ntext = \"x\"\nkind = \"coast\"\nfor = 1\nbefore = 500", vec!["before = 500", "time_limit = 100"]),
@@ -174,7 +174,7 @@ fn what_comes_otherwise_than_expected_is_said() {
         check(&Scene::from_toml(Path::new("e.toml"), &scene).expect("a scene"), &GameConfig::default())
     };
     assert!(matches!(expect("outcome = \"undecided\"\ntime = [5, 5]\nradius = [5.99, 6.01]\ndrift = [1e-9, 1e-9]"), Verdict::Held(_)));
-    for wrong in ["outcome = \"done\"", "time = [6, 7]", "own_time = [5, 6]", "radius = [6.1, 7]", "hash = \"0123456789abcdef\""] {
+    for wrong in ["outcome = \"caught\"", "time = [6, 7]", "own_time = [5, 6]", "radius = [6.1, 7]", "hash = \"0123456789abcdef\""] {
         assert!(expect(wrong).is_failure(), "{wrong}");
     }
 }

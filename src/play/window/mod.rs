@@ -1,5 +1,6 @@
 //! The game in a window: the Bevy app and its plugins, one for each feature.
 
+pub mod focus;
 pub mod interface;
 pub mod record;
 
@@ -70,12 +71,23 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     let choice = chosen.unwrap_or(freely);
     let mut app = App::new();
     app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
-        filter: "warn,lensrunner=info,wgpu_hal=error,bevy_egui=error".into(),
+        // What libraries warn of means nothing to a player; RUST_LOG shows it.
+        filter: "error,lensrunner=info".into(),
         level: bevy::log::Level::WARN,
         ..default()
     }))
     .add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
-    .add_plugins((SimulationPlugins, GamePlugin, MissionsPlugin, PicturePlugin, HudPlugin, MenusPlugin, OverlayPlugin, InterfacePlugin))
+    .add_plugins((
+        SimulationPlugins,
+        GamePlugin,
+        MissionsPlugin,
+        PicturePlugin,
+        HudPlugin,
+        MenusPlugin,
+        OverlayPlugin,
+        InterfacePlugin,
+        focus::FocusPlugin,
+    ))
     .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
     .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
     .insert_resource(catalogue)

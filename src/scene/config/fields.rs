@@ -252,6 +252,7 @@ config! {
         fullscreen: bool = false, Switch, "", "fill the screen";
         vsync: bool = true, Switch, "", "wait for the screen";
         fov: f64 = 60.0, number(20.0, 150.0), "degrees", "horizontal field of view";
+        pause_without_focus: bool = true, Switch, "", "the flight pauses when the window loses its focus";
         reduced_motion: bool = false, Switch, "", "the camera does not sway or glide";
     }
 }
