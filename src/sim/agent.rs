@@ -12,6 +12,7 @@ use super::bolts::Gun;
 use super::goals::{ActiveMission, Progress};
 use super::hands::Hands;
 use super::history::History;
+use super::pilot::rollout::Point;
 use super::replay::{Replay, ReplayLog};
 use super::ship::{Engine, Fleet, Fuel, Player, Ship, ShipMotion};
 use super::sight::apparition;
@@ -23,8 +24,7 @@ use crate::scene::ship::Sees;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::Observer;
 use crate::spacetime::light::Order;
-use crate::spacetime::matter::{ShipState, gamma};
-use crate::spacetime::metric::river_speed;
+use crate::spacetime::matter::ShipState;
 
 /// T between two decisions unless an action says otherwise, in r_s/c.
 const DECISION: f64 = 0.25;
@@ -145,9 +145,9 @@ pub fn fly(
     let mut app = app_of(scene, config, request.seed);
     let world = app.world_mut();
     let own = world.query_filtered::<Entity, With<Player>>().iter(world).next();
-    let own = own.or_else(|| world.resource::<Fleet>().0.first().copied());
-    let Some(own) = own else { return Err(SimulateError::Input(format!("scene {}: there is no ship to fly", scene.name))) };
-    world.entity_mut(own).insert(Player);
+    let Some(own) = own else {
+        return Err(SimulateError::Input(format!("scene {}: none of its ships has player = true, so there is none to fly", scene.name)));
+    };
     let sees = scene.ships.get(world.get::<Ship>(own).map_or(0, |ship| ship.index)).map_or(Sees::Now, |spec| spec.sees);
     let pace = config.clock.pace;
     let AgentRequest { difficulty, seed, .. } = *request;
@@ -192,7 +192,7 @@ fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>
         tau: state.proper_time,
         own: Own {
             position: state.position,
-            velocity: velocity(state.position, state.momentum),
+            velocity: Point::from(&state).velocity(),
             attitude: state.attitude.to_array(),
             fuel,
             thrust: world.get::<Engine>(own).map_or(0.0, |engine| engine.max_thrust),
@@ -202,12 +202,6 @@ fn observe(world: &World, own: Entity, sees: Sees, outcome: Option<&'static str>
         goal: goal(world),
         outcome,
     }
-}
-
-/// dx/dT in c of a body at `position` (r_s) with the rain-frame momentum `momentum` per mass (c).
-fn velocity(position: DVec3, momentum: DVec3) -> DVec3 {
-    let r = position.length();
-    momentum / gamma(momentum) - position * (river_speed(r) / r)
 }
 
 /// What is known of a ship; None before any light of it has come.
@@ -222,7 +216,7 @@ fn see(world: &World, own: &ShipState, ship: Entity, sees: Sees) -> Option<Seen>
         Sees::SecondImage => images[1].as_ref()?.age,
     };
     let sample = history.at(now - age);
-    let velocity = velocity(sample.position, sample.momentum);
+    let velocity = Point { x: sample.position, p: sample.momentum }.velocity();
     Some(Seen { name, age, position: sample.position, velocity, images: images.map(|image| image.map(|image| image.direction)) })
 }
 
@@ -270,6 +264,15 @@ mod tests {
         assert_eq!(lines[0]["others"][0]["name"], "freighter");
         assert_eq!(lines[0]["goal"]["of"], 1);
         assert_eq!(flown("", 5.0).expect("a flight").len(), 1, "nothing more is asked for");
+    }
+
+    #[test]
+    fn a_scene_in_which_nobody_plays_is_refused() {
+        let scene = scene::load("plunge").expect("a scene");
+        let config = GameConfig::default();
+        let request = AgentRequest { until: 1.0, seed: 1, config: &config, difficulty: Difficulty::Normal };
+        let said = fly(&scene, &config, &request, &mut &b"{}"[..], &mut Vec::new()).expect_err("refused").to_string();
+        assert!(said.contains("player = true"), "{said}");
     }
 
     #[test]
