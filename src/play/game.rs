@@ -14,7 +14,8 @@ use crate::play::camera::orbit::Orbit;
 use crate::play::input::action::Action;
 use crate::play::input::gaze::Gaze;
 use crate::play::input::lead::lead_camera;
-use crate::play::input::{Bindings, MouseTurn, PlayerInput};
+use crate::play::input::mouse::MouseTurn;
+use crate::play::input::{ControlsPlugin, PlayerInput};
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
@@ -31,10 +32,8 @@ impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
         schedule::order(app);
         app.init_state::<Screen>()
-            .add_plugins(PacePlugin)
+            .add_plugins((PacePlugin, ControlsPlugin))
             .add_message::<MenuAction>()
-            .init_resource::<Bindings>()
-            .init_resource::<MouseTurn>()
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .add_systems(
                 Update,
@@ -256,9 +255,10 @@ fn move_hands(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::play::input::tests::press_key;
     use crate::play::overlay::live::LivePlugin;
     use crate::sim::{Outcome, SimulationPlugins};
-    use bevy::input::InputPlugin;
+    use bevy::input::{ButtonState, InputPlugin};
     use bevy::state::app::StatesPlugin;
     use bevy::time::TimeUpdateStrategy;
     use std::time::Duration;
@@ -276,10 +276,10 @@ mod tests {
     }
 
     fn push(app: &mut App, key: KeyCode) {
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(key);
+        press_key(app, key, ButtonState::Pressed);
+        app.update();
+        press_key(app, key, ButtonState::Released);
         // The frame after the one that reads the key is the first on the new screen.
-        app.world_mut().run_schedule(Update);
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().reset_all();
         app.update();
     }
 
@@ -354,12 +354,12 @@ mod tests {
         push(&mut app, KeyCode::Enter);
         let looking = |app: &App| app.world().resource::<PlayerState>().looking;
         assert!(!looking(&app));
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyV);
+        press_key(&mut app, KeyCode::KeyV, ButtonState::Pressed);
         for _ in 0..3 {
             app.update();
             assert!(looking(&app));
         }
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyV);
+        press_key(&mut app, KeyCode::KeyV, ButtonState::Released);
         app.update();
         assert!(!looking(&app));
     }
@@ -400,10 +400,10 @@ mod tests {
             let mut ships = app.world_mut().query_filtered::<&crate::sim::Controls, With<Player>>();
             ships.single(app.world()).expect("one player").0.thrust
         };
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(KeyCode::KeyW);
+        press_key(&mut app, KeyCode::KeyW, ButtonState::Pressed);
         app.update();
         assert!(thrust(&mut app).z < -0.01, "{}", thrust(&mut app));
-        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().release(KeyCode::KeyW);
+        press_key(&mut app, KeyCode::KeyW, ButtonState::Released);
         push(&mut app, KeyCode::KeyP);
         assert!(app.world().resource::<PlayerState>().autopilot);
         let mut manual = app.world_mut().query_filtered::<(), With<crate::sim::Manual>>();

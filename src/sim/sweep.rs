@@ -36,7 +36,7 @@ impl std::str::FromStr for Axis {
                 Allowed::Number { .. } => Value::Number(number(word)?),
                 Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| format!("{path}: {word:?} is no whole number"))?),
                 Allowed::Switch => Value::Switch(word.parse().map_err(|_| format!("{path}: {word:?} must be true or false"))?),
-                Allowed::Choice(_) | Allowed::Key => Value::Word(word.into()),
+                Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_) => Value::Word(word.into()),
             };
             setting.check(value).map_err(|wrong| format!("{path} = {wrong}"))
         };

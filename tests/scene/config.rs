@@ -47,7 +47,8 @@ fn every_setting_sets_its_own_field() {
             (Allowed::Integer { min, max }, Value::Integer(now)) => Value::Integer(if now == max { min } else { max }),
             (Allowed::Switch, Value::Switch(now)) => Value::Switch(!now),
             (Allowed::Choice(words), Value::Word(now)) => Value::Word(words.iter().find(|word| **word != now).unwrap().to_string()),
-            (Allowed::Key, Value::Word(_)) => Value::Word("Numpad7".into()),
+            (Allowed::Buttons, Value::Word(_)) => Value::Word("Numpad7".into()),
+            (Allowed::Words(words), Value::Word(_)) => Value::Word(words[0].into()),
             (allowed, value) => panic!("{}: {value:?} against {allowed:?}", setting.path()),
         };
         let mut changed = default.clone();

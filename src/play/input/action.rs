@@ -1,10 +1,13 @@
 //! What a player can do with a button: the actions that `[controls]` of `game.toml` binds.
 
+use bevy::prelude::*;
+use leafwing_input_manager::Actionlike;
+
 /// One entry for each key of `[controls]` that names a button.
 macro_rules! actions {
     ($($(#[$doc:meta])* $name:ident = $key:literal,)*) => {
         /// What a button does.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Actionlike, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
         pub enum Action {
             $($(#[$doc])* $name,)*
         }
@@ -74,6 +77,14 @@ actions! {
     Pause = "pause",
     /// Start the chase again.
     Restart = "restart",
+    /// Name what is on the screen.
+    WhatAmISeeing = "what_am_i_seeing",
+    /// Photo mode.
+    PhotoMode = "photo_mode",
+    /// Full screen or window.
+    ToggleFullScreen = "toggle_full_screen",
+    /// Sound off or on.
+    Mute = "mute",
 }
 
 #[cfg(test)]
@@ -85,7 +96,7 @@ mod tests {
     /// Every key of `[controls]` that names a button is an action, and nothing else is.
     #[test]
     fn actions_are_the_keys_of_controls() {
-        let is_button = |setting: &&config::Setting<GameConfig>| setting.section == "controls" && matches!(setting.allowed, Allowed::Key);
+        let is_button = |setting: &&config::Setting<GameConfig>| setting.section == "controls" && setting.allowed == Allowed::Buttons;
         let keys: Vec<_> = config::settings().iter().filter(is_button).map(|setting| setting.key).collect();
         assert_eq!(keys, Action::ALL.map(Action::key));
     }

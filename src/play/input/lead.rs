@@ -4,8 +4,9 @@ use bevy::prelude::*;
 use glam::DVec2;
 
 use crate::play::camera::orbit::Orbit;
+use crate::play::input::PlayerInput;
 use crate::play::input::action::Action;
-use crate::play::input::{MouseTurn, PlayerInput};
+use crate::play::input::mouse::MouseTurn;
 use crate::play::player_state::PlayerState;
 
 /// In a replay the mouse and the keys that otherwise fly lead the camera.

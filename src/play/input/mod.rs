@@ -1,313 +1,323 @@
-//! From keys and mouse to the stick: bindings by name from `game.toml`, and what they mean.
+//! From keys, mouse and gamepad to the stick: bindings by name from the configuration, and what they mean.
 
 pub mod action;
+pub mod bindings;
+pub mod button;
 pub mod gaze;
 pub mod lead;
+pub mod mouse;
+pub mod response;
 
 use bevy::ecs::system::SystemParam;
+use bevy::input::gamepad::{Gamepad, GamepadAxis, GamepadButton};
+use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
 use glam::{DVec2, DVec3};
+use leafwing_input_manager::plugin::InputManagerSystem;
+use leafwing_input_manager::prelude::{ActionState, InputManagerPlugin, InputMap};
 
 use crate::play::input::action::Action;
-use crate::scene::GameConfig;
-use crate::scene::config::{self, Value};
-use crate::sim::Hands;
+use crate::play::input::bindings::Bindings;
+use crate::play::input::button::{Button, Device};
+use crate::play::input::mouse::MouseTurn;
+use crate::play::input::response::Response;
 use crate::sim::assist::Stick;
-
-/// A key or a mouse button.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Button {
-    /// On the keyboard.
-    Key(KeyCode),
-    /// On the mouse.
-    Mouse(MouseButton),
-}
 
 /// The share of full thrust that the keys give without boost.
 pub const CRUISE: f64 = 0.6;
 
-/// Which button does what: the button bound to each [`Action`], if any.
-#[derive(Resource, Clone, Debug, Default, PartialEq)]
-pub struct Bindings([Option<Button>; Action::ALL.len()]);
+/// Reads the devices.
+pub struct ControlsPlugin;
 
-impl Bindings {
-    /// The bindings of a configuration.
-    pub fn of(config: &GameConfig) -> Bindings {
-        Bindings(Action::ALL.map(|action| {
-            let setting = config::settings().iter().find(|setting| setting.section == "controls" && setting.key == action.key())?;
-            match setting.get(config) {
-                Value::Word(name) => button(&name),
-                _ => None,
-            }
-        }))
-    }
-
-    fn find(&self, action: Action) -> Option<Button> {
-        self.0[action as usize]
+impl Plugin for ControlsPlugin {
+    fn build(&self, app: &mut App) {
+        // The one player.
+        app.world_mut().spawn((ActionState::<Action>::default(), InputMap::<Action>::default()));
+        app.add_plugins(InputManagerPlugin::<Action>::default())
+            .init_resource::<Bindings>()
+            .init_resource::<Taps>()
+            .init_resource::<Device>()
+            .init_resource::<MouseTurn>()
+            .init_resource::<AccumulatedMouseMotion>()
+            .add_systems(
+                PreUpdate,
+                (map_buttons.before(InputManagerSystem::Update), (note_taps, note_device).after(InputManagerSystem::Update)),
+            );
     }
 }
 
-/// The button that `game.toml` calls `name`; None for `None` and for what Bevy does not know.
-pub fn button(name: &str) -> Option<Button> {
-    match name {
-        "MouseLeft" => return Some(Button::Mouse(MouseButton::Left)),
-        "MouseRight" => return Some(Button::Mouse(MouseButton::Right)),
-        "MouseMiddle" => return Some(Button::Mouse(MouseButton::Middle)),
-        _ => (),
+/// The actions that a tap has switched on.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Taps([bool; Action::ALL.len()]);
+
+fn map_buttons(bindings: Res<Bindings>, mut maps: Query<&mut InputMap<Action>>) {
+    if bindings.is_changed() {
+        maps.iter_mut().for_each(|mut map| *map = bindings.map());
     }
-    // Bevy names its keys as the W3C does, and so does the configuration.
-    KEYS.iter().find(|key| format!("{key:?}") == name).map(|key| Button::Key(*key))
 }
 
-/// Every key that may be bound.
-const KEYS: [KeyCode; 92] = {
-    use KeyCode::*;
-    [
-        KeyA,
-        KeyB,
-        KeyC,
-        KeyD,
-        KeyE,
-        KeyF,
-        KeyG,
-        KeyH,
-        KeyI,
-        KeyJ,
-        KeyK,
-        KeyL,
-        KeyM,
-        KeyN,
-        KeyO,
-        KeyP,
-        KeyQ,
-        KeyR,
-        KeyS,
-        KeyT,
-        KeyU,
-        KeyV,
-        KeyW,
-        KeyX,
-        KeyY,
-        KeyZ,
-        Digit0,
-        Digit1,
-        Digit2,
-        Digit3,
-        Digit4,
-        Digit5,
-        Digit6,
-        Digit7,
-        Digit8,
-        Digit9,
-        F1,
-        F2,
-        F3,
-        F4,
-        F5,
-        F6,
-        F7,
-        F8,
-        F9,
-        F10,
-        F11,
-        F12,
-        Space,
-        Enter,
-        Escape,
-        Tab,
-        Backspace,
-        Delete,
-        Insert,
-        Home,
-        End,
-        PageUp,
-        PageDown,
-        ArrowUp,
-        ArrowDown,
-        ArrowLeft,
-        ArrowRight,
-        ShiftLeft,
-        ShiftRight,
-        ControlLeft,
-        ControlRight,
-        AltLeft,
-        AltRight,
-        Minus,
-        Equal,
-        BracketLeft,
-        BracketRight,
-        Semicolon,
-        Quote,
-        Backquote,
-        Backslash,
-        Comma,
-        Period,
-        Slash,
-        CapsLock,
-        NumpadEnter,
-        Numpad0,
-        Numpad1,
-        Numpad2,
-        Numpad3,
-        Numpad4,
-        Numpad5,
-        Numpad6,
-        Numpad7,
-        Numpad8,
-        Numpad9,
-    ]
-};
+fn note_taps(bindings: Res<Bindings>, actions: Query<&ActionState<Action>>, mut taps: ResMut<Taps>) {
+    for action in Action::ALL {
+        let on = taps.0[action as usize];
+        let tapped = actions.iter().any(|actions| actions.just_pressed(&action));
+        taps.0[action as usize] = bindings.is_tapped(action) && (on != tapped);
+    }
+}
+
+/// Which device was used last: prompts name its buttons.
+fn note_device(
+    keys: Res<ButtonInput<KeyCode>>,
+    mouse: Res<ButtonInput<MouseButton>>,
+    motion: Res<AccumulatedMouseMotion>,
+    pads: Query<&Gamepad>,
+    mut device: ResMut<Device>,
+) {
+    /// A stick counts from here on: at rest it may lie a little aside.
+    const PUSHED: f32 = 0.4;
+    /// So far the mouse moves by hand, in pixels a frame.
+    const MOVED: f32 = 3.0;
+    let pushed = |pad: &Gamepad| pad.left_stick().length().max(pad.right_stick().length()) > PUSHED;
+    let next = if pads.iter().any(|pad| pad.get_just_pressed().next().is_some() || pushed(pad)) {
+        Device::Pad
+    } else if keys.get_just_pressed().next().is_some() || mouse.get_just_pressed().next().is_some() || motion.delta.length() > MOVED {
+        Device::Keyboard
+    } else {
+        return;
+    };
+    device.set_if_neq(next);
+}
 
 /// The state of all buttons, through the bindings.
 #[derive(SystemParam)]
-pub struct PlayerInput<'w> {
+pub struct PlayerInput<'w, 's> {
     /// Which does what.
     pub bindings: Res<'w, Bindings>,
+    /// What is pressed.
+    actions: Query<'w, 's, &'static ActionState<Action>>,
+    taps: Res<'w, Taps>,
     /// The keyboard.
     pub keys: Res<'w, ButtonInput<KeyCode>>,
-    /// The mouse.
-    pub mouse: Res<'w, ButtonInput<MouseButton>>,
+    mouse: Res<'w, ButtonInput<MouseButton>>,
+    pads: Query<'w, 's, &'static Gamepad>,
 }
 
-impl PlayerInput<'_> {
-    /// Whether the button for `action` is held.
+impl PlayerInput<'_, '_> {
+    /// Whether the button for `action` is held, or a tap has switched it on.
     pub fn holds(&self, action: Action) -> bool {
-        match self.bindings.find(action) {
-            Some(Button::Key(key)) => self.keys.pressed(key),
-            Some(Button::Mouse(button)) => self.mouse.pressed(button),
-            None => false,
+        if self.bindings.is_tapped(action) {
+            self.taps.0[action as usize]
+        } else {
+            self.actions.iter().any(|actions| actions.pressed(&action))
         }
     }
 
     /// Whether it went down in this frame.
     pub fn pushed(&self, action: Action) -> bool {
-        match self.bindings.find(action) {
-            Some(Button::Key(key)) => self.keys.just_pressed(key),
-            Some(Button::Mouse(button)) => self.mouse.just_pressed(button),
-            None => false,
-        }
+        self.actions.iter().any(|actions| actions.just_pressed(&action))
     }
 
-    /// The stick, as the keys have it.
+    /// Whether a key, or a button that is pressed or not, asks for `action`.
+    fn wholly(&self, action: Action) -> bool {
+        if self.bindings.is_tapped(action) {
+            return self.taps.0[action as usize];
+        }
+        self.bindings.buttons(action).iter().any(|button| match *button {
+            Button::Key(key) => self.keys.pressed(key),
+            Button::Mouse(button) => self.mouse.pressed(button),
+            Button::Pad(button) => !is_trigger(button) && self.pads.iter().any(|pad| pad.pressed(button)),
+            Button::Stick(..) => false,
+        })
+    }
+
+    /// How far sticks and triggers ask for `action`, 0 to 1, and whether a stick does.
+    fn partly(&self, action: Action) -> f64 {
+        if self.bindings.is_tapped(action) {
+            return 0.0;
+        }
+        let response = Response::of(&self.bindings.controls);
+        let asks = |button: &Button, pad: &Gamepad| match *button {
+            Button::Stick(axis, sign) => {
+                let is_left = matches!(axis, GamepadAxis::LeftStickX | GamepadAxis::LeftStickY);
+                let way = if is_left { pad.left_stick() } else { pad.right_stick() };
+                let answer = response.both(DVec2::new(f64::from(way.x), f64::from(way.y)));
+                let along = if matches!(axis, GamepadAxis::LeftStickX | GamepadAxis::RightStickX) { answer.x } else { answer.y };
+                (along * f64::from(sign)).max(0.0)
+            }
+            Button::Pad(button) if is_trigger(button) => response.answer(f64::from(pad.get(button).unwrap_or(0.0))),
+            _ => 0.0,
+        };
+        let buttons = self.bindings.buttons(action);
+        self.pads.iter().flat_map(|pad| buttons.iter().map(move |button| asks(button, pad))).fold(0.0, f64::max)
+    }
+
+    /// The stick: keys thrust at [`CRUISE`] or, with boost, fully; a stick of the gamepad as far as it is pushed.
     pub fn stick(&self) -> Stick {
-        let axis = |plus: Action, minus: Action| f64::from(u8::from(self.holds(plus))) - f64::from(u8::from(self.holds(minus)));
+        let axis = |plus: Action, minus: Action, whole: f64, part: f64| {
+            let keys = f64::from(u8::from(self.wholly(plus))) - f64::from(u8::from(self.wholly(minus)));
+            (keys * whole + (self.partly(plus) - self.partly(minus)) * part).clamp(-1.0, 1.0)
+        };
+        let controls = &self.bindings.controls;
         let strength = if self.holds(Action::Boost) { 1.0 } else { CRUISE };
+        let thrust = |plus, minus| axis(plus, minus, strength, controls.stick_thrust);
+        let signed = |most: f64, inverted: bool| if inverted { -most } else { most };
+        let (pitch, yaw) =
+            (signed(controls.stick_pitch, controls.stick_invert_pitch), signed(controls.stick_yaw, controls.stick_invert_yaw));
         Stick {
             thrust: DVec3::new(
-                axis(Action::ThrustRight, Action::ThrustLeft),
-                axis(Action::ThrustUp, Action::ThrustDown),
-                axis(Action::ThrustBack, Action::ThrustForward),
-            ) * strength,
+                thrust(Action::ThrustRight, Action::ThrustLeft),
+                thrust(Action::ThrustUp, Action::ThrustDown),
+                thrust(Action::ThrustBack, Action::ThrustForward),
+            ),
             turn: DVec3::new(
-                axis(Action::PitchUp, Action::PitchDown),
-                axis(Action::YawLeft, Action::YawRight),
-                axis(Action::RollLeft, Action::RollRight),
+                axis(Action::PitchUp, Action::PitchDown, 1.0, pitch),
+                axis(Action::YawLeft, Action::YawRight, 1.0, yaw),
+                axis(Action::RollLeft, Action::RollRight, 1.0, 1.0),
             ),
         }
     }
 }
 
-/// Turns asked for by the mouse and not flown yet: pitch (up) and yaw (left), in radians.
-#[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
-pub struct MouseTurn(pub DVec2);
-
-/// A turn that waits is at most this large, in radians, so that the ship stops soon after the hand.
-const MOST_WAITING: f64 = 0.5;
-
-impl MouseTurn {
-    /// The mouse moved by `pixels` (right, down).
-    pub fn push(&mut self, pixels: Vec2, config: &GameConfig) {
-        let controls = &config.controls;
-        let pitch = if controls.invert_y { f64::from(pixels.y) } else { -f64::from(pixels.y) };
-        let turn = DVec2::new(pitch, -f64::from(pixels.x)) * controls.mouse_sensitivity;
-        self.0 = (self.0 + turn).clamp_length_max(MOST_WAITING);
-    }
-
-    /// The deflection (pitch, yaw), each in [−1, 1], that flies as much of the turn as a step can; `most` radians turn in a step at full
-    /// deflection.
-    pub fn pull(&mut self, most: f64) -> DVec2 {
-        if most <= 0.0 {
-            return DVec2::ZERO;
-        }
-        // In the steps that the hands are kept in: what is too little for one waits.
-        let deflection = (self.0 / most).clamp(DVec2::NEG_ONE, DVec2::ONE);
-        let deflection = (deflection * Hands::FULL).round() / Hands::FULL;
-        self.0 -= deflection * most;
-        deflection
-    }
+/// Whether a button of the gamepad is pressed more or less.
+fn is_trigger(button: GamepadButton) -> bool {
+    matches!(button, GamepadButton::LeftTrigger2 | GamepadButton::RightTrigger2)
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::play) mod tests {
     use super::*;
-    use crate::scene::config::is_key;
+    use crate::scene::GameConfig;
+    use bevy::input::gamepad::{
+        GamepadConnection, GamepadConnectionEvent, RawGamepadAxisChangedEvent, RawGamepadButtonChangedEvent, RawGamepadEvent,
+    };
+    use bevy::input::keyboard::KeyboardInput;
+    use bevy::input::{ButtonState, InputPlugin};
 
-    /// What `ask` says of these keys and mouse buttons held down since this frame.
-    fn with<T: 'static>(
-        config: &GameConfig,
-        keys: &[KeyCode],
-        mouse: &[MouseButton],
-        ask: impl Fn(&PlayerInput) -> T + Send + Sync + 'static,
-    ) -> T {
-        let mut world = World::new();
-        world.insert_resource(Bindings::of(config));
-        let (mut held, mut clicked) = (ButtonInput::default(), ButtonInput::default());
-        keys.iter().for_each(|&key| held.press(key));
-        mouse.iter().for_each(|&button| clicked.press(button));
-        world.insert_resource(held);
-        world.insert_resource(clicked);
-        world.run_system_cached_with(move |_: In<()>, hands: PlayerInput| ask(&hands), ()).expect("all resources are there")
+    /// An app with nothing but its devices.
+    fn devices(config: &GameConfig) -> App {
+        let mut app = App::new();
+        app.add_plugins((MinimalPlugins, InputPlugin, ControlsPlugin)).insert_resource(Bindings::of(config));
+        app.update();
+        app
     }
 
-    #[test]
-    fn every_default_key_is_known() {
-        let bindings = Bindings::of(&GameConfig::default());
-        for action in Action::ALL {
-            assert!(bindings.find(action).is_some(), "{}", action.key());
-        }
+    /// Plugs a gamepad in: the events that the driver's plugin sends, which needs none.
+    pub(in crate::play) fn plug_pad(app: &mut App) -> Entity {
+        let pad = app.world_mut().spawn_empty().id();
+        let connection = GamepadConnection::Connected { name: "test".into(), vendor_id: None, product_id: None };
+        let event = GamepadConnectionEvent { gamepad: pad, connection };
+        app.world_mut().write_message(event.clone());
+        app.world_mut().write_message(RawGamepadEvent::Connection(event));
+        app.update();
+        pad
     }
 
-    #[test]
-    fn every_name_that_the_configuration_allows_is_a_button() {
-        for key in KEYS {
-            let name = format!("{key:?}");
-            assert!(is_key(&name), "{name}");
-        }
-        assert_eq!(button("None"), None);
-        assert_eq!(button("MouseRight"), Some(Button::Mouse(MouseButton::Right)));
-        assert_eq!(button("KeyQ"), Some(Button::Key(KeyCode::KeyQ)));
+    /// Presses a key, or lets it go, as the window's events do.
+    pub(in crate::play) fn press_key(app: &mut App, key: KeyCode, state: ButtonState) {
+        let logical_key = bevy::input::keyboard::Key::Unidentified(bevy::input::keyboard::NativeKey::Unidentified);
+        let window = Entity::PLACEHOLDER;
+        app.world_mut().write_message(KeyboardInput { key_code: key, logical_key, state, text: None, repeat: false, window });
+    }
+
+    /// Pushes a stick of it.
+    pub(in crate::play) fn push_stick(app: &mut App, gamepad: Entity, axis: GamepadAxis, value: f32) {
+        app.world_mut().write_message(RawGamepadEvent::Axis(RawGamepadAxisChangedEvent { gamepad, axis, value }));
+    }
+
+    /// Presses a button of it, or lets it go.
+    pub(in crate::play) fn press_pad(app: &mut App, gamepad: Entity, button: GamepadButton, value: f32) {
+        app.world_mut().write_message(RawGamepadEvent::Button(RawGamepadButtonChangedEvent { gamepad, button, value }));
+    }
+
+    fn ask<T: 'static>(app: &mut App, question: impl Fn(&PlayerInput) -> T + Send + Sync + 'static) -> T {
+        app.world_mut().run_system_cached_with(move |_: In<()>, hands: PlayerInput| question(&hands), ()).expect("all resources are there")
+    }
+
+    /// The stick with these keys held.
+    fn stick(config: &GameConfig, keys: &[KeyCode]) -> Stick {
+        let mut app = devices(config);
+        keys.iter().for_each(|&key| press_key(&mut app, key, ButtonState::Pressed));
+        app.update();
+        ask(&mut app, |hands| hands.stick())
     }
 
     #[test]
     fn keys_move_the_stick_along_body_axes() {
         let config = GameConfig::default();
-        let stick = |keys: &[KeyCode]| with(&config, keys, &[], |hands| hands.stick());
-        let turned = stick(&[KeyCode::KeyW, KeyCode::ArrowLeft]);
+        let turned = stick(&config, &[KeyCode::KeyW, KeyCode::ArrowLeft]);
         assert_eq!(turned.thrust, DVec3::new(0.0, 0.0, -CRUISE));
         assert_eq!(turned.turn, DVec3::Y);
-        assert_eq!(stick(&[KeyCode::KeyW, KeyCode::ShiftLeft]).thrust.z, -1.0);
-        assert_eq!(stick(&[KeyCode::KeyW, KeyCode::KeyS]).thrust.z, 0.0);
+        assert_eq!(stick(&config, &[KeyCode::KeyW, KeyCode::ShiftLeft]).thrust.z, -1.0);
+        assert_eq!(stick(&config, &[KeyCode::KeyW, KeyCode::KeyS]).thrust.z, 0.0);
     }
 
     #[test]
     fn a_bound_mouse_button_thrusts() {
         let mut config = GameConfig::default();
         config.controls.thrust_forward = "MouseLeft".into();
-        assert!(with(&config, &[], &[MouseButton::Left], |hands| hands.pushed(Action::ThrustForward)));
+        let mut app = devices(&config);
+        app.world_mut().resource_mut::<ButtonInput<MouseButton>>().press(MouseButton::Left);
+        assert_eq!(ask(&mut app, |hands| hands.stick()).thrust.z, -CRUISE);
     }
 
+    #[cfg(feature = "pad")]
     #[test]
-    fn the_mouse_turns_as_far_as_it_went() {
-        let config = GameConfig::default();
-        let mut turn = MouseTurn::default();
-        turn.push(Vec2::new(50.0, -20.0), &config);
-        // Right is a yaw to the right, forward (up the screen) a pitch up; 0.002 rad a pixel.
-        assert!((turn.0 - DVec2::new(0.04, -0.1)).length() < 1e-12);
-        let mut flown = DVec2::ZERO;
-        for _ in 0..20 {
-            flown += turn.pull(0.01) * 0.01;
-        }
-        assert!((flown - DVec2::new(0.04, -0.1)).length() < 1e-12, "{flown}");
-        assert_eq!(turn.pull(0.0), DVec2::ZERO);
+    fn the_pad_thrusts_and_turns_as_far_as_it_is_pushed() {
+        let mut app = devices(&GameConfig::default());
+        let pad = plug_pad(&mut app);
+        let thrust = |app: &mut App, value| {
+            push_stick(app, pad, GamepadAxis::LeftStickY, value);
+            app.update();
+            ask(app, |hands| hands.stick().thrust.z)
+        };
+        let half = thrust(&mut app, 0.5);
+        assert!(half < 0.0 && half > -0.5, "{half}");
+        assert_eq!(thrust(&mut app, 1.0), -1.0);
+        assert_eq!(thrust(&mut app, 0.08), 0.0, "the dead zone");
+        push_stick(&mut app, pad, GamepadAxis::RightStickX, 1.0);
+        app.update();
+        assert_eq!(ask(&mut app, |hands| hands.stick().turn), DVec3::NEG_Y, "to the right");
+        assert_eq!(*app.world().resource::<Device>(), Device::Pad);
+        press_pad(&mut app, pad, GamepadButton::RightTrigger2, 1.0);
+        app.update();
+        assert!(ask(&mut app, |hands| hands.pushed(Action::Fire)));
+        app.update();
+        assert!(ask(&mut app, |hands| hands.holds(Action::Fire) && !hands.pushed(Action::Fire)));
+    }
+
+    #[cfg(feature = "pad")]
+    #[test]
+    fn inversion_and_strength_are_the_sticks_own() {
+        let mut config = GameConfig::default();
+        config.controls.stick_invert_pitch = true;
+        config.controls.stick_pitch = 0.5;
+        let mut app = devices(&config);
+        let pad = plug_pad(&mut app);
+        let up = |app: &mut App| {
+            push_stick(app, pad, GamepadAxis::RightStickY, 1.0);
+            app.update();
+            ask(app, |hands| hands.stick().turn.x)
+        };
+        // Pushed forward the nose goes down, inverted up.
+        assert_eq!(up(&mut app), 0.5);
+        app.insert_resource(Bindings::of(&GameConfig::default()));
+        assert_eq!(up(&mut app), -1.0);
+    }
+
+    /// One tap thrusts, the next stops.
+    #[test]
+    fn a_tap_switches_what_is_otherwise_held() {
+        let mut config = GameConfig::default();
+        config.controls.tapped = "thrust_forward boost".into();
+        let mut app = devices(&config);
+        let tap = |app: &mut App, key| {
+            for state in [ButtonState::Pressed, ButtonState::Released] {
+                press_key(app, key, state);
+                app.update();
+            }
+            ask(app, |hands| hands.stick().thrust.z)
+        };
+        assert_eq!(tap(&mut app, KeyCode::KeyW), -CRUISE);
+        assert_eq!(tap(&mut app, KeyCode::ShiftLeft), -1.0);
+        assert_eq!(tap(&mut app, KeyCode::KeyW), 0.0);
     }
 }

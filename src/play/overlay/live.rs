@@ -14,7 +14,7 @@ use crate::sim::replay::ReplayLog;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
-use crate::play::input::Bindings;
+use crate::play::input::bindings::Bindings;
 use crate::play::picture::{self, Staged};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;

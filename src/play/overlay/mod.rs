@@ -177,7 +177,7 @@ fn edit(ui: &mut Ui, setting: &Setting<GameConfig>, value: &mut Value) {
             } else {
                 ui.data_mut(|data| data.remove::<String>(id));
             }
-            if typed.lost_focus() || config::is_key(&draft) {
+            if typed.lost_focus() || setting.check(Value::Word(draft.clone())).is_ok() {
                 *word = draft;
             }
         }

@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use bevy::window::{CursorGrabMode, CursorOptions, PrimaryWindow};
 use bevy_egui::EguiContexts;
 
-use crate::play::input::MouseTurn;
+use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;

@@ -98,7 +98,26 @@ macro_rules! config {
     };
 }
 
-use Allowed::{Choice, Key, Switch};
+use Allowed::{Buttons, Choice, Switch, Words};
+
+/// The actions that may be switched with a tap instead of held.
+pub const HELD: &[&str] = &[
+    "thrust_forward",
+    "thrust_back",
+    "thrust_left",
+    "thrust_right",
+    "thrust_up",
+    "thrust_down",
+    "boost",
+    "fire",
+    "pitch_up",
+    "pitch_down",
+    "yaw_left",
+    "yaw_right",
+    "roll_left",
+    "roll_right",
+    "look_at_target",
+];
 
 /// The methods of projection that the renderer has.
 pub const METHODS: &[&str] = &["table", "exact", "paper1-128", "flat"];
@@ -215,35 +234,48 @@ config! {
         avoid_hole: bool = true, Switch, "", "pushes away from orbits that end in the hole";
         avoid_radius: f64 = 2.0, number(1.05, 50.0), "r_s", "closest approach the assistance allows";
     }
-    /// Keys and mouse.
+    /// Keyboard, mouse and gamepad.
     controls: Controls {
         mouse_sensitivity: f64 = 0.002, number(0.0, 0.05), "rad per pixel", "turn for a movement of the mouse";
         invert_y: bool = false, Switch, "", "mouse forward pitches down";
-        thrust_forward: String = "KeyW", Key, "", "accelerate";
-        thrust_back: String = "KeyS", Key, "", "brake";
-        thrust_left: String = "KeyA", Key, "", "accelerate to the left";
-        thrust_right: String = "KeyD", Key, "", "accelerate to the right";
-        thrust_up: String = "Space", Key, "", "accelerate upwards";
-        thrust_down: String = "ControlLeft", Key, "", "accelerate downwards";
-        boost: String = "ShiftLeft", Key, "", "full thrust while held";
-        fire: String = "MouseLeft", Key, "", "fire a bolt, in missions that give some";
-        pitch_up: String = "ArrowDown", Key, "", "nose up";
-        pitch_down: String = "ArrowUp", Key, "", "nose down";
-        yaw_left: String = "ArrowLeft", Key, "", "nose left";
-        yaw_right: String = "ArrowRight", Key, "", "nose right";
-        roll_left: String = "KeyQ", Key, "", "roll left";
-        roll_right: String = "KeyE", Key, "", "roll right";
-        toggle_assist: String = "KeyZ", Key, "", "flight assistance on or off";
-        toggle_autopilot: String = "KeyP", Key, "", "autopilot on or off";
-        toggle_camera: String = "KeyC", Key, "", "cockpit or third person";
-        look_at_target: String = "KeyV", Key, "", "look at the target while held";
-        toggle_hud: String = "KeyH", Key, "", "HUD on or off";
-        toggle_overlay: String = "F3", Key, "", "dev overlay on or off";
-        screenshot: String = "F12", Key, "", "write a picture";
-        slower: String = "Comma", Key, "", "halve the pace";
-        faster: String = "Period", Key, "", "double the pace";
-        pause: String = "Escape", Key, "", "pause and menu";
-        restart: String = "KeyR", Key, "", "start the chase again";
+        thrust_forward: String = "KeyW PadLeftStickUp", Buttons, "", "accelerate";
+        thrust_back: String = "KeyS PadLeftStickDown", Buttons, "", "brake";
+        thrust_left: String = "KeyA PadLeftStickLeft", Buttons, "", "accelerate to the left";
+        thrust_right: String = "KeyD PadLeftStickRight", Buttons, "", "accelerate to the right";
+        thrust_up: String = "Space PadRightBumper", Buttons, "", "accelerate upwards";
+        thrust_down: String = "ControlLeft PadLeftBumper", Buttons, "", "accelerate downwards";
+        boost: String = "ShiftLeft PadSouth", Buttons, "", "full thrust while held";
+        fire: String = "MouseLeft PadRightTrigger", Buttons, "", "fire a bolt, in missions that give some";
+        pitch_up: String = "ArrowDown PadRightStickDown", Buttons, "", "nose up";
+        pitch_down: String = "ArrowUp PadRightStickUp", Buttons, "", "nose down";
+        yaw_left: String = "ArrowLeft PadRightStickLeft", Buttons, "", "nose left";
+        yaw_right: String = "ArrowRight PadRightStickRight", Buttons, "", "nose right";
+        roll_left: String = "KeyQ PadLeft", Buttons, "", "roll left";
+        roll_right: String = "KeyE PadRight", Buttons, "", "roll right";
+        toggle_assist: String = "KeyZ PadEast", Buttons, "", "flight assistance on or off";
+        toggle_autopilot: String = "KeyP PadNorth", Buttons, "", "autopilot on or off";
+        toggle_camera: String = "KeyC PadWest", Buttons, "", "cockpit or third person";
+        look_at_target: String = "KeyV PadLeftTrigger", Buttons, "", "look at the target while held";
+        toggle_hud: String = "KeyH PadDown", Buttons, "", "HUD on or off";
+        toggle_overlay: String = "F3", Buttons, "", "dev overlay on or off";
+        screenshot: String = "F12", Buttons, "", "write a picture";
+        slower: String = "Comma PadLeftThumb", Buttons, "", "halve the pace";
+        faster: String = "Period PadRightThumb", Buttons, "", "double the pace";
+        pause: String = "Escape PadStart", Buttons, "", "pause and menu";
+        restart: String = "KeyR", Buttons, "", "start the chase again";
+        what_am_i_seeing: String = "F1 PadUp", Buttons, "", "names what is on the screen, while held or after a tap";
+        photo_mode: String = "F2 PadSelect", Buttons, "", "photo mode: time stands still, the camera is free";
+        toggle_full_screen: String = "F11", Buttons, "", "full screen or window";
+        mute: String = "KeyM", Buttons, "", "sound off or on";
+        tapped: String = "None", Words(HELD), "", "what a tap switches on and another off, instead of holding";
+        invert_x: bool = false, Switch, "", "mouse to the right turns left";
+        stick_dead_zone: f64 = 0.12, number(0.0, 0.9), "", "share of a stick's way that does nothing";
+        stick_curve: f64 = 1.6, number(1.0, 4.0), "", "exponent of a stick's answer: 1 is straight, more is finer about the middle";
+        stick_pitch: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick pitches";
+        stick_yaw: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick yaws";
+        stick_thrust: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick thrusts";
+        stick_invert_pitch: bool = false, Switch, "", "the stick pitches the other way";
+        stick_invert_yaw: bool = false, Switch, "", "the stick yaws the other way";
     }
     /// The window.
     video: Video {
@@ -254,5 +286,31 @@ config! {
         fov: f64 = 60.0, number(20.0, 150.0), "degrees", "horizontal field of view";
         pause_without_focus: bool = true, Switch, "", "the flight pauses when the window loses its focus";
         reduced_motion: bool = false, Switch, "", "the camera does not sway or glide";
+        frame_limit: u32 = 0u32, integer(0, 1000), "frames per second", "no more frames than this; 0 is no limit";
+        quality: String = "high", Choice(&["low", "medium", "high"]), "", "how much is drawn: high is as the sections above say, the others less";
+    }
+    /// Sound.
+    sound: Sound {
+        master: f64 = 0.8, number(0.0, 1.0), "", "loudness of everything";
+        effects: f64 = 0.8, number(0.0, 1.0), "", "loudness of engine, disk, bolts and alarms";
+        music: f64 = 0.5, number(0.0, 1.0), "", "loudness of the music";
+        beacon: f64 = 0.7, number(0.0, 1.0), "", "loudness of the target's beacon";
+        mute_master: bool = false, Switch, "", "everything is silent";
+        mute_effects: bool = false, Switch, "", "engine, disk, bolts and alarms are silent";
+        mute_music: bool = false, Switch, "", "the music is silent";
+        mute_beacon: bool = false, Switch, "", "the target's beacon is silent";
+    }
+    /// For eyes and hands of every kind.
+    accessibility: Accessibility {
+        text_size: f64 = 1.0, number(0.8, 2.0), "", "size of all text and panels";
+        palette: String = "standard", Choice(&["standard", "red-green", "blue-yellow"]), "", "colours of markers and dials, for the kinds of colour blindness";
+        high_contrast: bool = false, Switch, "", "text and markers white or yellow on black, with thicker lines";
+        reduced_flashes: bool = false, Switch, "", "the picture's mean brightness rises by at most a tenth of white in a second";
+    }
+    /// What surrounds the picture.
+    interface: Interface {
+        language: String = "auto", Choice(&["auto", "en", "ja"]), "", "language of all words; auto is that of the system, English where it has another";
+        hud: String = "full", Choice(&["full", "reduced", "least"]), "", "how much the HUD shows";
+        warned: bool = false, Switch, "", "the warning at the first start has been read";
     }
 }

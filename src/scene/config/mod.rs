@@ -1,6 +1,8 @@
 //! `game.toml`: every tunable value, with unit, default and allowed range, said once in `fields.rs`.
 
+pub mod buttons;
 mod fields;
+mod quality;
 mod setting;
 
 use std::path::{Path, PathBuf};
@@ -12,10 +14,11 @@ use super::document::error::{Complaints, ConfigError};
 use super::document::fault::Fault;
 use super::document::{complain_all, one, syntax};
 pub use fields::{
-    Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, Hole, METHODS, Render, RulesConfig, ShipConfig, Sky, Video, settings,
+    Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, METHODS, Render, RulesConfig,
+    ShipConfig, Sky, Sound, Video, settings,
 };
 pub(super) use setting::range_text;
-pub use setting::{Allowed, Setting, Value, is_key};
+pub use setting::{Allowed, Setting, Value};
 
 /// The configuration's file where none is named.
 pub const FILE: &str = "game.toml";
@@ -90,15 +93,58 @@ fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
     below("render.fill_least", config.render.fill_least, "render.fill_most", config.render.fill_most)?;
     below("disk.inner", config.disk.inner, "disk.outer", config.disk.outer)?;
     let mut bound: Vec<(String, String)> = Vec::new();
-    for setting in settings().iter().filter(|setting| setting.section == "controls") {
-        let Value::Word(name) = setting.get(config) else { continue };
-        if let Some((_, other)) = bound.iter().find(|(known, _)| *known == name && name != "None") {
-            let keys = [setting.key, other].map(|key| format!("controls.{key}"));
-            return Err((keys, format!("{name} is the key of both {other} and {}", setting.key)));
+    for setting in settings().iter().filter(|setting| setting.allowed == Allowed::Buttons) {
+        let Value::Word(names) = setting.get(config) else { continue };
+        for name in names.split_whitespace().filter(|name| *name != "None") {
+            if let Some((_, other)) = bound.iter().find(|(known, _)| *known == name) {
+                let keys = [setting.key, other].map(|key| format!("controls.{key}"));
+                return Err((keys, format!("{name} is the key of both {other} and {}", setting.key)));
+            }
+            bound.push((name.to_owned(), setting.key.to_owned()));
         }
-        bound.push((name, setting.key.to_owned()));
     }
     Ok(())
+}
+
+/// Reads a file of choices that lie over a configuration: the form of `game.toml`, with the keys that `may` says. All that is wrong, if
+/// anything is; two keys for one thing are the player's own affair.
+pub fn choices(
+    file: &Path,
+    text: &str,
+    may: impl Fn(&Setting<GameConfig>) -> bool,
+) -> Result<Vec<(&'static Setting<GameConfig>, Value)>, Complaints> {
+    let document = DeTable::parse(text).map_err(|error| one(syntax(file, text, &error)))?;
+    let mut config = GameConfig::default();
+    let (mut chosen, mut faults) = (Vec::new(), Vec::new());
+    for (section, table) in document.get_ref() {
+        let DeValue::Table(table) = table.get_ref() else {
+            faults.push(Fault { span: section.span(), message: "must be a section".into() });
+            continue;
+        };
+        faults.extend(apply_table(&mut config, section.get_ref(), table));
+        for key in table.keys() {
+            match setting(&format!("{}.{}", section.get_ref(), key.get_ref())) {
+                Some(setting) if may(setting) => chosen.push((setting, setting.get(&config))),
+                _ => faults.push(Fault { span: key.span(), message: "is no choice of the player".into() }),
+            }
+        }
+    }
+    if faults.is_empty() { Ok(chosen) } else { Err(complain_all(file, text, faults)) }
+}
+
+/// The text of such a file.
+pub fn choices_text<'a>(chosen: impl IntoIterator<Item = (&'a Setting<GameConfig>, &'a Value)>) -> String {
+    let mut text =
+        String::from("# What the player chose in the game. It lies over game.toml; a line that is taken out is as there again.\n");
+    let mut section = "";
+    for (setting, value) in chosen {
+        if setting.section != section {
+            section = setting.section;
+            text.push_str(&format!("\n[{section}]\n"));
+        }
+        text.push_str(&format!("{} = {}\n", setting.key, written(value)));
+    }
+    text
 }
 
 /// Sets every entry of `table` in `config`, as keys of `section`. Returns what is wrong with those that are left out.

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use super::buttons::are_buttons;
+
 /// A value of one setting.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
@@ -36,8 +38,10 @@ pub enum Allowed {
     Switch,
     /// One of these words.
     Choice(&'static [&'static str]),
-    /// The name of a key or mouse button, see [`is_key`].
-    Key,
+    /// Names of keys and buttons, see [`buttons`](super::buttons).
+    Buttons,
+    /// Some of these words, with spaces between, or `None`.
+    Words(&'static [&'static str]),
 }
 
 /// One line of `game.toml`.
@@ -86,11 +90,12 @@ impl<C> Setting<C> {
             (Allowed::Integer { min, max }, Value::Integer(number)) if (min..=max).contains(&number) => Ok(Value::Integer(number)),
             (Allowed::Switch, Value::Switch(on)) => Ok(Value::Switch(on)),
             (Allowed::Choice(words), Value::Word(word)) if words.contains(&word.as_str()) => Ok(Value::Word(word)),
-            (Allowed::Key, Value::Word(word)) if is_key(&word) => Ok(Value::Word(word)),
+            (Allowed::Buttons, Value::Word(word)) if are_buttons(&word) => Ok(Value::Word(word)),
+            (Allowed::Words(known), Value::Word(word)) if are_words(known, &word) => Ok(Value::Word(word)),
             (Allowed::Number { .. }, Value::Number(number)) => refuse(&number, "is out of range"),
             (Allowed::Number { .. } | Allowed::Integer { .. }, Value::Integer(number)) => refuse(&number, "is out of range"),
             (Allowed::Integer { .. }, Value::Number(number)) => refuse(&number, "is no such whole number"),
-            (Allowed::Choice(_) | Allowed::Key, Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
+            (Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_), Value::Word(word)) => refuse(&format!("{word:?}"), "is not known"),
             (_, Value::Word(word)) => refuse(&format!("{word:?}"), "has the wrong type"),
             (_, Value::Switch(on)) => refuse(&on, "has the wrong type"),
             (_, Value::Number(number)) => refuse(&number, "has the wrong type"),
@@ -105,7 +110,10 @@ impl<C> Setting<C> {
             Allowed::Integer { min, max } => format!("whole numbers {}", range_text(f64::from(min), f64::from(max), self.unit)),
             Allowed::Switch => "true or false".into(),
             Allowed::Choice(words) => format!("one of {}", words.iter().map(|word| format!("{word:?}")).collect::<Vec<_>>().join(", ")),
-            Allowed::Key => "a key: KeyA to KeyZ, Digit0 to Digit9, F1 to F12, Space, Escape, ArrowUp, MouseLeft, … or None".into(),
+            Allowed::Buttons => {
+                "up to four keys or buttons: KeyA, Digit0, F1, Space, MouseLeft, PadSouth, PadLeftStickUp, … or None".into()
+            }
+            Allowed::Words(words) => format!("some of {}, or None", words.join(" ")),
         }
     }
 }
@@ -135,54 +143,9 @@ impl fmt::Display for Value {
     }
 }
 
-/// Whether `name` is a key as the W3C UI Events `code` values (and Bevy's `KeyCode`) name them, `MouseLeft`, `MouseRight`,
-/// `MouseMiddle`, or `None` for an action without a key.
-pub fn is_key(name: &str) -> bool {
-    const NAMED: [&str; 38] = [
-        "None",
-        "Space",
-        "Enter",
-        "Escape",
-        "Tab",
-        "Backspace",
-        "Delete",
-        "Insert",
-        "Home",
-        "End",
-        "PageUp",
-        "PageDown",
-        "ArrowUp",
-        "ArrowDown",
-        "ArrowLeft",
-        "ArrowRight",
-        "ShiftLeft",
-        "ShiftRight",
-        "ControlLeft",
-        "ControlRight",
-        "AltLeft",
-        "AltRight",
-        "Minus",
-        "Equal",
-        "BracketLeft",
-        "BracketRight",
-        "Semicolon",
-        "Quote",
-        "Backquote",
-        "Backslash",
-        "Comma",
-        "Period",
-        "Slash",
-        "CapsLock",
-        "NumpadEnter",
-        "MouseLeft",
-        "MouseRight",
-        "MouseMiddle",
-    ];
-    let letter = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_uppercase();
-    let digit = |rest: &str| rest.len() == 1 && rest.as_bytes()[0].is_ascii_digit();
-    NAMED.contains(&name)
-        || name.strip_prefix("Key").is_some_and(letter)
-        || name.strip_prefix("Digit").is_some_and(digit)
-        || name.strip_prefix("Numpad").is_some_and(digit)
-        || name.strip_prefix('F').is_some_and(|rest| (1..=12).any(|number| rest == number.to_string()))
+/// Whether `text` is `None` or some of the `known` words, each once.
+fn are_words(known: &[&str], text: &str) -> bool {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let once = |(k, word): (usize, &&str)| known.contains(word) && !words[..k].contains(word);
+    text == "None" || (!words.is_empty() && words.iter().enumerate().all(once))
 }

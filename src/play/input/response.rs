@@ -1,0 +1,54 @@
+//! From a stick's way to what is done: dead zone and curve.
+
+use glam::DVec2;
+
+use crate::scene::config::Controls;
+
+/// How a stick answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Response {
+    /// Share of its way that does nothing.
+    pub dead_zone: f64,
+    /// Exponent of the answer.
+    pub curve: f64,
+}
+
+impl Response {
+    /// As configured.
+    pub fn of(controls: &Controls) -> Response {
+        Response { dead_zone: controls.stick_dead_zone, curve: controls.stick_curve }
+    }
+
+    /// The answer, 0 to 1, to a stick that is pushed by `way`, 0 to 1.
+    pub fn answer(&self, way: f64) -> f64 {
+        let beyond = ((way - self.dead_zone) / (1.0 - self.dead_zone)).clamp(0.0, 1.0);
+        beyond.powf(self.curve)
+    }
+
+    /// The answer to both axes of a stick: its direction stays, so that the dead zone is round.
+    pub fn both(&self, way: DVec2) -> DVec2 {
+        way.normalize_or_zero() * self.answer(way.length())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_in_the_dead_zone_all_at_the_end_and_no_jump() {
+        let response = Response { dead_zone: 0.2, curve: 2.0 };
+        assert_eq!([0.0, 0.2, 1.0].map(|way| response.answer(way)), [0.0, 0.0, 1.0]);
+        assert!((response.answer(0.6) - 0.25).abs() < 1e-12);
+        let steps: Vec<f64> = (0..=100).map(|k| response.answer(f64::from(k) / 100.0)).collect();
+        assert!(steps.windows(2).all(|pair| pair[1] >= pair[0] && pair[1] - pair[0] < 0.03));
+    }
+
+    #[test]
+    fn the_direction_stays() {
+        let response = Response { dead_zone: 0.2, curve: 1.6 };
+        let way = DVec2::new(0.5, -0.3);
+        assert!(response.both(way).angle_to(way).abs() < 1e-12);
+        assert_eq!(response.both(DVec2::new(0.1, 0.1)), DVec2::ZERO);
+    }
+}
