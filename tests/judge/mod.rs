@@ -4,5 +4,6 @@ pub mod brute;
 mod oracles;
 mod outwards;
 mod picture;
+mod seeing;
 mod trace;
 mod world;
