@@ -1,0 +1,5 @@
+//! Tests of `src/play/` that need no window and no GPU.
+
+mod heard;
+mod samples;
+mod sound;
