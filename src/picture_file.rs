@@ -1,6 +1,11 @@
 //! Pictures in files: PNG for the eye, EXR for linear light and layers.
 
+pub mod chunk;
+
 use std::path::{Path, PathBuf};
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder};
 
 /// Why a picture could not be written.
 #[derive(Debug, thiserror::Error)]
@@ -32,6 +37,30 @@ pub fn write_png(path: &Path, rgb: &[u8], [width, height]: [u32; 2]) -> Result<(
     make_folder(path)?;
     image::save_buffer(path, rgb, width, height, image::ColorType::Rgb8)
         .map_err(|error| PictureFileError::Write { path: path.to_path_buf(), reason: error.to_string() })
+}
+
+/// The bytes of a PNG of sRGB, 3 bytes a pixel, row by row from the top, with `text` in it ([`chunk`]); `quickly` rather than small.
+pub fn png(rgb: &[u8], [width, height]: [u32; 2], quickly: bool, text: Option<&str>) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let encoder = if quickly {
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Sub)
+    } else {
+        PngEncoder::new(&mut bytes)
+    };
+    encoder.write_image(rgb, width, height, ExtendedColorType::Rgb8).map_err(|error| error.to_string())?;
+    Ok(match text {
+        Some(text) => chunk::with_text(bytes, text),
+        None => bytes,
+    })
+}
+
+/// Writes a PNG with a text in it, whole or not at all.
+pub fn write_png_with_text(path: &Path, rgb: &[u8], size: [u32; 2], text: &str) -> Result<(), PictureFileError> {
+    make_folder(path)?;
+    let fault = |reason: String| PictureFileError::Write { path: path.to_path_buf(), reason };
+    let bytes = png(rgb, size, false, Some(text)).map_err(fault)?;
+    let beside = path.with_extension("png.new");
+    std::fs::write(&beside, bytes).and_then(|()| std::fs::rename(&beside, path)).map_err(|error| fault(error.to_string()))
 }
 
 /// Whether the file can be written, asked before the work that it is for; a file that is there keeps what it holds.

@@ -82,7 +82,7 @@ fn drawn(renderer: &mut Renderer, case: &Case, stage: &Stage, layers: bool, sky:
     let with = settings(&case.config);
     let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
     let histories: Vec<_> = case.histories.iter().collect();
-    let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, None, &settings);
+    let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, case.hidden, &settings);
     let picture = renderer.picture(&frame, layers)?;
     match renderer.counters()?.outside {
         0 => Ok(picture),

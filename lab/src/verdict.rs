@@ -1,12 +1,15 @@
 //! `compare` on the command line: what it is asked for, and its exit codes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
+use lensrunner::picture_file::chunk::read_text;
 use lensrunner::scene;
+use lensrunner::sim::restored::Restored;
+use lensrunner::sim::snapshot::Snapshot;
 use lensrunner_lab::compare::{command, flight, judged::Terms, random};
 use lensrunner_lab::contestant::Contestant;
 
@@ -23,8 +26,11 @@ pub struct CompareArgs {
     /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
     #[arg(long, value_name = "NAME|FILE|all")]
     #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
-    #[arg(required_unless_present_any = ["random", "case", "flight"], conflicts_with_all = ["random", "case", "flight"])]
+    #[arg(required_unless_present_any = ["random", "case", "flight", "from"], conflicts_with_all = ["random", "case", "flight", "from"])]
     scene: Option<String>,
+    /// Judges the moment that a PNG of the game carries: its flight, T, camera and settings.
+    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["random", "case", "flight", "at", "config", "table"])]
+    from: Option<PathBuf>,
     /// Judges N scenes that nobody chose, half of them drawn where methods fail. Those that fail are left in the folder -o.
     #[arg(long, value_name = "N", conflicts_with_all = ["case", "flight", "size", "at", "samples", "table"])]
     random: Option<u64>,
@@ -58,7 +64,7 @@ pub struct CompareArgs {
     /// with --random, --case and --flight 60]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     limit: Option<f64>,
-    /// Width and height in pixels [default: 1280x720, with --flight 160x90].
+    /// Width and height in pixels [default: 1280x720, with --flight 160x90, with --from that of the picture].
     #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
     size: Option<[u32; 2]>,
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed) [default: 0].
@@ -116,18 +122,20 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
         let request = flight::command::FlightRequest { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
+    } else if let Some(from) = &args.from {
+        let (output, restored) = (
+            args.output.clone().unwrap_or_default(),
+            match restored(from, args.size) {
+                Ok(restored) => restored,
+                Err(error) => return fail(&error, 2),
+            },
+        );
+        let (scene, size, at) = (restored.scene.name.clone(), restored.snapshot.size, restored.snapshot.time);
+        let case = Case::restored(&restored, size);
+        command::run_case(&case, &trace_request(args, scene, size, at), &output, None, &draw).map(|faults| !faults.is_empty())
     } else {
         let (scene, output) = (args.scene.clone().unwrap_or_default(), args.output.clone().unwrap_or_default());
-        let request = case::TraceRequest {
-            scene,
-            size: args.size.unwrap_or([1280, 720]),
-            at: args.at.unwrap_or(0.0),
-            samples: args.samples,
-            threads: 0,
-            tolerance: args.tolerance.unwrap_or(case::DEFAULT_TOLERANCE),
-            packet: DEFAULT_PACKET,
-            limit: args.limit,
-        };
+        let request = trace_request(args, scene, args.size.unwrap_or([1280, 720]), args.at.unwrap_or(0.0));
         if request.scene == command::ALL && args.table.is_some() {
             return fail(&"--table: not with --scene all, which writes verdict.csv in its folder", 2);
         }
@@ -142,4 +150,16 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         Ok(failed) => ExitCode::from(u8::from(failed)),
         Err(error) => fail(&error, if error.is_input() { 2 } else { 1 }),
     }
+}
+
+/// What the judge is to trace.
+fn trace_request(args: &CompareArgs, scene: String, size: [u32; 2], at: f64) -> case::TraceRequest {
+    let tolerance = args.tolerance.unwrap_or(case::DEFAULT_TOLERANCE);
+    case::TraceRequest { scene, size, at, samples: args.samples, threads: 0, tolerance, packet: DEFAULT_PACKET, limit: args.limit }
+}
+
+/// The moment that a picture carries, flown again, to be drawn in `size` pixels or those of the picture.
+fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
+    let snapshot = Snapshot::from_text(from, &read_text(from)?)?;
+    Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
 }

@@ -91,6 +91,20 @@ pub fn run(
     collected: Option<&Path>,
     contestant: &Contestant,
 ) -> Result<Vec<String>, CompareError> {
+    request.check()?;
+    let config = scene::config::find(config).map_err(TraceError::from)?;
+    let scene = scene::load(&request.scene).map_err(TraceError::from)?;
+    run_case(&Case::new(scene, config, request.at, request.size), request, output, collected, contestant)
+}
+
+/// The same of a case; scene, T and size are the case's, and the request says how to name them.
+pub fn run_case(
+    case: &Case,
+    request: &TraceRequest,
+    output: &Path,
+    collected: Option<&Path>,
+    contestant: &Contestant,
+) -> Result<Vec<String>, CompareError> {
     // Before the work of which it would lose the result.
     if let Some(csv) = collected {
         open(csv)?;
@@ -100,14 +114,11 @@ pub fn run(
         return Err(TraceError::Input(format!("cannot write {}: the name must end in .png", output.display())).into());
     }
     check_writable(output)?;
-    let config = scene::config::find(config).map_err(TraceError::from)?;
-    let scene = scene::load(&request.scene).map_err(TraceError::from)?;
-    let case = Case::new(scene, config, request.at, request.size);
     case.check().map_err(TraceError::from)?;
     if let Some(what) = case.left_out() {
         eprintln!("note: {what}");
     }
-    let frame = contestant(&case).map_err(CompareError::Contestant)?;
+    let frame = contestant(case).map_err(CompareError::Contestant)?;
     let bar = ProgressBar::new(u64::from(request.size[0]) * u64::from(request.size[1]));
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
         bar.set_style(style);
@@ -119,7 +130,7 @@ pub fn run(
     if let Some(what) = judge.given_up_in_words() {
         eprintln!("note: {what}");
     }
-    let probe = probe(&case, request.tolerance);
+    let probe = probe(case, request.tolerance);
     if side < narrow::SIDE {
         narrow::see_again(&mut judge, &frame, &probe);
     }
