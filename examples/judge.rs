@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use lensrunner::judge::case::{DEFAULT_TOLERANCE, TraceError, TraceRequest, trace_to_file};
+use lensrunner::judge::case::{DEFAULT_TOLERANCE, TraceError, TraceRequest};
 use lensrunner::judge::picture::DEFAULT_PACKET;
+use lensrunner::judge::to_file::{Output, trace_to_file};
 
 fn main() -> Result<(), TraceError> {
     let request = TraceRequest {
@@ -16,7 +17,8 @@ fn main() -> Result<(), TraceError> {
         packet: DEFAULT_PACKET,
         limit: None,
     };
-    let rate = trace_to_file(&request, None, Path::new("judge.png"), false)?;
+    let output = Output { file: Path::new("judge.png"), layers: false, text: None, progress: None };
+    let rate = trace_to_file(&request, None, &output)?;
     println!("judge.png: {rate:.0} rays per second and thread");
     Ok(())
 }

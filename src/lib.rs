@@ -15,7 +15,7 @@
 //! Three ways in, each a short program in `examples/`:
 //!
 //! - `orbit`: a ship's path, from [`spacetime::matter::step`] alone;
-//! - `judge`: one exact picture, by [`judge::case::trace_to_file`];
+//! - `judge`: one exact picture, by [`judge::to_file::trace_to_file`];
 //! - `lensed_model`: a glTF model on the screen of an App of one's own. It adds Bevy's `DefaultPlugins` and
 //!   `render::plugin::RelativisticRenderPlugin`, makes a `render::stage::Stage` from a scene, and hands on a frame each time. Ships that
 //!   fly need [`sim::SimulationPlugins`] too, and [`sim::start`] with a scene.

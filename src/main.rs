@@ -6,17 +6,23 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use lensrunner::judge::case;
+use lensrunner::judge::{case, to_file};
 use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
+use lensrunner::picture_file::chunk::read_text;
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty};
 use lensrunner::sim::replay::{Replay, ReplayError, record};
+use lensrunner::sim::restored::Restored;
 use lensrunner::sim::run::RunRequest;
 use lensrunner::sim::simulate::{self, SimulateError};
+use lensrunner::sim::snapshot::Snapshot;
 use lensrunner::sim::sweep::{self, Axis};
 use lensrunner::sim::{agent, balance, check};
 use lensrunner::spacetime::light::{Branch, Order};
+
+/// Width and height of a picture of a scene, in pixels.
+const SIZE: [u32; 2] = [1280, 720];
 
 /// A chase game in the spacetime of a black hole, and the instrument that proves its picture right.
 #[derive(Parser)]
@@ -36,6 +42,8 @@ enum Command {
     Play(lensrunner::play::PlayArgs),
     #[cfg(feature = "game")]
     Shot(ShotArgs),
+    #[cfg(feature = "game")]
+    Screens(lensrunner::play::tour::TourArgs),
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
@@ -52,12 +60,15 @@ enum Command {
 #[derive(Args)]
 struct ShotArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
-    scene: String,
-    /// Width and height in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
-    size: [u32; 2],
+    scene: Option<String>,
+    /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
+    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config"])]
+    from: Option<PathBuf>,
+    /// Width and height in pixels [default: 1280x720, with --from that of the picture].
+    #[arg(long, value_name = "WxH", value_parser = lensrunner::render::shot::size)]
+    size: Option<[u32; 2]>,
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
@@ -80,12 +91,18 @@ struct ShotArgs {
 #[derive(Args)]
 struct TraceArgs {
     /// The scene: a TOML file, or the name of one in assets/scenes.
-    #[arg(long, value_name = "NAME|FILE")]
+    #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
     #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
-    scene: String,
-    /// Width and height in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = scene::picture_size)]
-    size: [u32; 2],
+    scene: Option<String>,
+    /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
+    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config"])]
+    from: Option<PathBuf>,
+    /// Width and height in pixels [default: 1280x720, with --from that of the picture].
+    #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
+    size: Option<[u32; 2]>,
+    /// Prints lines `progress 0.42`, the share that is finished, to standard output instead of a bar.
+    #[arg(long)]
+    progress: bool,
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
@@ -240,6 +257,15 @@ fn main() -> ExitCode {
         Some(Command::Play(args)) => lensrunner::play::run(&args),
         #[cfg(feature = "game")]
         Some(Command::Shot(args)) => run_shot(&args),
+        #[cfg(feature = "game")]
+        Some(Command::Screens(args)) => match lensrunner::play::tour::draw(&args) {
+            Ok(count) => {
+                // Nobody may be reading.
+                _ = writeln!(io::stdout(), "{count} pictures");
+                ExitCode::SUCCESS
+            }
+            Err(error) => fail(&error, 1),
+        },
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),
@@ -261,9 +287,20 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
     if args.layers && args.output.extension().is_some_and(|extension| extension != "exr") {
         return fail(&format!("{}: layers are written to .exr only", args.output.display()), 2);
     }
-    use lensrunner::render::shot::{ShotRequest, shot_to_file};
+    use lensrunner::render::shot::{ShotRequest, shot_again_to_file, shot_to_file};
     let is_light = args.output.extension().is_some_and(|extension| extension == "exr");
-    let request = ShotRequest { scene: &args.scene, size: args.size, at: args.at, layers: args.layers, fill: !is_light };
+    if let Some(from) = &args.from {
+        let restored = match restored(from, args.size) {
+            Ok(restored) => restored,
+            Err(error) => return fail(&error, 2),
+        };
+        return match shot_again_to_file(&restored, args.layers, !is_light, &args.output) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail_shot(&error),
+        };
+    }
+    let scene = args.scene.as_deref().unwrap_or_default();
+    let request = ShotRequest { scene, size: args.size.unwrap_or(SIZE), at: args.at, layers: args.layers, fill: !is_light };
     match shot_to_file(&request, args.config.as_deref(), &args.output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
@@ -275,10 +312,24 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
     fail(error, if error.is_input() { 2 } else { 1 })
 }
 
+/// The moment that a picture carries, flown again, to be drawn in `size` pixels or those of the picture.
+fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
+    let snapshot = Snapshot::from_text(from, &read_text(from)?)?;
+    Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
+}
+
+/// Says how far the work is; ends the program when nobody listens any more.
+fn tell_progress(share: f64) {
+    let mut out = io::stdout().lock();
+    if writeln!(out, "progress {share:.2}").and_then(|()| out.flush()).is_err() {
+        std::process::exit(1);
+    }
+}
+
 fn run_trace(args: &TraceArgs) -> ExitCode {
     let request = case::TraceRequest {
-        scene: args.scene.clone(),
-        size: args.size,
+        scene: args.scene.clone().unwrap_or_default(),
+        size: args.size.unwrap_or(SIZE),
         at: args.at,
         samples: args.samples,
         threads: args.threads,
@@ -286,7 +337,19 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
         packet: args.packet,
         limit: args.limit,
     };
-    match case::trace_to_file(&request, args.config.as_deref(), &args.output, args.layers) {
+    let progress = args.progress.then_some(&tell_progress as &(dyn Fn(f64) + Sync));
+    let output = to_file::Output { file: &args.output, layers: args.layers, text: None, progress };
+    let traced = match &args.from {
+        None => to_file::trace_to_file(&request, args.config.as_deref(), &output),
+        // A wrong argument is said before the flight is flown.
+        Some(from) => to_file::check(&request, &output).and_then(|_| {
+            let restored = restored(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
+            let (text, request) = (restored.snapshot.to_text(), case::TraceRequest { at: restored.snapshot.time, ..request });
+            let case = case::Case::restored(&restored, restored.snapshot.size);
+            to_file::trace_case(&case, &request, &to_file::Output { text: Some(&text), ..output })
+        }),
+    };
+    match traced {
         Ok(rate) => {
             eprintln!("{rate:.0} rays per second and thread");
             ExitCode::SUCCESS

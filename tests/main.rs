@@ -7,6 +7,10 @@ mod judge;
 #[cfg(feature = "game")]
 mod layout;
 mod lensing;
+#[cfg(feature = "game")]
+mod photo;
+#[cfg(feature = "game")]
+mod play;
 mod projector;
 #[cfg(feature = "game")]
 mod render;
@@ -16,3 +20,5 @@ mod spacetime;
 mod support;
 #[cfg(feature = "game")]
 mod twin;
+#[cfg(feature = "game")]
+mod words;

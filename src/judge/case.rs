@@ -1,23 +1,22 @@
-//! `lensrunner trace`: a scene's picture by the judge, every pixel by a geodesic of its own.
+//! A scene's picture by the judge, every pixel by a geodesic of its own.
 
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use glam::{DQuat, DVec3};
-use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::judge::picture::post_process::{PostProcess, post_process};
+use crate::judge::picture::post_process::PostProcess;
 use crate::judge::picture::shade::Shift;
 use crate::judge::picture::sky::{Background, stars};
 use crate::judge::picture::{Disk, Layer, Motion, Picture, Pose, Quality, Surroundings, Sway, Thing, World, Worldline, picture};
 use crate::judge::trace::PixelCamera;
-use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png};
+use crate::picture_file::PictureFileError;
 use crate::scene::camera::viewpoint::CameraEnded;
 use crate::scene::disk::Gas;
 use crate::scene::lighting::Lights;
 use crate::scene::planet::{AuroraShape, Planet};
 use crate::scene::{self, Assembly, Body, ConfigError, GameConfig, Scene, SceneError};
 use crate::sim::history::MotionBounds;
+use crate::sim::restored::Restored;
 use crate::sim::{History, Moment};
 use crate::spacetime::orbit::orbital_frequency;
 
@@ -163,6 +162,10 @@ impl Worldline for History {
         Pose { position: sample.position, momentum: sample.momentum, attitude: sample.attitude }
     }
 
+    fn exists_at(&self, time: f64) -> bool {
+        History::exists_at(self, time)
+    }
+
     fn sway(&self, from: f64, to: f64) -> Option<Sway> {
         let MotionBounds { velocity, acceleration, momentum, force, surge, turning, jumps } = self.bounds(from, to)?;
         Some(Sway { velocity, acceleration, momentum, force, surge, turning, jumps })
@@ -179,8 +182,10 @@ pub struct Case {
     pub assembly: Assembly,
     /// The clock T, in r_s/c.
     pub time: f64,
-    /// The ships' worldlines, in scene order.
+    /// The ships' worldlines, in scene order; in a flight then nobody's, in the place of a ghost, and those of the bolts.
     pub histories: Vec<History>,
+    /// The ship that is not drawn, if it is one: the cockpit's own.
+    pub hidden: Option<usize>,
     /// The camera.
     pub camera: PixelCamera,
     ended: Result<(), CameraEnded>,
@@ -199,21 +204,18 @@ impl Case {
         let view = scene.camera.viewpoint(time, &moment.ships());
         let ended = scene.camera.check(time, &moment.ships());
         let camera = PixelCamera { observer: view, size };
-        let mut histories: Vec<History> = moment.histories().into_iter().cloned().collect();
-        for history in &mut histories {
-            // To where light, in past the hole, some turns around and out again, no longer comes up with the ship; at most to the oldest
-            // light that the judge looks for.
-            let mut back = 120.0 + 2.0 * camera.observer.position.length();
-            loop {
-                history.reach_back(time - back);
-                if back > 1e5 || history.at(time - back).position.length() + 120.0 + 2.0 * camera.observer.position.length() < back {
-                    break;
-                }
-                back *= 1.5;
-            }
-        }
+        let histories = known_back(moment.histories().into_iter().cloned().collect(), time, &camera);
         let assembly = scene.assemble(&config);
-        Case { scene, config, assembly, time, histories, camera, ended }
+        Case { scene, config, assembly, time, histories, hidden: None, camera, ended }
+    }
+
+    /// The moment of a picture, seen by its camera in a picture of `size` pixels.
+    pub fn restored(restored: &Restored, size: [u32; 2]) -> Case {
+        let (scene, config, time) = (restored.scene.clone(), restored.levelled(), restored.snapshot.time);
+        let camera = PixelCamera { observer: restored.snapshot.camera, size };
+        let histories = known_back(restored.histories().into_iter().cloned().collect(), time, &camera);
+        let assembly = scene.assemble(&config);
+        Case { scene, config, assembly, time, histories, hidden: restored.snapshot.hidden, camera, ended: Ok(()) }
     }
 
     /// An error if the camera is where nothing is seen.
@@ -224,15 +226,15 @@ impl Case {
     /// The world as the judge sees it, the ships on these worldlines, in scene order.
     pub fn world<'a>(&'a self, ships: &[&'a dyn Worldline]) -> World<'a> {
         let lights = Lights::of(&self.scene, &self.config);
+        let flying = |index: usize| ships.get(index).map(|line| (Motion::Flying(*line), line.at(self.time).position));
         let things = self.assembly.objects.iter().enumerate().filter_map(|(number, object)| {
             let (motion, position) = match object.body {
                 Body::Held { position, attitude } => (Motion::Held { position, attitude }, position),
-                Body::Ship(index) => {
-                    let line = *ships.get(index)?;
-                    (Motion::Flying(line), line.at(self.time).position)
-                }
-                // These are the game's: no scene has any at its start.
-                Body::Bolt(_) | Body::Ghost => return None,
+                Body::Ship(index) if self.hidden == Some(index) => return None,
+                Body::Ship(index) => flying(index)?,
+                // After the ships and the ghost; no scene has any at its start.
+                Body::Bolt(number) => flying(self.scene.ships.len() + 1 + number)?,
+                Body::Ghost => return None,
                 Body::Planet => {
                     let planet: &dyn Worldline = self.scene.planet.as_ref()?;
                     (Motion::Flying(planet), planet.at(self.time).position)
@@ -345,79 +347,19 @@ impl Case {
     }
 }
 
-/// Traces the picture into a file, with a progress bar; gives the rays per second and thread.
-pub fn trace_to_file(request: &TraceRequest, config: Option<&Path>, output: &Path, layers: bool) -> Result<f64, TraceError> {
-    let side = request.check()?;
-    let ending = output.extension().and_then(|extension| extension.to_str());
-    // A wrong name is said before the work.
-    if !matches!(ending, Some("png" | "exr")) {
-        return Err(PictureFileError::Format(output.to_path_buf()).into());
+/// The worldlines, known back to where light to the camera at T = `time`, in past the hole, some turns around and out again, no longer
+/// comes up with the ship; at most to the oldest light that the judge looks for.
+fn known_back(mut histories: Vec<History>, time: f64, camera: &PixelCamera) -> Vec<History> {
+    let far = 120.0 + 2.0 * camera.observer.position.length();
+    for history in &mut histories {
+        let mut back = far;
+        loop {
+            history.reach_back(time - back);
+            if back > 1e5 || history.at(time - back).position.length() + far < back {
+                break;
+            }
+            back *= 1.5;
+        }
     }
-    if layers && ending == Some("png") {
-        return Err(TraceError::Input("--layers needs an .exr: a PNG holds the finished picture alone".into()));
-    }
-    let config = scene::config::find(config)?;
-    let scene = scene::load(&request.scene)?;
-    // A place that cannot be written to is said before the work too.
-    check_writable(output)?;
-    if request.at > 100.0 {
-        eprintln!("playing to T = {}", request.at);
-    }
-    let case = Case::new(scene, config, request.at, request.size);
-    case.check()?;
-    for warning in &case.assembly.warnings {
-        eprintln!("warning: {warning}");
-    }
-    if let Some(what) = case.left_out() {
-        eprintln!("note: {what}");
-    }
-    let threads = rayon::ThreadPoolBuilder::new()
-        .num_threads(request.threads)
-        .build()
-        .map_err(|error| TraceError::Threads { threads: request.threads, reason: error.to_string() })?;
-    let [width, height] = request.size;
-    let bar = ProgressBar::new(u64::from(width) * u64::from(height));
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} pixels, {per_sec}, {eta} left") {
-        bar.set_style(style);
-    }
-    let started = Instant::now();
-    let quality = Quality { samples: side, tolerance: request.tolerance, packet: request.packet };
-    let picture = threads.install(|| case.trace_within(&quality, true, request.limit, &|pixels| bar.inc(pixels)));
-    bar.finish_and_clear();
-    let picture = picture?;
-    if let Some(what) = picture.given_up_in_words() {
-        eprintln!("note: {what}");
-    }
-    let rate = f64::from(width) * f64::from(height) * f64::from(request.samples)
-        / (started.elapsed().as_secs_f64() * threads.current_num_threads() as f64);
-    if ending == Some("png") {
-        write_png(output, &post_process(&picture.light, picture.size, &case.post_process()), picture.size)?;
-    } else {
-        write_exr(output, picture.size, &channels(&picture, layers))?;
-    }
-    Ok(rate)
-}
-
-/// The channels of a picture: light, and on request what the pixels show. Names are those of `shot --layers` where they mean the same.
-pub fn channels(picture: &Picture, layers: bool) -> Vec<Channel> {
-    let channel = |name: &'static str, data: Vec<f32>| Channel { name, data };
-    let light = |k: usize| picture.light.iter().map(|rgb| rgb[k]).collect();
-    let mut channels = vec![channel("R", light(0)), channel("G", light(1)), channel("B", light(2))];
-    if layers {
-        let layer = |value: &dyn Fn(&crate::judge::picture::Layer) -> f32| picture.layers.iter().map(value).collect();
-        channels.extend([
-            channel("object.id", layer(&|l| l.object as f32)),
-            channel("triangle.id", layer(&|l| l.triangle as f32)),
-            channel("barycentric.a", layer(&|l| l.barycentrics[0])),
-            channel("barycentric.b", layer(&|l| l.barycentrics[1])),
-            channel("barycentric.c", layer(&|l| l.barycentrics[2])),
-            channel("texture.u", layer(&|l| l.uv[0])),
-            channel("texture.v", layer(&|l| l.uv[1])),
-            channel("image.order", layer(&|l| l.order as f32)),
-            channel("swept.angle", layer(&|l| l.swept as f32)),
-            channel("travel.time", layer(&|l| l.delay as f32)),
-            channel("frequency.ratio", layer(&|l| l.g as f32)),
-        ]);
-    }
-    channels
+    histories
 }

@@ -7,7 +7,8 @@
 //! - [`mod@shoot`]: the look direction at which a given point is seen (boundary value).
 //! - [`trace`]: a camera, and where a ray meets what it shows.
 //! - [`picture`]: whole pictures of a scene, with a tree.
-//! - [`case`]: the world that the judge sees of a simulated scene, and `lensrunner trace`. The one file here that knows `sim`.
+//! - [`case`]: the world that the judge sees of a simulated scene. The one file here that knows `sim`.
+//! - [`to_file`]: `lensrunner trace`.
 //! - [`bvh`]: trees of boxes over what a scene holds.
 //!
 //! Units r_s = c = 1, Painlevé–Gullstrand time and rain-frame momenta throughout.
@@ -20,6 +21,7 @@ pub mod ray;
 mod segments;
 pub mod shoot;
 mod taylor;
+pub mod to_file;
 pub mod trace;
 
 pub use ray::{End, Fate, Ray, RaySample, Stop, fate};

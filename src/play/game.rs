@@ -4,6 +4,7 @@ use crate::play::player_state::{Flown, PlayerState};
 use bevy::prelude::*;
 use bevy_egui::input::EguiWantsInput;
 
+use crate::scene::config;
 use crate::sim::hands::choose_pilot;
 use crate::sim::replay::Playback;
 use crate::sim::ship::Player;
@@ -16,9 +17,13 @@ use crate::play::input::gaze::Gaze;
 use crate::play::input::lead::lead_camera;
 use crate::play::input::mouse::MouseTurn;
 use crate::play::input::{ControlsPlugin, PlayerInput};
+use crate::play::menus::MenuModelPlugin;
+use crate::play::menus::entries::{Menu, Page, Touch};
+use crate::play::menus::navigate::choose;
 use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
+use crate::play::photo::PhotoPlugin;
 use crate::play::picture::{Staged, restage};
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
@@ -32,7 +37,7 @@ impl Plugin for GamePlugin {
     fn build(&self, app: &mut App) {
         schedule::order(app);
         app.init_state::<Screen>()
-            .add_plugins((PacePlugin, ControlsPlugin))
+            .add_plugins((PacePlugin, ControlsPlugin, MenuModelPlugin, PhotoPlugin))
             .add_message::<MenuAction>()
             .configure_sets(FixedUpdate, (SimSet::Input, SimSet::Ai, SimSet::Integrate, SimSet::Rules, SimSet::Record).run_if(goes_on))
             .add_systems(
@@ -105,50 +110,58 @@ fn choose_scene(world: &mut World, screen: Screen) {
 /// Keys that switch something.
 fn read_keys(
     hands: PlayerInput,
-    (screen, missions): (Res<State<Screen>>, Option<Res<Catalogue>>),
+    screen: Res<State<Screen>>,
     typing: Option<Res<EguiWantsInput>>,
     mut session: ResMut<Session>,
-    mut player: ResMut<PlayerState>,
+    (mut player, mut menu): (ResMut<PlayerState>, ResMut<Menu>),
     mut actions: MessageWriter<MenuAction>,
     mut commands: Commands,
 ) {
+    let plays = *screen.get() == Screen::Playing;
     if hands.pushed(Action::ToggleOverlay) {
         player.overlay = !player.overlay;
+    }
+    let typing = typing.is_some_and(|typing| typing.wants_keyboard_input()) || menu.awaits.is_some();
+    player.looking = plays && !typing && hands.holds(Action::LookAtTarget);
+    player.fired |= plays && !typing && hands.pushed(Action::Fire);
+    if typing {
+        return;
     }
     if hands.pushed(Action::Screenshot) {
         commands.queue(record::screenshot);
     }
-    let typing = typing.is_some_and(|typing| typing.wants_keyboard_input());
-    player.looking = !typing && hands.holds(Action::LookAtTarget);
-    player.fired |= *screen.get() == Screen::Playing && !typing && hands.pushed(Action::Fire);
-    if typing {
-        return;
-    }
-    let enter = hands.keys.any_just_pressed([KeyCode::Enter, KeyCode::NumpadEnter]);
-    let choices = missions.as_ref().map_or(1, |missions| missions.len());
-    let moved = [(KeyCode::ArrowDown, 1), (KeyCode::ArrowUp, choices - 1)].into_iter().find(|(key, _)| hands.keys.just_pressed(*key));
-    if let (Screen::Title, Some((_, by))) = (screen.get(), moved) {
-        actions.write(MenuAction::Choose((player.choice + by) % choices));
-    }
-    if let (Screen::Title, Some(missions), true) = (screen.get(), &missions, player.choice + 1 == choices) {
-        let scenes = missions.free.len();
-        let turned =
-            [(KeyCode::ArrowRight, 1), (KeyCode::ArrowLeft, scenes - 1)].into_iter().find(|(key, _)| hands.keys.just_pressed(*key));
-        if let Some((_, by)) = turned {
-            actions.write(MenuAction::Scene((player.free + by) % scenes));
+    for (action, path) in [(Action::ToggleFullScreen, "video.fullscreen"), (Action::Mute, "sound.mute_master")] {
+        if hands.pushed(action) {
+            commands.queue(move |world: &mut World| toggle(world, path));
         }
     }
-    match screen.get() {
-        Screen::Title if enter => _ = actions.write(MenuAction::Start),
-        Screen::Result if enter => _ = actions.write(MenuAction::Start),
-        Screen::Paused if enter => _ = actions.write(MenuAction::Pause),
-        _ => (),
+    let flown = matches!(screen.get(), Screen::Playing | Screen::Paused | Screen::Result);
+    if hands.pushed(Action::Restart) && flown && menu.page().is_none() {
+        actions.write(MenuAction::Start);
+    }
+    if hands.pushed(Action::WhatAmISeeing) {
+        match (screen.get(), menu.page()) {
+            (_, Some(Page::Seeing)) => menu.touched.push(Touch::Back),
+            (Screen::Playing, _) => {
+                player.seeing_from_play = true;
+                menu.open(Page::Seeing);
+                actions.write(MenuAction::Pause);
+            }
+            (Screen::Paused, None) => {
+                player.seeing_from_play = false;
+                menu.open(Page::Seeing);
+            }
+            _ => (),
+        }
+    }
+    if !plays {
+        return;
     }
     if hands.pushed(Action::Pause) {
-        actions.write(if *screen.get() == Screen::Result { MenuAction::Title } else { MenuAction::Pause });
+        actions.write(MenuAction::Pause);
     }
-    if hands.pushed(Action::Restart) && *screen.get() != Screen::Title {
-        actions.write(MenuAction::Start);
+    if hands.pushed(Action::PhotoMode) {
+        actions.write(MenuAction::Photo);
     }
     if hands.pushed(Action::ToggleCamera) {
         player.view = player.view.toggled();
@@ -161,8 +174,8 @@ fn read_keys(
         player.assist = Some(!player.assisted(&session.config));
     }
     let begins = hands.stick().thrust != glam::DVec3::ZERO || hands.holds(Action::LookAtTarget) || hands.holds(Action::ToggleAutopilot);
-    player.begun |= player.always_autopilot || (begins && *screen.get() == Screen::Playing);
-    if hands.pushed(Action::ToggleAutopilot) && *screen.get() == Screen::Playing {
+    player.begun |= player.always_autopilot || begins;
+    if hands.pushed(Action::ToggleAutopilot) {
         player.autopilot = !player.autopilot;
     }
     let faster = f64::from(i8::from(hands.pushed(Action::Faster)) - i8::from(hands.pushed(Action::Slower)));
@@ -170,6 +183,13 @@ fn read_keys(
         let pace = session.config.clock.pace * faster.exp2();
         session.config.clock.pace = pace.clamp(0.05, 24.0);
     }
+}
+
+/// Switches a setting that is kept.
+fn toggle(world: &mut World, path: &str) {
+    let Some(setting) = config::setting(path) else { return };
+    let on = setting.get(&world.resource::<Session>().config) == config::Value::Switch(true);
+    choose(world, setting, config::Value::Switch(!on));
 }
 
 fn answer_menus(world: &mut World) {
@@ -192,7 +212,7 @@ fn answer_menus(world: &mut World) {
                 }
             }
             MenuAction::Start | MenuAction::Title => _ = world.remove_resource::<Watched>(),
-            MenuAction::Pause => (),
+            MenuAction::Pause | MenuAction::Photo => (),
         }
         let screen = *world.resource::<State<Screen>>().get();
         if let Some((next, anew)) = answer(screen, action) {

@@ -74,6 +74,10 @@ impl Catalogue {
 #[derive(Resource, Clone, Debug)]
 pub struct Watched(pub Replay);
 
+/// The flight behind the title, which no hands fly.
+#[derive(Resource, Clone, Debug)]
+pub struct TitleFlight(pub Replay);
+
 /// The best flight so far of the mission that is flown, as a ship among the others.
 #[derive(Resource, Clone, Debug)]
 pub struct Ghost(pub History);
@@ -115,10 +119,13 @@ fn read_records(mut records: ResMut<Records>, mut notice: Option<ResMut<Notice>>
 pub fn begin_log(world: &mut World, screen: Screen) {
     world.remove_resource::<ReplayLog>();
     world.remove_resource::<Playback>();
+    world.remove_resource::<TitleFlight>();
     let session = world.resource::<Session>().clone();
     let ghost = ghost(world, &session);
-    world.insert_resource(Ghost(ghost.unwrap_or_else(nobody)));
+    world.insert_resource(Ghost(ghost.unwrap_or_else(History::nobody)));
+    let begun = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
     if screen != Screen::Playing {
+        world.insert_resource(TitleFlight(begun));
         return;
     }
     if let Some(watched) = world.get_resource::<Watched>() {
@@ -127,17 +134,8 @@ pub fn begin_log(world: &mut World, screen: Screen) {
         world.insert_resource(playback);
         crate::sim::board(world, crew);
     } else {
-        let replay = Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
-        world.insert_resource(ReplayLog(replay));
+        world.insert_resource(ReplayLog(begun));
     }
-}
-
-/// The worldline of nothing.
-pub(in crate::play) fn nobody() -> History {
-    let place = glam::DVec3::new(1e3, 0.0, 0.0);
-    let mut history = History::new(0.0, &crate::spacetime::matter::ShipState::new(place, glam::DVec3::ZERO));
-    history.begins(f64::INFINITY);
-    history
 }
 
 /// Flies the best flight of this mission again and takes the player's worldline from it.

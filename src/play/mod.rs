@@ -1,11 +1,15 @@
 //! Playing: screens, input, camera, HUD, dev overlay, and the demonstration flight without a display.
 //!
-//! Each feature is a plugin: [`game`] (screens, keys, time), [`picture`] (camera and frame), [`hud`], [`menus`], [`overlay`], [`window`]
-//! (which adds them all to an app); [`schedule`] says in which order they run. [`demonstration`] flies the chase to files without a window.
+//! Each feature is a plugin: [`game`] (screens, keys, time), [`picture`] (camera and frame), [`hud`], [`menus`], [`overlay`], [`sound`],
+//! [`window`] (which adds them all to an app); [`schedule`] says in which order they run. [`demonstration`] flies the chase to files without
+//! a window.
 //! They share [`session`] (what is played), [`player_state`] (how the player plays) and [`camera`].
 
 pub mod camera;
+pub mod choices;
 pub mod demonstration;
+pub mod develop;
+pub mod files;
 pub mod game;
 pub mod hud;
 pub mod input;
@@ -13,12 +17,16 @@ pub mod menus;
 pub mod missions;
 pub mod overlay;
 pub mod pace;
+pub mod photo;
 pub mod picture;
 pub mod player_state;
 pub mod records;
 pub mod schedule;
 pub mod session;
+pub mod sound;
+pub mod tour;
 pub mod window;
+pub mod words;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -63,9 +71,12 @@ pub struct PlayArgs {
     /// Width and height in pixels [default: 640x360 without a window, else as game.toml says].
     #[arg(long, value_name = "WxH", value_parser = crate::render::shot::size)]
     pub size: Option<[u32; 2]>,
-    /// Writes every frame as PNG into this folder [default: out/ without a window].
+    /// Writes every frame as PNG, each with its moment for `--from`, into this folder [default: out/ without a window].
     #[arg(long, value_name = "DIR")]
     pub record: Option<PathBuf>,
+    /// Writes the sound of the flight to this file; without --record and --frames the sound alone.
+    #[arg(long, value_name = "FILE.wav", requires = "headless")]
+    pub sound: Option<PathBuf>,
 }
 
 /// Where no window is opened, warnings (a model that cannot be read, a table that is baked anew) go to standard error as they are.
@@ -151,6 +162,16 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     if without_window && !args.headless {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
+    if let (Some(path), None, None) = (&args.sound, &args.record, args.frames) {
+        warn_on_stderr();
+        return match demonstration::sound(&session, replay.as_ref(), path) {
+            Ok(([from, to], end, seconds)) => {
+                say(&format!("The flight from T = {from:.1} to {to:.1} r_s/c: {end}.\nSound: {}, {seconds:.2} s.", path.display()));
+                ExitCode::SUCCESS
+            }
+            Err(error) => fail(&error, 1),
+        };
+    }
     let gpu = match Gpu::headless() {
         Ok(gpu) => gpu,
         Err(error) => return fail(&error, 1),
@@ -176,6 +197,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         size: args.size.unwrap_or(demonstration::SIZE),
         folder: args.record.clone().unwrap_or_else(|| PathBuf::from("out")),
         replay,
+        sound: args.sound.clone(),
     };
     warn_on_stderr();
     match demonstration::fly(&gpu, &session, &flight) {

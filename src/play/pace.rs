@@ -85,12 +85,16 @@ pub(in crate::play) fn run_time(
 
 /// The share of the pace with danger `ahead`, in r_s/c of T.
 fn share(ahead: f64) -> f64 {
-    let way = ((ahead - HERE) / (AHEAD - HERE)).clamp(0.0, 1.0);
-    SLOWEST + (1.0 - SLOWEST) * way
+    SLOWEST + (1.0 - SLOWEST) * (1.0 - nearness(ahead))
+}
+
+/// How near danger is that is `ahead`, in r_s/c of T: 0 beyond [`AHEAD`], 1 at [`HERE`].
+pub(in crate::play) fn nearness(ahead: f64) -> f64 {
+    1.0 - ((ahead - HERE) / (AHEAD - HERE)).clamp(0.0, 1.0)
 }
 
 /// How far ahead danger is if all coast, in r_s/c of T; infinite beyond [`AHEAD`]. `inside`: the hole is none.
-fn danger(mut own: Point, mut others: Vec<Point>, inside: bool) -> f64 {
+pub(in crate::play) fn danger(mut own: Point, mut others: Vec<Point>, inside: bool) -> f64 {
     let mut time = 0.0;
     while time < AHEAD {
         let deep = !inside && own.x.length_squared() < DEEP * DEEP;

@@ -41,6 +41,8 @@ pub struct PlayerState {
     pub orbit: Orbit,
     /// How far the camera has turned to the target.
     pub gaze: Gaze,
+    /// What is on the screen was asked for in play, where the way back leads.
+    pub seeing_from_play: bool,
 }
 
 /// Who has had a ship's controls.

@@ -9,11 +9,19 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::Resource;
 use serde::{Deserialize, Serialize};
 
+use crate::play::files::{set_aside, write_whole};
 use crate::scene::Difficulty;
 use crate::sim::replay::Replay;
 
 /// Names another folder than the user's own.
 pub const FOLDER_VARIABLE: &str = "LENSRUNNER_DATA";
+
+/// The folder that is named, else the user's own; None where there is none.
+pub fn data_folder() -> Option<PathBuf> {
+    let named = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
+    let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.data_dir().to_path_buf());
+    named.or_else(own)
+}
 
 /// The best flight of a mission on a difficulty.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,9 +47,7 @@ pub struct Records {
 impl Records {
     /// Those of the user, and what is to be said of them.
     pub fn load() -> (Records, Option<String>) {
-        let named = std::env::var_os(FOLDER_VARIABLE).map(PathBuf::from);
-        let own = || directories::ProjectDirs::from("", "", "lensrunner").map(|folders| folders.data_dir().to_path_buf());
-        match named.or_else(own) {
+        match data_folder() {
             Some(folder) => Records::load_from(&folder),
             None => (Records::default(), Some("There is no folder for best scores: they are kept until the game ends.".into())),
         }
@@ -60,17 +66,13 @@ impl Records {
         };
         match toml::from_str(&text) {
             Ok(table) => (records(table), None),
-            Err(_) => {
-                let aside = (1..).map(|n| folder.join(format!("records.damaged-{n}.toml"))).find(|aside| !aside.exists());
-                let moved = aside.as_ref().map(|aside| std::fs::rename(&file, aside));
-                match (moved, aside) {
-                    (Some(Ok(())), Some(aside)) => {
-                        let said = format!("{} was damaged; it is set aside as {}.", file.display(), aside.display());
-                        (records(BestTable::new()), Some(said))
-                    }
-                    _ => (Records::default(), Some(format!("{} is damaged. New scores are kept until the game ends.", file.display()))),
+            Err(_) => match set_aside(&file) {
+                Some(aside) => {
+                    let said = format!("{} was damaged; it is set aside as {}.", file.display(), aside.display());
+                    (records(BestTable::new()), Some(said))
                 }
-            }
+                None => (Records::default(), Some(format!("{} is damaged. New scores are kept until the game ends.", file.display()))),
+            },
         }
     }
 
@@ -107,15 +109,6 @@ impl Records {
         let text = toml::to_string(&self.table).map_err(std::io::Error::other)?;
         write_whole(&folder.join("records.toml"), &text)
     }
-}
-
-/// Writes a file so that it is either the old one or the new, whatever happens.
-fn write_whole(file: &Path, text: &str) -> std::io::Result<()> {
-    let named = |error: std::io::Error| std::io::Error::new(error.kind(), format!("{}: {error}", file.display()));
-    let beside = file.with_extension("new");
-    std::fs::create_dir_all(file.parent().unwrap_or(Path::new("."))).map_err(named)?;
-    std::fs::write(&beside, text).map_err(named)?;
-    std::fs::rename(&beside, file).map_err(named)
 }
 
 #[cfg(test)]

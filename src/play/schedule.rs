@@ -11,6 +11,8 @@ use bevy_egui::EguiPrimaryContextPass;
 pub enum GameSet {
     /// Changes of the configuration take effect.
     Configure,
+    /// Keys, mouse and gamepad move the menus.
+    Menus,
     /// Keys are read.
     Keys,
     /// Menu actions are answered: screens change, chases begin.
@@ -36,7 +38,8 @@ pub enum PaintSet {
 
 /// Puts the sets in order.
 pub fn order(app: &mut App) {
-    let game = (GameSet::Configure, GameSet::Keys, GameSet::Answer, GameSet::Window, GameSet::Picture, GameSet::Instruments);
+    let game =
+        (GameSet::Configure, GameSet::Menus, GameSet::Keys, GameSet::Answer, GameSet::Window, GameSet::Picture, GameSet::Instruments);
     app.configure_sets(Update, game.chain())
         .configure_sets(EguiPrimaryContextPass, (PaintSet::Hud, PaintSet::Menus, PaintSet::Overlay).chain());
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::Resource;
 use thiserror::Error;
 
+use crate::play::words::Language;
 use crate::scene::ship::Ai;
 use crate::scene::{self, ConfigError, Difficulty, GameConfig, Scene, SceneError};
 
@@ -52,6 +53,11 @@ impl Session {
             return Err(SessionError::NoShip(scene.name));
         }
         Ok(Session { scene, config, config_file, seed: seed.unwrap_or(0), seed_stays: seed.is_some(), difficulty: Difficulty::default() })
+    }
+
+    /// The language of all words.
+    pub fn language(&self) -> Language {
+        Language::of(&self.config.interface.language)
     }
 
     /// The configuration as the mission has it on the chosen difficulty.

@@ -11,7 +11,9 @@ use crate::scene::camera::viewpoint::CameraEnded;
 pub use crate::scene::picture_size as size;
 use crate::scene::{self, ConfigError, GameConfig, SceneError};
 pub use crate::sim::Moment;
+use crate::sim::restored::Restored;
 
+use crate::render::frame::FrameInput;
 use crate::render::gpu::readback::{Picture, PictureError};
 use crate::render::gpu::types::Star;
 use crate::render::renderer::{Renderer, Surroundings};
@@ -104,7 +106,25 @@ pub fn shot(request: &ShotRequest, config: &GameConfig) -> Result<Picture, ShotE
     let own_ship = scene.ships.iter().position(|ship| ship.player).filter(|_| request.fill);
     let settings = Settings { own_ship, ..settings(config) };
     let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings);
-    let picture = renderer.picture(&frame, request.layers)?;
+    complete(&mut renderer, &frame, request.layers)
+}
+
+/// Draws the moment of a picture of the game again, in `size` pixels. `fill`: the player's ship is lit as the game does it; not so where
+/// light itself is asked for. The eye has adapted; the ghost of an earlier flight is left out, and an aurora is as after no frames before.
+pub fn shot_again(restored: &Restored, size: [u32; 2], layers: bool, fill: bool) -> Result<Picture, ShotError> {
+    let (config, snapshot) = (&restored.config, &restored.snapshot);
+    let gpu = Gpu::headless()?;
+    let mut renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+    let stage = Stage::new(&mut renderer, &restored.scene, &restored.levelled());
+    let settings =
+        Settings { own_ship: snapshot.lit.filter(|_| fill), engines: Some([config.ship.thrust, config.enemy.thrust]), ..settings(config) };
+    let frame = stage.frame(snapshot.camera, size, snapshot.time, &restored.histories(), snapshot.hidden, &settings);
+    complete(&mut renderer, &frame, layers)
+}
+
+/// The picture; what it lacks is said in the log.
+fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result<Picture, ShotError> {
+    let picture = renderer.picture(frame, layers)?;
     if let Some(complaint) = renderer.counters()?.complaint() {
         warn!("the picture is not complete: {complaint}");
     }
@@ -119,5 +139,15 @@ pub fn shot_to_file(request: &ShotRequest, config: Option<&Path>, output: &Path)
         return Err(PictureError::Format(output.display().to_string()).into());
     }
     shot(request, &config)?.write(output)?;
+    Ok(())
+}
+
+/// The same of the moment of a picture; a PNG carries that moment on.
+pub fn shot_again_to_file(restored: &Restored, layers: bool, fill: bool, output: &Path) -> Result<(), ShotError> {
+    if !matches!(output.extension().and_then(|extension| extension.to_str()), Some("png" | "exr")) {
+        return Err(PictureError::Format(output.display().to_string()).into());
+    }
+    let snapshot = &restored.snapshot;
+    shot_again(restored, snapshot.size, layers, fill)?.write_with_text(output, Some(&snapshot.to_text()))?;
     Ok(())
 }

@@ -101,6 +101,16 @@ impl Scene {
         assembly
     }
 
+    /// The model files that the scene is made of, each once, as the scene names them.
+    pub fn model_files(&self) -> Vec<String> {
+        let ships = self.ships.iter().map(|ship| ship.model.as_deref().unwrap_or(default_model(ship)));
+        let props = self.props.iter().filter_map(|prop| if let Shape::File(file) = &prop.shape { Some(file.as_str()) } else { None });
+        let mut files: Vec<String> = ships.chain(props).map(String::from).collect();
+        files.sort();
+        files.dedup();
+        files
+    }
+
     /// Adds a mission's gates and bolts.
     fn assemble_mission(&self, config: &GameConfig, assembly: &mut Assembly) {
         let Some(mission) = &self.mission else { return };

@@ -42,7 +42,9 @@ pub struct Scene {
     pub mission: Option<Arc<Mission>>,
     /// What must become of it.
     pub expect: Option<Expect>,
-    /// A fingerprint of the file's text.
+    /// The file's text.
+    pub text: Arc<str>,
+    /// A fingerprint of the text.
     pub fingerprint: u64,
     /// It is no file of the game's own: another may have its name.
     pub foreign: bool,
@@ -121,7 +123,7 @@ impl Scene {
         let entry: SceneFile = parse(file, text).map_err(one)?;
         let mut scene = check(&entry).map_err(|fault| complain_all(file, text, vec![fault]))?;
         scene.mission = mission(file, text, &entry, &scene.ships)?.map(Arc::new);
-        scene.fingerprint = fingerprint(text);
+        (scene.text, scene.fingerprint) = (text.into(), fingerprint(text));
         let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let disk = entry.disk.is_some().then(|| disk_keys(file, text)).transpose()?;
         Ok(Scene { name, disk, ..scene })
@@ -142,6 +144,7 @@ fn check(entry: &SceneFile) -> Result<Scene, Fault> {
         rules: entry.rules.clone(),
         mission: None,
         expect: entry.expect.as_ref().map(|expect| check_expect(expect, entry.mission.is_some())).transpose()?,
+        text: "".into(),
         fingerprint: 0,
         foreign: false,
         ships,

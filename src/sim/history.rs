@@ -160,6 +160,13 @@ impl History {
         }
     }
 
+    /// The worldline of nothing: a place in a list of worldlines that nobody takes.
+    pub fn nobody() -> Self {
+        let mut history = History::new(0.0, &ShipState::new(DVec3::new(1e3, 0.0, 0.0), DVec3::ZERO));
+        history.begins(f64::INFINITY);
+        history
+    }
+
     /// Adds the state at `time`, later than all before, reached under `command`.
     pub fn push(&mut self, time: f64, state: &ShipState, command: &Command) {
         let force = |state: &ShipState| rate(state, command.thrust, command.rates).momentum;

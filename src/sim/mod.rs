@@ -19,12 +19,15 @@ pub mod moment;
 pub mod physics;
 pub mod pilot;
 pub mod replay;
+pub mod restored;
 pub mod rules;
 pub mod run;
+pub mod seeing;
 pub mod setup;
 pub mod ship;
 pub mod sight;
 pub mod simulate;
+pub mod snapshot;
 pub mod sweep;
 
 use bevy::app::PluginGroupBuilder;

@@ -5,7 +5,10 @@ use bevy::prelude::*;
 use crate::scene::{GameConfig, Scene};
 use crate::spacetime::matter::ShipState;
 
-use super::{Clock, Fleet, History, ShipMotion, app_of, outcome};
+use super::replay::{Playback, Replay};
+use super::run::state_hash;
+use super::ship::Player;
+use super::{Bolts, Clock, Fleet, History, ShipMotion, app_of, board, outcome};
 
 /// A scene with its ships at a time T.
 pub struct Moment {
@@ -20,6 +23,23 @@ impl Moment {
         let mut moment = Moment { world, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
         let step = moment.world.world().resource::<Clock>().step;
         moment.advance((at / step).round() as u64);
+        moment
+    }
+
+    /// Flies a flight again up to its last step. `config` is that of its difficulty; `player` is the ship that hands fly where the scene
+    /// marks none.
+    pub fn flown(scene: &Scene, config: &GameConfig, flight: &Replay, player: Option<usize>) -> Moment {
+        let mut app = app_of(scene, config, flight.seed);
+        let world = app.world_mut();
+        let is_marked = world.query_filtered::<(), With<Player>>().iter(world).next().is_some();
+        let ship = player.filter(|_| !is_marked).and_then(|ship| world.resource::<Fleet>().0.get(ship).copied());
+        if let Some(ship) = ship {
+            world.entity_mut(ship).insert(Player);
+        }
+        world.insert_resource(Playback::of(flight));
+        board(world, flight.crew);
+        let mut moment = Moment { world: app, names: scene.ships.iter().map(|ship| ship.name.clone()).collect() };
+        moment.advance(flight.ticks);
         moment
     }
 
@@ -45,6 +65,16 @@ impl Moment {
         let world = self.world.world();
         let fleet = &world.resource::<Fleet>().0;
         fleet.iter().zip(&self.names).filter_map(|(&entity, name)| Some((name.as_str(), world.get::<ShipMotion>(entity)?.0))).collect()
+    }
+
+    /// Of the ships' state, as a replay keeps it.
+    pub fn hash(&self) -> String {
+        state_hash(self.world.world()).to_string()
+    }
+
+    /// Worldlines of the bolts, each in its place.
+    pub fn bolts(&self) -> Vec<&History> {
+        self.world.world().resource::<Bolts>().0.iter().map(|bolt| &bolt.history).collect()
     }
 
     /// Worldlines of the ships, in scene order.

@@ -3,8 +3,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::history::History;
+use super::history::{History, Sample};
 use crate::spacetime::light::{self, Branch, Order};
+use crate::spacetime::matter::gamma;
 use crate::spacetime::{Observer, frames};
 
 /// A ship as an observer sees it.
@@ -43,6 +44,27 @@ pub fn direction(camera: &Observer, position: DVec3, order: Order, age: f64) -> 
     Some(camera.seen_direction(outward * psi.cos() + side * psi.sin()))
 }
 
+/// g = ν_observed/ν_emitted of light that left a ship in the state `emitted` and reaches `camera` after `age` r_s/c, in the image of this
+/// order: of the photon with the rain-frame momentum k, who moves with p measures the frequency γ|k| − p·k. None where no ray joins them.
+pub fn frequency_ratio(camera: &Observer, emitted: &Sample, order: Order, age: f64) -> Option<f64> {
+    let (l, r) = (camera.radius(), emitted.position.length());
+    let (n, m) = (camera.position / l, emitted.position / r);
+    let across = m - n * m.dot(n);
+    let phi = across.length().atan2(m.dot(n)).max(1e-12);
+    let ray = light::connect(1.0 / r, order.swept(phi), 1.0 / l, branch_of(camera, emitted.position, age))?;
+    let side = across.try_normalize().unwrap_or_else(|| n.any_orthonormal_vector());
+    let turn = if order.flips() { -1.0 } else { 1.0 };
+    // Directions of increasing Φ at the camera and at the ship.
+    let along = [side * turn, (side * m.dot(n) - n * m.dot(side)) * turn];
+    let frequency = |slope: f64, radius: f64, [outward, along]: [DVec3; 2], p: DVec3| {
+        let [radial, tangential] = light::rain_momentum(slope, ray.energy, 1.0 / radius);
+        let k = outward * radial + along * tangential;
+        gamma(p) * k.length() - p.dot(k)
+    };
+    let g = frequency(ray.slope, l, [n, along[0]], camera.momentum) / frequency(ray.emission_slope, r, [m, along[1]], emitted.momentum);
+    (g.is_finite() && g > 0.0).then_some(g)
+}
+
 /// The direction to where the ship really is on the slice T = const, as if light were straight and at once, in the observer's axes.
 pub fn true_direction(camera: &Observer, position: DVec3) -> Option<DVec3> {
     (position - camera.position).try_normalize().map(|line| camera.attitude.conjugate() * line)
@@ -79,12 +101,21 @@ pub fn branch_of(camera: &Observer, position: DVec3, age: f64) -> Branch {
 /// 0 and decreases for E < 0. A worldline leaves the camera's past only once, so both branches together have one root. None if the object
 /// is not seen.
 pub fn emission_time(camera: &Observer, time: f64, history: &History, order: Order) -> Option<f64> {
-    leaving(time, |t| {
+    let line = |t: f64| {
         let sample = history.at(t);
-        let branch = branch_of(camera, sample.position, time - t);
-        let (delay, gradient) = light_path(camera, sample.position, order, branch)?;
+        Some([sample.position, sample.velocity])
+    };
+    emission_time_of(camera, time, line, order)
+}
+
+/// As [`emission_time`] for anything that has a position on the slice (r_s) and dx/dT (c) at each T.
+pub fn emission_time_of(camera: &Observer, time: f64, line: impl Fn(f64) -> Option<[DVec3; 2]>, order: Order) -> Option<f64> {
+    leaving(time, |t| {
+        let [position, velocity] = line(t)?;
+        let branch = branch_of(camera, position, time - t);
+        let (delay, gradient) = light_path(camera, position, order, branch)?;
         let sign = if branch == Branch::Minus { -1.0 } else { 1.0 };
-        Some((sign * (t + delay - time), sign * (1.0 + gradient.dot(sample.velocity))))
+        Some((sign * (t + delay - time), sign * (1.0 + gradient.dot(velocity))))
     })
 }
 
@@ -155,6 +186,55 @@ mod tests {
         let second = direction(&camera, there, Order::ALL[1], 0.0).expect("second");
         assert!(first.x > 0.0 && second.x < 0.0, "{first} {second}");
         assert!(first.y.abs() < 1e-9 && second.y.abs() < 1e-9);
+    }
+
+    /// The time between two wave crests by both clocks: of order 1 and 2, for orbits and falls, outside and inside the horizon.
+    #[test]
+    fn frequencies_go_as_the_clocks_tick() {
+        use crate::sim::Command;
+        use crate::spacetime::matter::{ShipState, step};
+        use crate::spacetime::orbit::circular_orbit;
+        let orbit = |r: f64, phase: f64| circular_orbit(r, phase).expect("a circle");
+        let rain = |r: f64, y: f64, p: DVec3| ShipState::new(DVec3::new(r, y, 0.1), p);
+        let mut seen = 0;
+        // What falls from rest at infinity goes from r to the middle in 2/3 r^1.5: from 3.3 in 4.0, from 3 in 3.5.
+        for (own, other, time) in [
+            (orbit(6.0, 0.0), orbit(6.0, 2.0), 30.0),
+            (orbit(9.0, 0.0), orbit(3.2, 2.5), 30.0),
+            (orbit(3.2, 1.0), orbit(12.0, -1.0), 40.0),
+            (rain(14.0, 1.0, DVec3::new(0.1, -0.1, 0.05)), orbit(7.0, 0.3), 30.0),
+            (orbit(8.0, 0.0), rain(12.0, -5.0, DVec3::new(0.3, 0.4, 0.3)), 40.0),
+            (rain(3.3, 0.2, DVec3::new(0.0, 0.1, 0.0)), rain(3.0, 0.1, DVec3::new(0.0, -0.1, 0.1)), 3.5),
+        ] {
+            // Fine nodes: between them a worldline is a cubic.
+            let mut history = History::new(0.0, &other);
+            let mut state = other;
+            for k in 1..=(128.0 * time) as u32 {
+                state = step(&state, 1.0 / 128.0, DVec3::ZERO, DVec3::ZERO);
+                if state.position.length() < 0.2 {
+                    break;
+                }
+                history.push(f64::from(k) / 128.0, &state, &Command::default());
+            }
+            let camera = |t: f64| {
+                let own = step(&own, t, DVec3::ZERO, DVec3::ZERO);
+                Observer { position: own.position, momentum: own.momentum, attitude: own.attitude, field_of_view: 1.0 }
+            };
+            for order in [Order::ALL[0], Order::ALL[1]] {
+                // Central differences of times that are known to 1e-12 r_s/c: 1e-4 is best.
+                let h = 1e-4;
+                let emitted = |t: f64| emission_time(&camera(t), t, &history, order);
+                let (Some(before), Some(now), Some(after)) = (emitted(time - h), emitted(time), emitted(time + h)) else { continue };
+                let sent = history.at(now);
+                // dT = γ dτ for each of them.
+                let ticked = (after - before) / (2.0 * h) * gamma(camera(time).momentum) / gamma(sent.momentum);
+                let g = frequency_ratio(&camera(time), &sent, order, time - now).expect("a ray");
+                assert!((g / ticked - 1.0).abs() < 1e-5, "{:?} {sent:?} {order:?}: {g} {ticked}", camera(time));
+                assert!(time < 10.0 || now > 0.0, "before the first node at T = {now}");
+                seen += 1;
+            }
+        }
+        assert!(seen >= 10, "only {seen} images");
     }
 
     #[test]

@@ -3,32 +3,33 @@
 pub mod sheet;
 
 use std::fs;
-use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Instant;
 
 use bevy::prelude::*;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
 use indicatif::{ProgressBar, ProgressStyle};
 use thiserror::Error;
 
+use crate::picture_file;
 use crate::render::gpu::readback::{self, PictureError};
 use crate::render::gpu::targets::target;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
+use crate::scene::crew::Crew;
 use crate::sim::app_of;
 use crate::sim::bolts::Bolts;
 use crate::sim::replay::Replay;
+use crate::sim::snapshot::{Snapshot, View, step_after};
 use crate::sim::{Clock, Fleet, History, outcome};
 
 use crate::play::camera::director::{Cast, Director};
 use crate::play::demonstration::sheet::Sheet;
-use crate::play::missions::nobody;
 use crate::play::session::Session;
+use crate::play::sound::file::SoundFileError;
+use crate::play::sound::record::Recorder;
 
 /// Frames, unless asked otherwise.
 pub const FRAMES: u32 = 240;
@@ -50,6 +51,8 @@ pub struct DemonstrationRequest {
     pub folder: PathBuf,
     /// The flight that is shown; without it the autopilot's.
     pub replay: Option<Replay>,
+    /// The WAV file of its sound, if one is wanted.
+    pub sound: Option<PathBuf>,
 }
 
 /// Why the flight was not drawn.
@@ -58,6 +61,9 @@ pub enum FlightError {
     /// A picture did not come back from the GPU.
     #[error(transparent)]
     Picture(#[from] PictureError),
+    /// The sound could not be written.
+    #[error(transparent)]
+    Sound(#[from] SoundFileError),
     /// A file could not be written.
     #[error("cannot write {}: {reason}", path.display())]
     Write {
@@ -85,6 +91,8 @@ pub struct Report {
     pub rate: f64,
     /// Passes of one of the last frames on the GPU with their milliseconds, where it has timestamps.
     pub passes: Vec<(&'static str, f32)>,
+    /// Length of the sound in seconds, if it was wanted: that of the frames at the game's pace.
+    pub sound: Option<f64>,
 }
 
 impl std::fmt::Display for Report {
@@ -94,6 +102,9 @@ impl std::fmt::Display for Report {
         writeln!(f, "The flight from T = {from:.1} to {to:.1} r_s/c: {}.", self.end)?;
         writeln!(f, "Frames: {}", self.frames.display())?;
         writeln!(f, "Contact sheet: {}", self.sheet.display())?;
+        if let Some(seconds) = self.sound {
+            writeln!(f, "Sound: {seconds:.2} s, as long as the flight at the game's pace.")?;
+        }
         write!(f, "A frame took {mean:.1} ms in the mean, {worst:.1} ms at worst; {:.1} frames a second with writing.", self.rate)?;
         if !self.passes.is_empty() {
             let passes: Vec<String> = self.passes.iter().map(|(name, time)| format!("{name} {time:.1}")).collect();
@@ -105,12 +116,15 @@ impl std::fmt::Display for Report {
 
 /// Plays the chase without graphics, then draws it.
 pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Result<Report, FlightError> {
-    let (world, span, end) = play(session, flight.replay.as_ref());
+    let mut recorder = flight.sound.is_some().then(|| Recorder::new(session));
+    let (world, span, end) = play(session, flight.replay.as_ref(), recorder.as_mut());
+    // Before the pictures, which take longer, so that what cannot be written is said soon.
+    let sound = recorder.zip(flight.sound.as_ref()).map(|(recorder, path)| recorder.write(path, span[0])).transpose()?;
     let names: Vec<Entity> = world.world().resource::<Fleet>().0.clone();
     let mut histories: Vec<&History> = names.iter().filter_map(|&ship| world.world().get::<History>(ship)).collect();
     let cast = cast(session, &histories);
     // No ghost flies along; bolts come after it.
-    let nobody = nobody();
+    let nobody = History::nobody();
     histories.push(&nobody);
     histories.extend(world.world().resource::<Bolts>().0.iter().map(|bolt| &bolt.history));
 
@@ -123,6 +137,9 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     settings.own_ship = Some(session.player());
     settings.engines = Some([session.config.ship.thrust, session.config.enemy.thrust]);
     let mut director = Director::default();
+    let own = || Replay::begin(&session.scene, &session.config, session.difficulty, Crew::Expert, session.seed);
+    let shown = flight.replay.clone().unwrap_or_else(own);
+    let step = world.world().resource::<Clock>().step;
 
     let sheet_file = flight.folder.join("contact-sheet.png");
     let writer = Writer::start(frames_folder.clone(), sheet_file.clone(), flight.size, flight.frames);
@@ -146,7 +163,10 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
         // From the second frame on the eye adapts, by the time that passes for a player.
         let seconds = (span[1] - span[0]) / f64::from(flight.frames) / session.config.clock.pace;
         settings.adaptation = (1.0 - (-session.config.render.exposure_speed * seconds).exp2()) as f32;
-        if !writer.send(index, pixels) {
+        let (ticks, lit) = (step_after(time, step) as u64, settings.own_ship);
+        let seen = View { time, ticks, camera, size: flight.size, hidden, lit };
+        let snapshot = Snapshot::new(&shown, &session.scene, &session.config, world.world(), &seen);
+        if !writer.send(index, pixels, snapshot) {
             break;
         }
         bar.inc(1);
@@ -163,7 +183,16 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
         milliseconds: [rest.iter().sum::<f64>() / rest.len() as f64, rest.iter().copied().fold(0.0, f64::max)],
         rate: f64::from(flight.frames) / started.elapsed().as_secs_f64(),
         passes,
+        sound,
     })
+}
+
+/// Plays the chase and writes its sound alone: neither pictures nor a GPU. From what T to what T it goes (r_s/c), how it ended, and the
+/// length of the sound in seconds.
+pub fn sound(session: &Session, replay: Option<&Replay>, path: &Path) -> Result<([f64; 2], String, f64), SoundFileError> {
+    let mut recorder = Recorder::new(session);
+    let (_, span, end) = play(session, replay, Some(&mut recorder));
+    Ok((span, end, recorder.write(path, span[0])?))
 }
 
 /// The ships that the director follows.
@@ -181,8 +210,8 @@ fn progress(frames: u32) -> ProgressBar {
     }
 }
 
-/// Plays the chase to its end; the app, the span to show, and how it ended.
-fn play(session: &Session, replay: Option<&Replay>) -> (App, [f64; 2], String) {
+/// Plays the chase to its end, with somebody who listens; the app, the span to show, and how it ended.
+fn play(session: &Session, replay: Option<&Replay>, mut recorder: Option<&mut Recorder>) -> (App, [f64; 2], String) {
     let config = session.effective();
     let mut app = match replay {
         Some(replay) => replay.app(&session.scene, &session.config),
@@ -193,6 +222,9 @@ fn play(session: &Session, replay: Option<&Replay>) -> (App, [f64; 2], String) {
     let limit = session.scene.rules(&config).time_limit;
     loop {
         app.world_mut().run_schedule(FixedUpdate);
+        if let Some(recorder) = &mut recorder {
+            recorder.listen(app.world());
+        }
         let now = app.world().resource::<Clock>().time;
         let decided = outcome(app.world());
         let until = decided.map_or(limit, |(_, at)| at + AFTERWARDS).max(SPAN.0);
@@ -219,32 +251,32 @@ fn empty_folder(folder: &Path) -> Result<(), FlightError> {
 
 /// A thread that writes pictures, so that drawing goes on meanwhile.
 struct Writer {
-    queue: SyncSender<(u32, Vec<u8>)>,
+    queue: SyncSender<(u32, Vec<u8>, Snapshot)>,
     thread: JoinHandle<Result<(), FlightError>>,
 }
 
 impl Writer {
     fn start(folder: PathBuf, sheet_file: PathBuf, size: [u32; 2], frames: u32) -> Writer {
         // Few frames wait, so that memory stays small if the disk is slow.
-        let (queue, pictures) = sync_channel::<(u32, Vec<u8>)>(8);
+        let (queue, pictures) = sync_channel::<(u32, Vec<u8>, Snapshot)>(8);
         let thread = std::thread::spawn(move || {
             let mut sheet = Sheet::new(size, frames);
             let chosen = Sheet::chosen(frames);
-            for (index, rgba) in pictures {
+            for (index, rgba, snapshot) in pictures {
                 for (place, _) in chosen.iter().enumerate().filter(|(_, frame)| **frame == index) {
                     sheet.put(place as u32, size, &rgba);
                 }
                 let rgb: Vec<u8> = rgba.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-                write_png(&folder.join(format!("frame-{index:05}.png")), size, &rgb)?;
+                write_png(&folder.join(format!("frame-{index:05}.png")), size, &rgb, Some(&snapshot.to_text()))?;
             }
-            write_png(&sheet_file, sheet.size(), sheet.pixels())
+            write_png(&sheet_file, sheet.size(), sheet.pixels(), None)
         });
         Writer { queue, thread }
     }
 
     /// Hands a picture over; false if writing has failed.
-    fn send(&self, index: u32, rgba: Vec<u8>) -> bool {
-        self.queue.send((index, rgba)).is_ok()
+    fn send(&self, index: u32, rgba: Vec<u8>, snapshot: Snapshot) -> bool {
+        self.queue.send((index, rgba, snapshot)).is_ok()
     }
 
     fn finish(self) -> Result<(), FlightError> {
@@ -255,11 +287,9 @@ impl Writer {
     }
 }
 
-/// Writes RGB pixels as PNG, quickly rather than small.
-pub fn write_png(path: &Path, size: [u32; 2], rgb: &[u8]) -> Result<(), FlightError> {
+/// Writes RGB pixels as PNG, quickly rather than small, with a text in it.
+pub fn write_png(path: &Path, size: [u32; 2], rgb: &[u8], text: Option<&str>) -> Result<(), FlightError> {
     let failed = |reason: String| FlightError::Write { path: path.to_path_buf(), reason };
-    let file = fs::File::create(path).map_err(|error| failed(error.to_string()))?;
-    PngEncoder::new_with_quality(BufWriter::new(file), CompressionType::Fast, FilterType::Sub)
-        .write_image(rgb, size[0], size[1], ExtendedColorType::Rgb8)
-        .map_err(|error| failed(error.to_string()))
+    let bytes = picture_file::png(rgb, size, true, text).map_err(failed)?;
+    fs::write(path, bytes).map_err(|error| failed(error.to_string()))
 }

@@ -10,11 +10,37 @@ use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
 
 /// Fuel is low below this share of a full tank.
-const LOW_FUEL: f64 = 0.15;
+pub const LOW_FUEL: f64 = 0.15;
 /// A load above this is drawn in another colour, in g.
 const HEAVY: f64 = 15.0;
 /// Nearer to the hole than this, in r_s, the distance is drawn in another colour: the innermost stable orbit.
 const NEAR: f64 = 3.0;
+/// A screen lower or narrower than this, in points, has no room for all lines: small windows, large letters.
+const ROOM: (f32, f32) = (880.0, 600.0);
+
+/// How much the HUD shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Density {
+    /// What a pilot must know.
+    Least,
+    /// One number for each thing.
+    Reduced,
+    /// All of it.
+    #[default]
+    Full,
+}
+
+impl Density {
+    /// As `interface.hud` says, but no more than there is room for.
+    pub fn of(choice: &str, rect: Rect) -> Density {
+        let chosen = match choice {
+            "least" => Density::Least,
+            "reduced" => Density::Reduced,
+            _ => Density::Full,
+        };
+        if rect.width() < ROOM.0 || rect.height() < ROOM.1 { chosen.min(Density::Reduced) } else { chosen }
+    }
+}
 
 /// How the flight goes on.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,94 +53,130 @@ pub struct Going {
     pub by_light: bool,
 }
 
+/// A line of a dial: the least density that has it, words, size, colour.
+type Line = (Density, String, f32, Color32);
+
 /// Lays out all dials in `rect`.
 pub fn lay(painter: &Painter, rect: Rect, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> Vec<TextBox> {
-    let scale = Scale::of(session.config.hole.mass_solar);
-    let rect = rect.shrink(MARGIN);
-    let speed = speed(painter, rect.left_bottom(), &scale, read);
+    let scale = Scale::of(session);
+    let density = Density::of(&session.config.interface.hud, rect);
+    let inner = rect.shrink(MARGIN);
+    let mut dials = Vec::new();
+    let mut add = |at: Pos2, anchor: Align2, lines: Vec<Line>| {
+        let lines: Vec<(&str, f32, Color32)> =
+            lines.iter().filter(|line| line.0 <= density).map(|(_, words, size, colour)| (words.as_str(), *size, *colour)).collect();
+        if !lines.is_empty() {
+            dials.push(TextBox::lay(painter, at, anchor, f32::INFINITY, &lines));
+        }
+    };
+    add(inner.left_top(), Align2::LEFT_TOP, clocks(&scale, read));
+    add(inner.right_top(), Align2::RIGHT_TOP, distance(&scale, read));
+    if let Some(bearing) = &read.target {
+        add(inner.right_bottom(), Align2::RIGHT_BOTTOM, target(&scale, bearing, going.by_light));
+    }
+    add(inner.left_bottom(), Align2::LEFT_BOTTOM, speed(&scale, read));
     // Above the speed: below the middle it would lie on one's own ship.
-    let state = state(painter, speed.frame.left_top() - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, going);
-    let mut dials = vec![clocks(painter, rect.left_top(), &scale, read), distance(painter, rect.right_top(), &scale, read), speed, state];
-    dials.extend(read.target.map(|read| target(painter, rect.right_bottom(), &scale, &read, going.by_light)));
+    let below = dials.last().map_or(inner.left_bottom(), |speed| speed.frame.left_top());
+    dials.push(state(painter, below - vec2(0.0, BETWEEN + BAR_ROOM), session, player, read, going, density));
     dials
 }
 
-/// Lines of text as long as they are.
-fn text_box(painter: &Painter, at: Pos2, anchor: Align2, lines: &[(&str, f32, Color32)]) -> TextBox {
-    TextBox::lay(painter, at, anchor, f32::INFINITY, lines)
+fn clocks(scale: &Scale, read: &Instruments) -> Vec<Line> {
+    let language = scale.language;
+    let rate = read
+        .far_rate
+        .map_or(language.say("hud-no-far-clock"), |rate| language.fill("hud-far-rate", &[("rate", format!("{rate:.2}").as_str())]));
+    vec![
+        (Density::Reduced, language.say("hud-own-clock"), 11.0, FAINT),
+        (Density::Reduced, scale.clock(read.own_time), 19.0, TEXT),
+        (Density::Full, language.say("hud-far-clock"), 11.0, FAINT),
+        (Density::Full, scale.clock(read.far_time), 19.0, TEXT),
+        (Density::Full, rate, 12.0, FAINT),
+    ]
 }
 
-fn clocks(painter: &Painter, at: Pos2, scale: &Scale, read: &Instruments) -> TextBox {
-    let rate = read.far_rate.map_or("inside: no far clock is seen".to_owned(), |rate| format!("far time runs {rate:.2} × own"));
-    let lines = [
-        ("OWN CLOCK", 11.0, FAINT),
-        (&*scale.clock(read.own_time), 19.0, TEXT),
-        ("FAR CLOCK", 11.0, FAINT),
-        (&*scale.clock(read.far_time), 19.0, TEXT),
-        (&*rate, 12.0, FAINT),
-    ];
-    text_box(painter, at, Align2::LEFT_TOP, &lines)
-}
-
-fn distance(painter: &Painter, at: Pos2, scale: &Scale, read: &Instruments) -> TextBox {
+fn distance(scale: &Scale, read: &Instruments) -> Vec<Line> {
     let colour = match read.radius {
         r if r < 1.0 => ALARM,
         r if r < NEAR => TRUE,
         _ => TEXT,
     };
-    let lines = [
-        ("FROM THE HOLE  r", 11.0, FAINT),
-        (&*format!("{:.2} r_s", read.radius), 19.0, colour),
-        (&*scale.kilometres(read.radius), 13.0, TEXT),
-        (&*format!("camera  {:.2} r_s · {}", read.camera_radius, scale.kilometres(read.camera_radius)), 12.0, FAINT),
-    ];
-    text_box(painter, at, Align2::RIGHT_TOP, &lines)
+    let camera = format!("{:.2}", read.camera_radius);
+    let camera = scale.language.fill("hud-camera", &[("radius", camera.as_str()), ("km", scale.kilometres(read.camera_radius).as_str())]);
+    vec![
+        (Density::Reduced, scale.language.say("hud-from-hole"), 11.0, FAINT),
+        (Density::Least, format!("r {:.2} r_s", read.radius), 19.0, colour),
+        (Density::Full, scale.kilometres(read.radius), 13.0, TEXT),
+        (Density::Full, camera, 12.0, FAINT),
+    ]
 }
 
-fn speed(painter: &Painter, at: Pos2, scale: &Scale, read: &Instruments) -> TextBox {
+fn speed(scale: &Scale, read: &Instruments) -> Vec<Line> {
     let speed = read.speed.map_or("—".to_owned(), |speed| format!("{speed:.3} c"));
+    let falling = format!("{:.3}", read.rain_speed);
     let gees = scale.gees(read.acceleration);
-    let lines = [
-        ("SPEED  (0: hovering)", 11.0, FAINT),
-        (&*speed, 30.0, TEXT),
-        ("LOAD", 11.0, FAINT),
-        (&*format!("{gees:.1} g"), 19.0, if gees > HEAVY { TRUE } else { TEXT }),
-    ];
-    text_box(painter, at, Align2::LEFT_BOTTOM, &lines)
+    vec![
+        (Density::Reduced, scale.language.say("hud-speed"), 11.0, FAINT),
+        (Density::Least, speed, 26.0, TEXT),
+        (Density::Full, scale.language.fill("hud-speed-falling", &[("speed", falling.as_str())]), 12.0, FAINT),
+        (Density::Full, scale.language.say("hud-load"), 11.0, FAINT),
+        (Density::Full, format!("{gees:.1} g"), 19.0, if gees > HEAVY { TRUE } else { TEXT }),
+    ]
 }
 
-fn target(painter: &Painter, at: Pos2, scale: &Scale, read: &Bearing, by_light: bool) -> TextBox {
-    let lines = [
-        (if by_light { "RANGE, as seen" } else { "RANGE" }, 11.0, FAINT),
-        (&*format!("{:.2} r_s", read.range), 30.0, TEXT),
-        (&*scale.kilometres(read.range), 12.0, FAINT),
-        ("CLOSING", 11.0, FAINT),
-        (&*format!("{:+.3} c", read.closing), 19.0, if read.closing > 0.0 { OWN } else { TRUE }),
+fn target(scale: &Scale, read: &Bearing, by_light: bool) -> Vec<Line> {
+    let language = scale.language;
+    let closing = if read.closing > 0.0 { OWN } else { TRUE };
+    let mut lines = vec![
+        (Density::Reduced, language.say(if by_light { "hud-range-seen" } else { "hud-range" }), 11.0, FAINT),
+        (Density::Least, format!("{:.2} r_s", read.range), 26.0, TEXT),
+        (Density::Full, scale.kilometres(read.range), 12.0, FAINT),
+        (Density::Full, language.say("hud-closing"), 11.0, FAINT),
+        (Density::Reduced, format!("{:+.3} c", read.closing), 19.0, closing),
     ];
-    text_box(painter, at, Align2::RIGHT_BOTTOM, &lines)
+    if let Some(g) = read.shift {
+        let key = if g >= 1.0 { "hud-light-bluer" } else { "hud-light-redder" };
+        lines.push((Density::Full, language.fill(key, &[("g", format!("{g:.3}").as_str())]), 12.0, TEXT));
+    }
+    lines.push((Density::Full, language.fill("hud-target-clock", &[("clock", scale.clock(read.clock).as_str())]), 12.0, FAINT));
+    lines
 }
 
 /// Who flies, where one looks from, the pace, and what is in the tanks, over a bar of it.
-fn state(painter: &Painter, at: Pos2, session: &Session, player: &PlayerState, read: &Instruments, going: Going) -> TextBox {
-    let assist = if player.assisted(&session.config) { "ASSIST" } else { "FREE FLIGHT" };
-    let pilot = match (going.replayed, player.autopilot) {
-        (true, _) => "REPLAY",
-        (false, true) => "AUTOPILOT",
-        (false, false) => assist,
+fn state(
+    painter: &Painter,
+    at: Pos2,
+    session: &Session,
+    player: &PlayerState,
+    read: &Instruments,
+    going: Going,
+    density: Density,
+) -> TextBox {
+    let language = session.language();
+    let pilot = language.say(match (going.replayed, player.autopilot, player.assisted(&session.config)) {
+        (true, ..) => "hud-replay",
+        (_, true, _) => "hud-autopilot",
+        (_, _, true) => "hud-assist",
+        _ => "hud-free-flight",
+    });
+    let view = language.say(match player.view {
+        _ if going.replayed => "hud-view-replay",
+        _ if player.gaze.aside() => "hud-view-target",
+        CameraView::Cockpit => "hud-view-cockpit",
+        CameraView::ThirdPerson => "hud-view-third",
+    });
+    let tanks = match (read.fuel, read.fuel_left) {
+        (Some(share), left) => {
+            let percent = format!("{:.0}", 100.0 * share);
+            language.fill("hud-fuel", &[("percent", percent.as_str()), ("left", format!("{left:.2}").as_str())])
+        }
+        (None, _) => language.say("hud-fuel-endless"),
     };
-    let view = match player.view {
-        _ if going.replayed => "the mouse leads the camera",
-        _ if player.gaze.aside() => "at the target",
-        CameraView::Cockpit => "cockpit",
-        CameraView::ThirdPerson => "third person",
-    };
-    let tanks = read.fuel.map_or("FUEL without limit".to_owned(), |share| format!("FUEL  {:.0} %", 100.0 * share));
     let [colour, filled] = if read.fuel.is_some_and(|share| share < LOW_FUEL) { [ALARM; 2] } else { [TEXT, OWN] };
-    let slowed = if going.slowing < 0.98 { ", slowed" } else { "" };
-    let lines = [
-        (&*format!("{pilot}  ·  {view}"), 12.0, TEXT),
-        (&*format!("pace {:.2} r_s/c a second{slowed}", session.config.clock.pace * going.slowing), 12.0, TEXT),
-        (&*tanks, 12.0, colour),
-    ];
-    text_box(painter, at, Align2::LEFT_BOTTOM, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled)
+    let pace = format!("{:.2}", session.config.clock.pace * going.slowing);
+    let pace = language.fill(if going.slowing < 0.98 { "hud-pace-slowed" } else { "hud-pace" }, &[("pace", pace.as_str())]);
+    let lines = [(Density::Reduced, format!("{pilot}  ·  {view}"), TEXT), (Density::Full, pace, TEXT), (Density::Least, tanks, colour)];
+    let lines: Vec<(&str, f32, Color32)> =
+        lines.iter().filter(|line| line.0 <= density).map(|(_, words, colour)| (words.as_str(), 12.0, *colour)).collect();
+    TextBox::lay(painter, at, Align2::LEFT_BOTTOM, f32::INFINITY, &lines).over_bar(read.fuel.unwrap_or(1.0) as f32, filled)
 }

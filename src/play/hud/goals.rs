@@ -3,6 +3,8 @@
 use bevy_egui::egui::{Align2, Painter, Rect, pos2};
 
 use crate::play::hud::paint::{FAINT, OWN, TEXT, TRUE, TextBox};
+use crate::play::words::Language;
+use crate::scene::Scene;
 use crate::scene::mission::{GoalTask, Mission};
 use crate::scene::rules::Rules;
 use crate::sim::goals::needed;
@@ -29,23 +31,32 @@ pub struct Goals<'a> {
     pub progress: &'a Progress,
     /// The rules in force.
     pub rules: ChaseRules,
+    /// The language, and the scene whose words they are.
+    pub scene: (Language, &'a Scene),
 }
 
 /// Lays out the present goal below `top`, `seconds` of wall time after the start of the game; nothing when all are done.
 pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Slow, seconds: f64) -> Option<TextBox> {
-    let Goals { mission, progress, rules } = *goals;
+    let Goals { mission, progress, rules, scene } = *goals;
     let goal = mission.goals.get(progress.goal)?;
     if slow.goal != Some(progress.goal) {
         *slow = Slow { goal: Some(progress.goal), since: seconds };
     }
     let count = mission.goals.len();
-    let number = if count > 1 { format!("GOAL {} OF {count}", progress.goal + 1) } else { "GOAL".to_owned() };
-    let hint = goal.hint.as_deref().filter(|_| seconds - slow.since > SLOW);
-    let mut lines = vec![(number.as_str(), 11.0, FAINT), (goal.text.as_str(), 15.0, TRUE)];
-    lines.extend(hint.map(|hint| (hint, 12.0, TEXT)));
+    let place = progress.goal + 1;
+    let number = match count {
+        1 => scene.0.say("hud-goal"),
+        _ => scene.0.fill("hud-goal-of", &[("number", place.to_string().as_str()), ("count", count.to_string().as_str())]),
+    };
+    let words = scene.0.mission(scene.1, &format!("goal-{place}"), &goal.text);
+    let hint = goal.hint.as_ref().filter(|_| seconds - slow.since > SLOW);
+    let hint = hint.map(|hint| scene.0.mission(scene.1, &format!("goal-{place}-hint"), hint));
+    let mut lines = vec![(number.as_str(), 11.0, FAINT), (words.as_str(), 15.0, TRUE)];
+    lines.extend(hint.as_ref().map(|hint| (hint.as_str(), 12.0, TEXT)));
     let at = pos2(rect.center().x, top);
     let share = progress.share(mission, &rules);
-    Some(TextBox::lay(painter, at, Align2::CENTER_TOP, WIDEST, &lines).over_bar(share as f32, OWN))
+    let widest = WIDEST.min(0.6 * rect.width());
+    Some(TextBox::lay(painter, at, Align2::CENTER_TOP, widest, &lines).over_bar(share as f32, OWN))
 }
 
 /// Whether the present goal is a ship to be held, which is shown by a ring.

@@ -1,6 +1,8 @@
 //! The numbers of the HUD: what a pilot reads, from the ships' states. The only place where r_s becomes kilometres.
 
-use crate::spacetime::matter::{ShipState, far_clock_rate, static_speed, velocity};
+use crate::play::session::Session;
+use crate::play::words::Language;
+use crate::spacetime::matter::{ShipState, far_clock_rate, gamma, static_speed, velocity};
 
 /// GM☉/c², half of r_s per solar mass, in metres (IAU 2015 nominal GM☉ = 1.3271244e20 m³/s²).
 const HALF_RS_PER_SUN: f64 = 1476.625;
@@ -14,22 +16,29 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 pub struct Scale {
     /// r_s in metres.
     pub metres: f64,
+    /// The language of its words.
+    pub language: Language,
 }
 
 impl Scale {
+    /// That of the hole of a session, in its language.
+    pub fn of(session: &Session) -> Scale {
+        Scale::new(session.config.hole.mass_solar, session.language())
+    }
+
     /// Of a hole with this mass, in solar masses.
-    pub fn of(mass_solar: f64) -> Scale {
-        Scale { metres: 2.0 * HALF_RS_PER_SUN * mass_solar }
+    pub fn new(mass_solar: f64, language: Language) -> Scale {
+        Scale { metres: 2.0 * HALF_RS_PER_SUN * mass_solar, language }
     }
 
     /// A length of `r` r_s in words: `265.8 bn km`.
     pub fn kilometres(&self, r: f64) -> String {
         let km = r * self.metres * 1e-3;
-        let sizes = [(1e12, " tn"), (1e9, " bn"), (1e6, " m"), (1e3, " k")];
-        sizes
-            .iter()
-            .find(|(size, _)| km.abs() >= *size)
-            .map_or_else(|| format!("{km:.0} km"), |(size, name)| format!("{:.1}{name} km", km / size))
+        let sizes = [(1e12, "unit-trillion-km"), (1e9, "unit-billion-km"), (1e6, "unit-million-km"), (1e3, "unit-thousand-km")];
+        sizes.iter().find(|(size, _)| km.abs() >= *size).map_or_else(
+            || format!("{km:.0} km"),
+            |(size, key)| self.language.fill(key, &[("value", format!("{:.1}", km / size).as_str())]),
+        )
     }
 
     /// A time of `t` r_s/c in words: `12 d 03:45:10`.
@@ -40,17 +49,18 @@ impl Scale {
         }
         let whole = seconds as u64;
         let (days, hours, minutes) = (whole / 86_400, whole / 3600 % 24, whole / 60 % 60);
-        format!("{days} d {hours:02}:{minutes:02}:{:02}", whole % 60)
+        let clock = format!("{hours:02}:{minutes:02}:{:02}", whole % 60);
+        self.language.fill("unit-days-and", &[("days", days.to_string().as_str()), ("clock", clock.as_str())])
     }
 
     /// A time of `t` r_s/c in words and round numbers: `456 days`, `55 hours`.
     pub fn span(&self, t: f64) -> String {
         let seconds = t * self.metres / LIGHT_SPEED;
-        let sizes = [(86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
+        let sizes = [(86_400.0, "unit-days"), (3600.0, "unit-hours"), (60.0, "unit-minutes")];
         // Five of a size at least.
         let fits = sizes.iter().find(|(size, _)| seconds >= 5.0 * size);
         let short = || if seconds >= 0.1 { format!("{seconds:.1} s") } else { format!("{:.4} ms", 1e3 * seconds) };
-        fits.map_or_else(short, |(size, name)| format!("{:.0} {name}", seconds / size))
+        fits.map_or_else(short, |(size, key)| self.language.fill(key, &[("value", format!("{:.0}", seconds / size).as_str())]))
     }
 
     /// A proper acceleration (c²/r_s) in g.
@@ -66,6 +76,10 @@ pub struct Bearing {
     pub range: f64,
     /// How fast the distance shrinks, in c of T.
     pub closing: f64,
+    /// Its own clock τ, in r_s/c.
+    pub clock: f64,
+    /// g = ν_observed/ν_emitted of its light, where that arrives.
+    pub shift: Option<f64>,
 }
 
 impl Bearing {
@@ -74,7 +88,7 @@ impl Bearing {
         let apart = target.position - own.position;
         let range = apart.length();
         let parting = (velocity(target) - velocity(own)).dot(apart) / range.max(1e-9);
-        Bearing { range, closing: -parting }
+        Bearing { range, closing: -parting, clock: target.proper_time, shift: None }
     }
 }
 
@@ -83,6 +97,8 @@ impl Bearing {
 pub struct Instruments {
     /// Against a hovering observer, in c; None inside the horizon, where none exists.
     pub speed: Option<f64>,
+    /// Against space as it falls in (the rain), in c.
+    pub rain_speed: f64,
     /// r of the ship, in r_s.
     pub radius: f64,
     /// L of the camera, in r_s.
@@ -97,6 +113,8 @@ pub struct Instruments {
     pub acceleration: f64,
     /// Left in the tanks: a share of 1; None for tanks without limit.
     pub fuel: Option<f64>,
+    /// The change of velocity that is left, in c.
+    pub fuel_left: f64,
     /// Where the target is, if there is one.
     pub target: Option<Bearing>,
 }
@@ -114,6 +132,7 @@ impl Instruments {
         let (left, capacity) = fuel;
         Instruments {
             speed: static_speed(state),
+            rain_speed: state.momentum.length() / gamma(state.momentum),
             radius: state.position.length(),
             camera_radius,
             own_time: state.proper_time,
@@ -121,6 +140,7 @@ impl Instruments {
             far_rate: far_clock_rate(state),
             acceleration: if left > 0.0 { thrust } else { 0.0 },
             fuel: (capacity.is_finite() && capacity > 0.0).then(|| (left / capacity).clamp(0.0, 1.0)),
+            fuel_left: left,
             target: target.map(|target| Bearing::between(state, target)),
         }
     }
@@ -152,11 +172,11 @@ impl Countdown {
     }
 }
 
-/// How long the target has been held, of what a catch needs, both in r_s/c: `HOLD 0.8 / 2.0 r_s/c`.
-pub fn hold_words(held: f64, needed: f64) -> String {
+/// How long the target has been held, of what a catch needs, both in r_s/c: `0.8 / 2.0`.
+pub fn hold_numbers(held: f64, needed: f64) -> String {
     // Rounded down: what reads as held is held.
     let tenths = |time: f64| (time * 10.0 + 1e-9).floor() / 10.0;
-    format!("HOLD {:.1} / {needed:.1} r_s/c", tenths(held.min(needed)))
+    format!("{:.1} / {needed:.1}", tenths(held.min(needed)))
 }
 
 #[cfg(test)]
@@ -202,13 +222,13 @@ mod tests {
     #[test]
     fn units_for_people() {
         // A hole of 10^10 suns: r_s = 2.953e13 m.
-        let scale = Scale::of(1e10);
+        let scale = Scale::new(1e10, Language::English);
         assert_eq!(scale.kilometres(9.0), "265.8 bn km");
-        assert_eq!(Scale::of(1.0).kilometres(2.0), "6 km");
+        assert_eq!(Scale::new(1.0, Language::English).kilometres(2.0), "6 km");
         // r_s/c = 98,509.8 s = 1 d 03:21:49.
         assert_eq!(scale.clock(1.0), "1 d 03:21:49");
         assert_eq!([1.0, 2.0, 400.0].map(|t| scale.span(t)), ["27 hours", "55 hours", "456 days"]);
-        assert_eq!(Scale::of(10.0).span(1.0), "0.0985 ms");
+        assert_eq!(Scale::new(10.0, Language::English).span(1.0), "0.0985 ms");
         // c²/r_s = 3,043.3 m/s².
         assert!((scale.gees(1.0) - 310.3).abs() < 0.1, "{}", scale.gees(1.0));
     }
@@ -226,9 +246,9 @@ mod tests {
 
     #[test]
     fn a_hold_is_said_with_what_it_needs() {
-        assert_eq!(hold_words(0.84, 2.0), "HOLD 0.8 / 2.0 r_s/c");
+        assert_eq!(hold_numbers(0.84, 2.0), "0.8 / 2.0");
         // One step of 1/32 short of the end is not the end.
-        assert_eq!(hold_words(1.96875, 2.0), "HOLD 1.9 / 2.0 r_s/c");
-        assert_eq!(hold_words(3.0, 2.0), "HOLD 2.0 / 2.0 r_s/c");
+        assert_eq!(hold_numbers(1.96875, 2.0), "1.9 / 2.0");
+        assert_eq!(hold_numbers(3.0, 2.0), "2.0 / 2.0");
     }
 }

@@ -7,7 +7,9 @@ use glam::DVec3;
 use crate::play::camera::BEHIND;
 use crate::play::hud::layout::settle;
 use crate::play::hud::paint::{ALARM, FAINT, NAME_PAD, OWN, SEEN, TEXT, TRUE, rimmed, text};
+use crate::play::hud::palette::Palette;
 use crate::play::hud::panel::Panel;
+use crate::play::words::Language;
 
 /// Where a direction in camera axes is on the screen; or, if it is not on it, where at the edge an arrow points to it, and how it points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,18 +65,30 @@ struct Name {
 struct Board<'a> {
     painter: &'a Painter,
     rect: Rect,
+    /// Panels, and the markers so far.
+    marked: Vec<Rect>,
     taken: Vec<Rect>,
     names: Vec<Name>,
 }
 
-/// Paints the markers on the screen `rect`, names and arrows off what is in `taken`. Returns what they take up themselves: markers first,
-/// then arrows, then names. All in points.
-pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> Vec<Rect> {
+/// Where nothing of the markers may lie, in points.
+#[derive(Clone, Debug, Default)]
+pub struct Taken {
+    /// Panels: what is marked under one of them has its marker beside it.
+    pub panels: Vec<Rect>,
+    /// What only names and arrows keep off.
+    pub other: Vec<Rect>,
+}
+
+/// Paints the markers on the screen `rect`, with their names in this language. Returns what they take up themselves, in points: markers
+/// first, then arrows, then names.
+pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Taken, language: Language) -> Vec<Rect> {
     let size = [f64::from(rect.width()), f64::from(rect.height())];
     let find = |direction: DVec3| marker_position(direction, panel.field_of_view, size, f64::from(FREE + 0.5 * ARROW));
     let point = |at: [f64; 2]| rect.min + vec2(at[0] as f32, at[1] as f32);
-    let before = taken.len();
-    let mut board = Board { painter, rect, taken, names: Vec::new() };
+    let Taken { panels, other } = taken;
+    let before = panels.len() + other.len();
+    let mut board = Board { painter, rect, marked: panels.clone(), taken: [panels, other].concat(), names: Vec::new() };
     // It says where the ship points, which is not ahead while one looks aside.
     if !panel.aside {
         reticle(painter, rect.center());
@@ -106,57 +120,54 @@ pub fn paint(painter: &Painter, rect: Rect, panel: &Panel, taken: Vec<Rect>) -> 
     let heading = panel.heading.map(find);
     // The names most wanted come first; each keeps off those before it.
     if let Some((MarkerPosition::On(at), age)) = first {
-        let at = point(at);
+        let at = board.marks(point(at), 13.0, SEEN);
         diamond(painter, at, 13.0, Stroke::new(2.0, SEEN));
-        board.takes(at, 13.0);
-        board.name(format!("seen, {age:.1} r_s/c ago"), 13.0, SEEN, at + vec2(18.0, -10.0), Align2::LEFT_BOTTOM);
+        let words = language.fill("hud-seen", &[("age", format!("{age:.1}").as_str())]);
+        board.name(words, 13.0, SEEN, at + vec2(18.0, -10.0), Align2::LEFT_BOTTOM);
     }
     if let Some(MarkerPosition::On(at)) = truth {
-        let at = point(at);
+        let at = board.marks(point(at), 13.0, TRUE);
         for quarter in 0..8 {
             let begin = f64::from(quarter) / 8.0;
             dash(painter, at, 13.0, begin, begin + 0.07, Stroke::new(1.8, TRUE));
         }
-        board.takes(at, 13.0);
-        board.name("now".into(), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
+        board.name(language.say("hud-now"), 13.0, TRUE, at + vec2(18.0, 10.0), Align2::LEFT_TOP);
     }
     if let Some(MarkerPosition::On(at)) = heading {
-        let at = point(at);
+        let at = board.marks(point(at), 12.0, OWN);
         rimmed(painter, Stroke::new(1.5, OWN), |stroke| Shape::circle_stroke(at, 6.0, stroke));
         for (from, to) in [(vec2(-12.0, 0.0), vec2(-6.0, 0.0)), (vec2(6.0, 0.0), vec2(12.0, 0.0)), (vec2(0.0, -12.0), vec2(0.0, -6.0))] {
             rimmed(painter, Stroke::new(1.5, OWN), |stroke| Shape::line_segment([at + from, at + to], stroke));
         }
-        board.takes(at, 12.0);
-        board.name("course".into(), 11.5, OWN, at + vec2(14.0, 12.0), Align2::LEFT_TOP);
+        board.name(language.say("hud-course"), 11.5, OWN, at + vec2(14.0, 12.0), Align2::LEFT_TOP);
     }
     if let Some((MarkerPosition::On(at), _)) = second {
-        let at = point(at);
+        let at = board.marks(point(at), 7.0, SEEN);
         diamond(painter, at, 7.0, Stroke::new(1.2, SEEN));
-        board.takes(at, 7.0);
-        board.name("2nd image".into(), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
+        board.name(language.say("hud-second-image"), 11.5, SEEN, at + vec2(11.0, 0.0), Align2::LEFT_CENTER);
     }
+    let gate = |number: usize| language.fill("hud-gate", &[("number", number.to_string().as_str())]);
     match panel.gate.map(|(direction, number)| (find(direction), number)) {
         Some((MarkerPosition::On(at), number)) => {
-            let at = point(at);
+            let at = board.marks(point(at), 16.0, TRUE);
             rimmed(painter, Stroke::new(1.8, TRUE), |stroke| Shape::circle_stroke(at, 16.0, stroke));
-            board.takes(at, 16.0);
-            board.name(format!("gate {number}"), 13.0, TRUE, at + vec2(20.0, 0.0), Align2::LEFT_CENTER);
+            board.name(gate(number), 13.0, TRUE, at + vec2(20.0, 0.0), Align2::LEFT_CENTER);
         }
-        Some((MarkerPosition::Edge(at, towards), number)) => board.arrow(at, towards, &format!("gate {number}"), TRUE),
+        Some((MarkerPosition::Edge(at, towards), number)) => board.arrow(at, towards, &gate(number), TRUE),
         None => (),
     }
     if let Some((MarkerPosition::Edge(at, towards), _)) = first {
-        board.arrow(at, towards, "target", SEEN);
+        board.arrow(at, towards, &language.say("hud-target"), SEEN);
     }
     if let Some(MarkerPosition::Edge(at, towards)) = truth {
-        board.arrow(at, towards, "now", TRUE);
+        board.arrow(at, towards, &language.say("hud-now"), TRUE);
     }
     if let (Some((MarkerPosition::Edge(at, towards), _)), true) = (second, panel.by_light) {
-        board.arrow(at, towards, "2nd image", SEEN);
+        board.arrow(at, towards, &language.say("hud-second-image"), SEEN);
     }
     // The hole's shadow shows it where it is on the screen.
     if let Some(MarkerPosition::Edge(at, towards)) = panel.hole.map(find) {
-        board.arrow(at, towards, "hole", ALARM);
+        board.arrow(at, towards, &language.say("hud-hole"), ALARM);
     }
     board.write();
     board.taken.split_off(before)
@@ -166,6 +177,21 @@ impl Board<'_> {
     /// A marker is painted round `at`.
     fn takes(&mut self, at: Pos2, half: f32) {
         self.taken.push(Rect::from_center_size(at, Size::splat(2.0 * half)));
+    }
+
+    /// Where the marker of what is at `at` is painted, with a line to it where that is elsewhere: under a panel or on another marker it would
+    /// not be seen.
+    fn marks(&mut self, at: Pos2, half: f32, colour: Color32) -> Pos2 {
+        let wanted = Rect::from_center_size(at, Size::splat(2.0 * half));
+        let place = settle(wanted, self.free(), &self.marked);
+        self.marked.push(place);
+        self.taken.push(place);
+        let beside = place.center();
+        if beside.distance(at) > half {
+            let line = [beside + (at - beside).normalized() * half, at];
+            rimmed(self.painter, Stroke::new(1.0, colour), |stroke| Shape::line_segment(line, stroke));
+        }
+        beside
     }
 
     fn name(&mut self, words: String, size: f32, colour: Color32, at: Pos2, anchor: Align2) {
@@ -209,9 +235,11 @@ impl Board<'_> {
 
 /// A line of dots, with gaps where a place is not on the screen.
 fn dotted(painter: &Painter, points: &[Option<Pos2>], colour: Color32) {
+    let palette = Palette::in_use(painter.ctx());
+    let (colour, wider) = (palette.shown(colour).gamma_multiply(0.8), palette.wider());
     for pair in points.windows(2) {
         if let [Some(from), Some(to)] = *pair {
-            painter.line_segment([from, from + (to - from) * 0.5], Stroke::new(1.4, colour.gamma_multiply(0.8)));
+            painter.line_segment([from, from + (to - from) * 0.5], Stroke::new(1.4 + wider, colour));
         }
     }
 }
@@ -280,7 +308,9 @@ mod tests {
     fn painted(panel: &Panel) -> (Rect, Vec<Rect>) {
         let corner = Rect::from_min_max(pos2(760.0, 480.0), pos2(882.0, 602.0));
         let mut found = Vec::new();
-        on_canvas([900.0, 620.0], |painter, rect| found = paint(painter, rect, panel, vec![corner]));
+        on_canvas([900.0, 620.0], |painter, rect| {
+            found = paint(painter, rect, panel, Taken { panels: vec![corner], other: Vec::new() }, Language::English)
+        });
         (corner, found)
     }
 
@@ -321,7 +351,7 @@ mod tests {
                         [(18.0, 18.0), (wide - 198.0, 18.0), (18.0, high - 183.0), (wide - 158.0, high - 126.0), (0.5 * wide - 73.0, 18.0)];
                     let mut dials: Vec<_> = corners.map(|(x, y)| Rect::from_min_size(pos2(x, y), vec2(140.0, 96.0))).to_vec();
                     dials.push(own_ship(rect, panel.field_of_view));
-                    let boxes = paint(painter, rect, &panel, dials.clone());
+                    let boxes = paint(painter, rect, &panel, Taken { panels: dials.clone(), other: Vec::new() }, Language::English);
                     assert_eq!(boxes.len(), 4, "two arrows, two names");
                     for arrow in &boxes[..2] {
                         let inner = rect.shrink(FREE + ARROW);

@@ -9,6 +9,7 @@ pub mod layout;
 pub mod markers;
 pub mod notice;
 pub mod paint;
+pub mod palette;
 pub mod panel;
 
 use bevy::prelude::*;
@@ -22,7 +23,7 @@ use crate::sim::replay::Playback;
 use crate::sim::{ActiveMission, Chase, ChaseRules, Progress};
 
 use crate::play::camera::CameraView;
-use crate::play::hud::instruments::{Countdown, Scale, hold_words};
+use crate::play::hud::instruments::{Countdown, Scale, hold_numbers};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
@@ -32,6 +33,7 @@ use crate::play::picture::Staged;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
+use crate::play::words::Language;
 use markers::arc;
 
 /// Space between the screen's edge and the dials, in points.
@@ -70,15 +72,17 @@ fn draw(
     let painter = context.layer_painter(egui::LayerId::background());
     let rect = context.content_rect();
     lay_in(context, &painter);
+    let language = session.language();
     if staged.is_none() {
-        text(&painter, rect.center() + vec2(0.2 * rect.width(), 0.0), Align2::CENTER_CENTER, "loading the scene…", 18.0, TEXT);
+        let at = rect.center() + vec2(0.2 * rect.width(), 0.0);
+        text(&painter, at, Align2::CENTER_CENTER, &language.say("hud-loading"), 18.0, TEXT);
     }
     let shown = shows(*screen.get(), player.hud_off);
-    if let Some(words) = left_out(&session.config) {
+    if let Some(words) = left_out(&session.config, language) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
-        TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, rect.width() - 2.0 * MARGIN, &[(words, 12.0, TEXT)]).paint(&painter);
+        TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]).paint(&painter);
     }
-    let mut taken = Vec::new();
+    let mut taken = markers::Taken::default();
     if real.elapsed_secs_f64() < notice.until {
         // In front of menus and the overlay too.
         let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
@@ -89,7 +93,7 @@ fn draw(
             rect.top() + BELOW_DIALS
         };
         let message = message(&front, rect, place, &notice.text);
-        taken.push(message.frame);
+        taken.panels.push(message.frame);
         message.paint(&front);
     }
     if !shown {
@@ -111,31 +115,32 @@ fn draw(
             _ => true,
         };
         if chase.held > 0.0 && holds {
-            taken.push(hold(&painter, rect.center(), chase.held, goals::whole(mission.as_deref(), progress.as_deref(), &rules)));
+            let needed = goals::whole(mission.as_deref(), progress.as_deref(), &rules);
+            taken.other.push(hold(&painter, rect.center(), chase.held, needed, language));
         }
-        let scale = Scale::of(session.config.hole.mass_solar);
+        let scale = Scale::of(&session);
         text_boxes.push(countdown(&painter, rect, &scale, &Countdown::at(read.far_time, rules.time_limit)));
     }
     if let (Some(mission), Some(progress)) = (&mission, &progress) {
         let below = text_boxes.last().map_or(rect.top() + MARGIN, |countdown| countdown.frame.bottom() + BETWEEN);
         let seconds = real.elapsed_secs_f64();
-        let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules) };
+        let scene = (language, &session.scene);
+        let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules), scene };
         text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
     }
-    if let Some(words) = extra(&panel) {
-        let at = pos2(rect.right() - MARGIN, rect.bottom() - MARGIN - ABOVE_TARGET);
+    if let Some(words) = extra(&panel, language) {
+        let at = pos2(rect.right() - MARGIN, target_top(&text_boxes, rect) - BETWEEN);
         text_boxes.push(TextBox::lay(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
     }
-    taken.extend(text_boxes.iter().map(|text_box| text_box.frame));
+    taken.panels.extend(text_boxes.iter().map(|text_box| text_box.frame));
     if player.view == CameraView::ThirdPerson {
-        taken.push(markers::own_ship(rect, panel.field_of_view));
+        taken.other.push(markers::own_ship(rect, panel.field_of_view));
     }
-    // Below the dials, and named off them.
-    markers::paint(&painter, rect, &panel, taken);
+    markers::paint(&painter, rect, &panel, taken, language);
     for text_box in text_boxes {
         text_box.paint(&painter);
     }
-    warnings(&painter, rect, avoiding.0, read.radius);
+    warnings(&painter, rect, avoiding.0, read.radius, language);
     Ok(())
 }
 
@@ -151,7 +156,7 @@ fn message(painter: &Painter, rect: Rect, top: f32, words: &str) -> TextBox {
 }
 
 /// Sizes of all text of the HUD, in points.
-const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 30.0];
+const SIZES: [f32; 9] = [11.0, 11.5, 12.0, 13.0, 14.0, 15.0, 18.0, 19.0, 26.0];
 
 /// Has every letter drawn to the fonts' texture before it is needed, one picture of each: the texture reaches the screen a frame after what
 /// is written with it, and a digit that is seen for the first time would be missing meanwhile.
@@ -166,57 +171,69 @@ fn lay_in(context: &egui::Context, painter: &Painter) {
     }
 }
 
-/// Space below for what is said of the target, in points.
-const ABOVE_TARGET: f32 = 130.0;
+/// The upper edge of what is said of the target, the lowest panel at the right.
+fn target_top(text_boxes: &[TextBox], rect: Rect) -> f32 {
+    let right = text_boxes.iter().map(|text_box| text_box.frame).filter(|frame| frame.min.x > rect.center().x);
+    right.filter(|frame| frame.top() > rect.center().y).map(|frame| frame.top()).fold(rect.bottom() - MARGIN, f32::min)
+}
 
 /// Bolts left, and how near one comes.
-fn extra(panel: &Panel) -> Option<String> {
-    let bolts = panel.bolts.map(|left| format!("{left} bolts"));
+fn extra(panel: &Panel, language: Language) -> Option<String> {
+    let number = |value: f64| format!("{value:.1}");
+    let bolts = panel.bolts.map(|left| language.fill("hud-bolts", &[("left", left.to_string().as_str())]));
     let shot = panel.shot_passes.map(|distance| match distance {
-        _ if distance <= HIT_RADIUS => "a bolt now: HIT, if the target coasts".to_owned(),
-        _ => format!("a bolt now passes the target at {distance:.1} r_s"),
+        _ if distance <= HIT_RADIUS => language.say("hud-bolt-hits"),
+        _ => language.fill("hud-bolt-passes", &[("distance", number(distance).as_str())]),
     });
-    let near = panel.closest.map(|near| format!("you pass the target at {:.1} r_s in {:.0} r_s/c", near.distance, near.ahead));
+    let near = panel.closest.map(|near| {
+        let ahead = format!("{:.0}", near.ahead);
+        language.fill("hud-passes", &[("distance", number(near.distance).as_str()), ("ahead", ahead.as_str())])
+    });
     let words: Vec<String> = bolts.into_iter().chain(shot).chain(near).collect();
     (!words.is_empty()).then(|| words.join("\n"))
 }
 
 /// What is left out of the picture's physics, for the player to know.
-fn left_out(config: &GameConfig) -> Option<&'static str> {
-    match (config.render.doppler, config.render.beaming) {
-        (true, true) => None,
-        (false, false) => Some("as in the film: without the Doppler shift of colour and brightness"),
-        (false, true) => Some("without the Doppler shift of colour"),
-        (true, false) => Some("without the Doppler shift of brightness"),
-    }
+fn left_out(config: &GameConfig, language: Language) -> Option<String> {
+    let render = &config.render;
+    let out = [
+        (render.lensing, "left-out-bending"),
+        (render.doppler, "left-out-doppler"),
+        (render.beaming, "left-out-beaming"),
+        (render.light_delay, "left-out-delay"),
+        (render.orders > 1, "left-out-second"),
+    ];
+    let out: Vec<String> = out.into_iter().filter(|(on, _)| !on).map(|(_, key)| language.say(key)).collect();
+    (!out.is_empty()).then(|| language.fill("left-out", &[("what", out.join(", ").as_str())]))
 }
 
 /// How long one has been near enough, on a ring and in words; returns where the words are.
-fn hold(painter: &Painter, middle: Pos2, held: f64, needed: f64) -> Rect {
+fn hold(painter: &Painter, middle: Pos2, held: f64, needed: f64, language: Language) -> Rect {
     arc(painter, middle, 46.0, (held / needed.max(1e-9)).clamp(0.0, 1.0), Stroke::new(4.0, OWN));
-    text(painter, middle + vec2(0.0, 58.0), Align2::CENTER_TOP, &hold_words(held, needed), 15.0, OWN)
+    let words = language.fill("hud-hold", &[("numbers", hold_numbers(held, needed).as_str())]);
+    text(painter, middle + vec2(0.0, 58.0), Align2::CENTER_TOP, &words, 15.0, OWN)
 }
 
 /// What is left of the chase's time, on the far clock, over a bar that grows shorter.
 fn countdown(painter: &Painter, rect: Rect, scale: &Scale, countdown: &Countdown) -> TextBox {
     let [colour, filled] = if countdown.late() { [ALARM; 2] } else { [TEXT, OWN] };
     let lines = [
-        ("TIME LEFT", 11.0, FAINT),
+        (&*scale.language.say("hud-time-left"), 11.0, FAINT),
         (&scale.clock(countdown.left), 19.0, colour),
-        (&format!("T = {:.1} of {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
+        (&format!("T = {:.1} / {} r_s/c", countdown.limit - countdown.left, countdown.limit), 12.0, FAINT),
     ];
     let top = pos2(rect.center().x, rect.top() + MARGIN);
     TextBox::lay(painter, top, Align2::CENTER_TOP, f32::INFINITY, &lines).over_bar(countdown.share() as f32, filled)
 }
 
 /// What must not be missed, in large letters.
-fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64) {
+fn warnings(painter: &Painter, rect: Rect, avoiding: bool, radius: f64, language: Language) {
     let words = match (avoiding, radius < 1.0) {
-        (true, _) => "PULLING AWAY FROM THE HOLE",
-        (false, true) => "BELOW THE HORIZON",
+        (true, _) => language.say("hud-pulling-away"),
+        (false, true) => language.say("hud-below-horizon"),
         (false, false) => return,
     };
-    text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, words, 18.0, ALARM);
+    text(painter, pos2(rect.center().x, rect.bottom() - MARGIN - 28.0), Align2::CENTER_BOTTOM, &words, 18.0, ALARM);
 }
 
 #[cfg(test)]
@@ -255,7 +272,7 @@ mod tests {
     #[test]
     fn dials_do_not_overlap() {
         let session = Session::load(None, Some("chase"), Some(0)).expect("the game's own files");
-        let scale = Scale::of(session.config.hole.mass_solar);
+        let scale = Scale::of(&session);
         let state = ShipState::new(DVec3::X * 9.0, DVec3::ZERO);
         let read = Instruments::read(&state, 399.0, 9.67, 0.06, (7.0, 7.0), Some(&ShipState::new(DVec3::X * -9.0, DVec3::ZERO)));
         for size in [[900.0, 620.0], [1103.0, 620.0], [1280.0, 720.0]] {

@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use crate::play::hud::palette::Palette;
 use bevy_egui::egui::{Align, Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as Size, pos2, vec2};
 
 /// What is read.
@@ -35,15 +36,19 @@ pub const NAME_PAD: Size = vec2(4.0, 1.5);
 
 /// Words on a dark ground that is [`NAME_PAD`] larger; returns the ground. `at` is where its `anchor` is.
 pub fn text(painter: &Painter, at: Pos2, anchor: Align2, words: &str, size: f32, colour: Color32) -> Rect {
+    let palette = Palette::in_use(painter.ctx());
+    let colour = palette.shown(colour);
     let galley = painter.layout_no_wrap(words.to_owned(), FontId::proportional(size), colour);
     let ground = anchor.anchor_size(at, galley.size() + 2.0 * NAME_PAD);
-    painter.rect_filled(ground, 4.0, NAME_SHADE);
+    painter.rect_filled(ground, 4.0, if palette.high_contrast { Color32::BLACK } else { NAME_SHADE });
     painter.galley(ground.min + NAME_PAD, galley, colour);
     ground
 }
 
 /// A shape of strokes on a dark copy of it that is a little wider.
 pub fn rimmed(painter: &Painter, stroke: Stroke, shape: impl Fn(Stroke) -> Shape) {
+    let palette = Palette::in_use(painter.ctx());
+    let stroke = Stroke::new(stroke.width + palette.wider(), palette.shown(stroke.color));
     painter.add(shape(Stroke::new(stroke.width + 3.5, Color32::from_black_alpha(240))));
     painter.add(shape(stroke));
 }
@@ -51,8 +56,9 @@ pub fn rimmed(painter: &Painter, stroke: Stroke, shape: impl Fn(Stroke) -> Shape
 /// A bar, `share` of which is filled.
 fn bar(painter: &Painter, bar: Rect, share: f32, colour: Color32) {
     let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share.clamp(0.0, 1.0), bar.height()));
-    painter.rect_filled(filled, 3.0, colour.gamma_multiply(0.75));
-    painter.rect_stroke(bar, 3.0, Stroke::new(1.0, FAINT), StrokeKind::Outside);
+    let palette = Palette::in_use(painter.ctx());
+    painter.rect_filled(filled, 3.0, palette.shown(colour).gamma_multiply(0.75));
+    painter.rect_stroke(bar, 3.0, Stroke::new(1.0, palette.shown(FAINT)), StrokeKind::Outside);
 }
 
 /// Lines of text on a dark ground, laid out and not painted yet.
@@ -66,7 +72,9 @@ pub struct TextBox {
 impl TextBox {
     /// A text box whose `anchor` is at `at`; lines longer than `widest` are wrapped.
     pub fn lay(painter: &Painter, at: Pos2, anchor: Align2, widest: f32, lines: &[(&str, f32, Color32)]) -> TextBox {
+        let palette = Palette::in_use(painter.ctx());
         let galleys = lines.iter().map(|&(words, size, colour)| {
+            let colour = palette.shown(colour);
             (painter.layout(words.to_owned(), FontId::proportional(size), colour, widest - 2.0 * PAD.x), colour)
         });
         let galleys: Vec<_> = galleys.collect();
@@ -94,9 +102,19 @@ impl TextBox {
         TextBox { frame, bar: Some((place, share, colour)), ..self }
     }
 
+    /// The same elsewhere, `way` points away.
+    pub fn moved(mut self, way: Size) -> TextBox {
+        self.frame = self.frame.translate(way);
+        self.lines.iter_mut().for_each(|line| line.0 += way);
+        if let Some(bar) = &mut self.bar {
+            bar.0 = bar.0.translate(way);
+        }
+        self
+    }
+
     /// Paints it.
     pub fn paint(self, painter: &Painter) {
-        painter.rect_filled(self.frame, 6.0, SHADE);
+        painter.rect_filled(self.frame, 6.0, Palette::in_use(painter.ctx()).shown(SHADE));
         if let Some((place, share, colour)) = self.bar {
             bar(painter, place, share, colour);
         }
@@ -116,6 +134,7 @@ pub(in crate::play) mod tests {
         let rect = Rect::from_min_size(Pos2::ZERO, vec2(size[0], size[1]));
         let input = RawInput { screen_rect: Some(rect), ..RawInput::default() };
         let context = Context::default();
+        crate::play::words::font::install(&context);
         // What is drawn with the result is nobody's.
         let _ = context.run_ui(input, |ui| draw(&ui.ctx().layer_painter(LayerId::background()), rect));
     }

@@ -1,17 +1,22 @@
 //! What the HUD and the menus show of the frame that is drawn.
 
 use bevy::prelude::*;
+use bevy::window::PrimaryWindow;
 
 use crate::play::camera::state_of;
 use crate::play::hud::ahead::{self, AheadLine, Approach};
 use crate::play::hud::instruments::Instruments;
+use crate::play::menus::entries::{Menu, Page};
 use crate::play::picture::CurrentShot;
 use crate::play::picture::now::Now;
 use crate::play::picture::sight::FrameCamera;
 use crate::play::player_state::PlayerState;
+use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
-use crate::sim::sight::{Apparition, apparition, direction, emission_time, true_direction};
+use crate::sim::seeing::{Body, Pointer, Scenery, Track, pointers};
+use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
+use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
 use crate::spacetime::light::Order;
 use crate::spacetime::orbit::static_momentum;
@@ -47,6 +52,8 @@ pub struct Panel {
     pub shot_passes: Option<f64>,
     /// Bolts left, in a mission that has some.
     pub bolts: Option<u32>,
+    /// What is on the screen, for the names of it, while they are shown.
+    pub pointers: Vec<Pointer>,
 }
 
 /// Whether the lines of what is to come are of use: in flight.
@@ -55,7 +62,13 @@ fn camera_is_own(player: &PlayerState, outcome: Option<(Outcome, f64)>) -> bool 
 }
 
 /// Reads the numbers of the frame that is drawn.
-pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerState>, mut panel: ResMut<Panel>) {
+pub(super) fn read_panel(
+    now: Now,
+    (shot, menu): (Res<CurrentShot>, Res<Menu>),
+    windows: Query<&Window, With<PrimaryWindow>>,
+    player: Res<PlayerState>,
+    mut panel: ResMut<Panel>,
+) {
     let (Some(FrameCamera { camera, .. }), Some((history, engine, controls, fuel))) = (shot.0, now.own()) else { return };
     let time = now.time();
     let state = state_of(&history.at(time));
@@ -84,6 +97,9 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
     } else {
         Default::default()
     };
+    let seeing = menu.page() == Some(Page::Seeing) && now.session.config.render.lensing;
+    let aspect = windows.iter().next().map_or(16.0 / 9.0, |window| f64::from(window.width() / window.height().max(1.0)));
+    let pointers = if seeing { pointed_at(&now, &camera, aspect) } else { Vec::new() };
     let moving = -relative_momentum(state.momentum, resting);
     *panel = Panel {
         instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), shown.as_ref())),
@@ -100,5 +116,29 @@ pub(super) fn read_panel(now: Now, shot: Res<CurrentShot>, player: Res<PlayerSta
         closest: there.filter(|_| marked_now && is_own).and_then(|there| ahead::closest(&camera, &state, &there)),
         shot_passes: gun.filter(|_| is_own).and(shown).map(|there| ahead::shot_passes(&state, &there)),
         bolts: gun.map(|gun| gun.left),
+        pointers,
     };
+    let light = target.and_then(|history| {
+        let emitted = emission_time(&camera, time, history, Order::ALL[0])?;
+        frequency_ratio(&camera, &history.at(emitted), Order::ALL[0], time - emitted)
+    });
+    if let Some(bearing) = panel.instruments.as_mut().and_then(|read| read.target.as_mut()) {
+        bearing.shift = light;
+    }
+}
+
+/// What of the physics is on the screen of `camera`, whose width is `aspect` times its height.
+fn pointed_at(now: &Now, camera: &Observer, aspect: f64) -> Vec<Pointer> {
+    let session = &now.session;
+    let config = session.effective();
+    let gas = session.scene.disk(&config).map(|disk| Gas::new(&disk, config.hole.mass_solar));
+    // A ship is seen as a ball of half its length.
+    let ball = |(ship, history)| Body { track: Track::Ship(history), radius: 0.5 * session.length(ship) };
+    let target = now.target().map(ball);
+    let own = now.own().map(|(history, ..)| ball((session.player(), history)));
+    let others: Vec<Body> = own
+        .into_iter()
+        .chain(session.scene.planet.iter().map(|planet| Body { track: Track::Planet(planet), radius: planet.radius }))
+        .collect();
+    pointers(camera, now.time(), &Scenery { disk: gas.as_ref(), target, others: &others }, aspect)
 }

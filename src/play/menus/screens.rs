@@ -7,7 +7,9 @@ use crate::scene::Difficulty;
 /// What is before the player.
 #[derive(States, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Screen {
-    /// Title, warning and controls; behind them the autopilot plays.
+    /// At the first start, before anything moves: what the picture may do to those sensitive to it.
+    Warning,
+    /// The missions; behind them the autopilot plays.
     #[default]
     Title,
     /// The chase.
@@ -16,9 +18,14 @@ pub enum Screen {
     Paused,
     /// How it ended.
     Result,
+    /// The chase stands still, the camera is free.
+    Photo,
 }
 
 impl Screen {
+    /// All of them.
+    pub const ALL: [Screen; 6] = [Screen::Warning, Screen::Title, Screen::Playing, Screen::Paused, Screen::Result, Screen::Photo];
+
     /// Whether game time passes.
     pub fn runs(self) -> bool {
         matches!(self, Screen::Title | Screen::Playing)
@@ -42,7 +49,9 @@ pub enum MenuAction {
     Level(Difficulty),
     /// Stop, or go on.
     Pause,
-    /// Back to the title.
+    /// Into photo mode, or back to the pause.
+    Photo,
+    /// Back to the title; from the warning on to it.
     Title,
     /// Out.
     Quit,
@@ -51,10 +60,14 @@ pub enum MenuAction {
 /// Where an action leads, and whether the chase begins anew; None where it means nothing.
 pub fn answer(screen: Screen, action: MenuAction) -> Option<(Screen, bool)> {
     match (screen, action) {
+        (Screen::Warning, MenuAction::Title) => Some((Screen::Title, true)),
+        (Screen::Warning, _) => None,
         (_, MenuAction::Start) => Some((Screen::Playing, true)),
         (Screen::Result, MenuAction::Next | MenuAction::Watch) => Some((Screen::Playing, true)),
         (Screen::Playing, MenuAction::Pause) => Some((Screen::Paused, false)),
         (Screen::Paused, MenuAction::Pause) => Some((Screen::Playing, false)),
+        (Screen::Playing | Screen::Paused, MenuAction::Photo) => Some((Screen::Photo, false)),
+        (Screen::Photo, MenuAction::Photo | MenuAction::Pause) => Some((Screen::Paused, false)),
         (Screen::Paused | Screen::Result, MenuAction::Title) => Some((Screen::Title, true)),
         _ => None,
     }
@@ -73,15 +86,17 @@ mod tests {
     }
 
     #[test]
-    fn every_screen_leads_to_a_new_chase() {
-        for screen in [Screen::Title, Screen::Playing, Screen::Paused, Screen::Result] {
-            assert_eq!(answer(screen, MenuAction::Start), Some((Screen::Playing, true)));
+    fn every_screen_but_the_warning_leads_to_a_new_chase() {
+        for screen in Screen::ALL {
+            let next = (screen != Screen::Warning).then_some((Screen::Playing, true));
+            assert_eq!(answer(screen, MenuAction::Start), next);
         }
     }
 
     #[test]
     fn time_passes_only_on_title_and_in_play() {
-        assert!(Screen::Title.runs() && Screen::Playing.runs());
-        assert!(!Screen::Paused.runs() && !Screen::Result.runs());
+        for screen in Screen::ALL {
+            assert_eq!(screen.runs(), [Screen::Title, Screen::Playing].contains(&screen));
+        }
     }
 }

@@ -1,18 +1,17 @@
 //! The title: the missions with their stars, and what the chosen one is about.
 
-use bevy_egui::egui::{self, RichText, Ui};
+use bevy_egui::egui::{RichText, Ui};
 
-use super::parts::{FAINT, PALE, WARM, buttons, calm};
-use super::words::{goal, key, measure, stars, unit};
-use crate::play::hud::instruments::Scale;
-use crate::play::hud::paint::TRUE;
-use crate::play::menus::screens::MenuAction;
+use super::mission_about::about;
+use super::rows::row;
+use super::words::stars;
+use crate::play::hud::paint::{FAINT, TEXT, TRUE};
+use crate::play::hud::palette::Palette;
+use crate::play::menus::entries::{Does, Menu};
 use crate::play::missions::Catalogue;
 use crate::play::records::Records;
 use crate::play::session::Session;
-use crate::scene::Difficulty;
-use crate::scene::mission::ScoredBy;
-use crate::scene::ship::Ai;
+use bevy_egui::egui::{Align2, FontId, vec2};
 
 /// What the title is made of.
 pub(super) struct Title<'a> {
@@ -23,112 +22,52 @@ pub(super) struct Title<'a> {
 }
 
 /// Width of the list of missions, in points.
-pub(super) const LIST: f32 = 270.0;
+pub(super) const LIST: f32 = 290.0;
 /// Width of what is said of the chosen one, in points.
 pub(super) const ABOUT: f32 = 330.0;
+/// Room for the stars at the right of the list, in points.
+const STARS: f32 = 52.0;
 
-pub(super) fn title(ui: &mut Ui, session: &mut Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    ui.label(RichText::new("LENSRUNNER").size(38.0).color(PALE).strong());
-    ui.label(RichText::new("flights in the spacetime of a black hole").size(14.0).color(FAINT));
-    ui.add_space(4.0);
-    ui.label(RichText::new("The picture turns, bends and brightens quickly. For those sensitive to it:").size(12.5).color(WARM));
-    calm(ui, session);
-    ui.add_space(8.0);
+pub(super) fn title(ui: &mut Ui, menu: &mut Menu, session: &Session, title: &Title) {
+    let palette = Palette::in_use(ui.ctx());
+    let language = session.language();
+    ui.label(RichText::new("LENSRUNNER").size(34.0).color(palette.shown(TEXT)).strong());
+    ui.label(RichText::new(language.say("title-line")).size(13.5).color(palette.shown(FAINT)));
+    ui.add_space(6.0);
+    let list = LIST.min(0.5 * ui.available_width());
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
-            ui.set_width(LIST);
-            list(ui, session, title, ask);
+            ui.set_width(list);
+            ui.spacing_mut().item_spacing.y = 0.0;
+            let moved = ui.input(|input| input.pointer.delta() != vec2(0.0, 0.0));
+            for place in 0..menu.entries.len() {
+                let before = ui.cursor().top();
+                row(ui, menu, place, moved);
+                if let Does::Fly(choice) = menu.entries[place].does {
+                    stars_of(ui, before, list, session, title, choice);
+                }
+            }
         });
         ui.add_space(16.0);
         ui.vertical(|ui| {
-            ui.set_width(ABOUT);
-            about(ui, session, title, ask);
+            ui.set_width(ui.available_width().min(ABOUT));
+            about(ui, session, title);
         });
     });
-    ui.add_space(8.0);
-    let keys = format!("{} pauses and shows the keys", key(&session.config.controls.pause));
-    ui.label(RichText::new(keys).size(12.5).color(FAINT));
 }
 
-/// The missions, each with its stars on the chosen difficulty.
-fn list(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    ui.horizontal(|ui| {
-        for difficulty in Difficulty::ALL {
-            let words = RichText::new(difficulty.name()).size(14.0);
-            if ui.selectable_label(session.difficulty == difficulty, words).clicked() {
-                ask(MenuAction::Level(difficulty));
-            }
-        }
-    });
-    ui.add_space(4.0);
-    for choice in 0..title.catalogue.len() {
-        let scene = title.catalogue.scene(choice, title.free);
-        let words = match &scene.mission {
-            Some(mission) if choice < title.catalogue.missions.len() => {
-                let best = title.records.best(&scene.record_name(), session.difficulty);
-                format!("{}  {}  {}", choice + 1, mission.title, stars(best.map_or(0, |best| best.stars)))
-            }
-            _ => format!("Free flight: {}", scene.name),
-        };
-        let label = egui::Button::selectable(title.choice == choice, RichText::new(words).size(15.0)).min_size(egui::vec2(LIST, 24.0));
-        let entry = ui.add(label);
-        if entry.clicked() {
-            ask(MenuAction::Choose(choice));
-        }
-        if entry.double_clicked() {
-            ask(MenuAction::Start);
-        }
+/// Paints the stars of a mission beside its name.
+fn stars_of(ui: &Ui, top: f32, width: f32, session: &Session, title: &Title, choice: usize) {
+    if choice >= title.catalogue.missions.len() {
+        return;
     }
-}
-
-/// What the chosen mission is about, and the way into it.
-fn about(ui: &mut Ui, session: &Session, title: &Title, ask: &mut impl FnMut(MenuAction)) {
-    let scene = title.catalogue.scene(title.choice, title.free);
-    match &scene.mission {
-        Some(mission) => {
-            ui.label(RichText::new(&mission.title).size(22.0).color(PALE));
-            ui.label(RichText::new(&mission.idea).size(14.0).color(TRUE));
-            ui.add_space(4.0);
-            ui.label(RichText::new(&mission.brief).size(13.0).color(PALE));
-            ui.add_space(6.0);
-            let scale = Scale::of(session.config.hole.mass_solar);
-            let clock = match mission.clock {
-                ScoredBy::Far => "Best on the far clock",
-                ScoredBy::Own => "Best on your own clock",
-                ScoredBy::Fuel => "Least Δv",
-            };
-            let unit = unit(mission.clock);
-            let best = title.records.best(&scene.record_name(), session.difficulty);
-            let best = best.map_or("not yet won".to_owned(), |best| match mission.clock {
-                ScoredBy::Fuel => format!("{:.2} {unit}", best.score),
-                ScoredBy::Far | ScoredBy::Own => format!("{:.1} {unit} ({})", best.score, scale.span(best.score)),
-            });
-            ui.label(RichText::new(format!("{clock}, {}: {best}", session.difficulty)).size(12.5).color(FAINT));
-            if let Some([three, two]) = mission.levels[session.difficulty as usize].stars {
-                ui.label(RichText::new(format!("★★★ by {three} {unit}  ·  ★★☆ by {two} {unit}")).size(12.5).color(FAINT));
-            }
-        }
-        None => {
-            ui.label(RichText::new("Free flight").size(22.0).color(PALE));
-            ui.horizontal(|ui| {
-                let count = title.catalogue.free.len();
-                for (words, by) in [("◀", count - 1), ("▶", 1)] {
-                    if ui.button(RichText::new(words).size(16.0)).clicked() {
-                        ask(MenuAction::Scene((title.free + by) % count));
-                    }
-                }
-                let place = format!("{}  ({} of {count}, keys left and right)", scene.name, title.free + 1);
-                ui.label(RichText::new(place).size(14.0).color(TRUE));
-            });
-            let words = if scene.ships.iter().any(|ship| ship.ai == Ai::Flee) {
-                goal(session)
-            } else {
-                "Fly where you like: nothing is to be won.".into()
-            };
-            ui.label(RichText::new(words).size(13.0).color(PALE));
-            ui.label(RichText::new(measure(session)).size(12.5).color(FAINT));
-        }
-    }
-    ui.add_space(10.0);
-    buttons(ui, ask, &[("Fly  (Enter)", MenuAction::Start), ("Quit", MenuAction::Quit)]);
+    let scene = title.catalogue.scene(choice, title.free);
+    let best = title.records.best(&scene.record_name(), session.difficulty);
+    let words = stars(best.map_or(0, |best| best.stars));
+    let middle = 0.5 * (top + ui.cursor().top());
+    let at = ui.min_rect().left_top() + vec2(width - 6.0, middle - ui.min_rect().top());
+    let colour = Palette::in_use(ui.ctx()).shown(if best.is_some() { TRUE } else { FAINT });
+    let galley = ui.painter().layout_no_wrap(words, FontId::proportional(13.0), colour);
+    let place = Align2::RIGHT_CENTER.anchor_size(at, galley.size().min(vec2(STARS, 40.0)));
+    ui.painter().galley(place.min, galley, colour);
 }

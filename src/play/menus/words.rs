@@ -1,82 +1,81 @@
 //! What the menus say of a flight, in words.
 
 use crate::play::hud::instruments::Scale;
+use crate::play::input::action::Action;
+use crate::play::input::bindings::Bindings;
+use crate::play::input::button::Device;
 use crate::play::session::Session;
+use crate::play::words::{self, Language, together};
 use crate::scene::mission::ScoredBy;
-
-/// A number and its unit, which stay on one line.
-pub(super) fn together(words: &str) -> String {
-    words.replace(' ', "\u{a0}")
-}
 
 /// What the chase is about, in a sentence.
 pub(super) fn goal(session: &Session) -> String {
     let rules = session.scene.rules(&session.config);
-    let scale = Scale::of(session.config.hole.mass_solar);
+    let scale = Scale::of(session);
     let within = together(&format!("{} r_s", rules.capture_radius));
     let hold = together(&format!("{} r_s/c ({})", rules.hold_time, scale.span(rules.hold_time)));
     let before = together(&format!("T = {} r_s/c ({})", rules.time_limit, scale.span(rules.time_limit)));
-    format!("Catch the quarry: stay within {within} of it for {hold}, before {before}, and do not fall into the hole.")
+    session.language().fill("flight-goal", &[("within", within.as_str()), ("hold", hold.as_str()), ("before", before.as_str())])
 }
 
 /// What r_s is, in a sentence.
 pub(super) fn measure(session: &Session) -> String {
-    let scale = Scale::of(session.config.hole.mass_solar);
+    let scale = Scale::of(session);
     let [radius, light] = [scale.kilometres(1.0), scale.span(1.0)].map(|words| together(&words));
-    format!("r_s is the hole's radius, {radius}; light goes as far in r_s/c, {light}.")
+    session.language().fill("flight-measure", &[("radius", radius.as_str()), ("light", light.as_str())])
 }
 
-/// What to begin with, for the first flight.
-pub(super) fn hint(session: &Session) -> String {
-    let keys = &session.config.controls;
-    let [thrust, look, pilot] = [&keys.thrust_forward, &keys.look_at_target, &keys.toggle_autopilot].map(|name| key(name));
-    let [thrust, look, pilot] =
-        [format!("{thrust} thrusts"), format!("hold {look} to look at the target"), format!("{pilot}: the autopilot flies")]
-            .map(|words| together(&words));
-    let keys = if session.target().is_some() { format!("{thrust}  ·  {look}  ·  {pilot}") } else { format!("{thrust}  ·  {pilot}") };
-    // A mission says by itself where to fly.
-    if session.scene.mission.is_some() || session.target().is_none() {
-        keys
-    } else {
-        format!("{keys}  ·  fly to the dashed ring “now”")
+/// The buttons of the device in use.
+#[derive(Clone, Copy)]
+pub(super) struct Prompts<'a> {
+    pub(super) language: Language,
+    pub(super) bindings: &'a Bindings,
+    pub(super) device: Device,
+}
+
+impl Prompts<'_> {
+    /// The button of an action, as it is written on the device.
+    pub(super) fn button(&self, action: Action) -> String {
+        words::buttons::of(self.language, self.bindings, self.device, action)
+    }
+
+    fn with(&self, key: &str, actions: [(&str, Action); 1]) -> String {
+        let values = actions.map(|(name, action)| (name, self.button(action)));
+        together(&self.language.fill(key, &values.each_ref().map(|(name, button)| (*name, button.as_str()))))
     }
 }
 
+/// What to begin with, for the first flight.
+pub(super) fn hint(session: &Session, prompts: Prompts) -> String {
+    let mut parts = vec![prompts.with("hint-thrust", [("button", Action::ThrustForward)])];
+    let chases = session.target().is_some();
+    parts.extend(chases.then(|| prompts.with("hint-look", [("button", Action::LookAtTarget)])));
+    parts.push(prompts.with("hint-seeing", [("button", Action::WhatAmISeeing)]));
+    parts.push(prompts.with("hint-autopilot", [("button", Action::ToggleAutopilot)]));
+    // A mission says by itself where to fly.
+    parts.extend((session.scene.mission.is_none() && chases).then(|| together(&prompts.language.say("hint-now"))));
+    parts.join("  ·  ")
+}
+
 /// What leads the camera of a replay.
-pub(super) fn camera_hint(session: &Session) -> String {
-    let keys = &session.config.controls;
-    let [near, far, look, slow, fast] =
-        [&keys.thrust_forward, &keys.thrust_back, &keys.look_at_target, &keys.slower, &keys.faster].map(|name| key(name));
+pub(super) fn camera_hint(prompts: Prompts) -> String {
+    let [near, far, back, slow, fast] = [Action::ThrustForward, Action::ThrustBack, Action::LookAtTarget, Action::Slower, Action::Faster]
+        .map(|action| prompts.button(action));
+    let language = prompts.language;
     let words = [
-        "mouse: round the ship".to_owned(),
-        format!("{near} {far}: nearer, farther"),
-        format!("{look}: back"),
-        format!("{slow} {fast}: pace"),
+        language.say("replay-round"),
+        language.fill("replay-nearer", &[("near", near.as_str()), ("far", far.as_str())]),
+        language.fill("replay-back", &[("button", back.as_str())]),
+        language.fill("replay-pace", &[("slow", slow.as_str()), ("fast", fast.as_str())]),
     ];
     words.map(|words| together(&words)).join("  ·  ")
 }
 
-/// A key as it is written on the keyboard.
-pub(super) fn key(name: &str) -> &str {
-    let name = name.strip_prefix("Key").or_else(|| name.strip_prefix("Digit")).unwrap_or(name);
-    match name {
-        "ControlLeft" => "Ctrl",
-        "ShiftLeft" => "Shift",
-        "Escape" => "Esc",
-        "Comma" => ", (comma)",
-        "Period" => ". (period)",
-        "MouseLeft" => "left mouse button",
-        "MouseRight" => "right mouse button",
-        "MouseMiddle" => "middle mouse button",
-        other => other,
-    }
-}
-
 /// The unit of a score.
-pub(super) fn unit(scored: ScoredBy) -> &'static str {
+pub(super) fn unit(language: Language, scored: ScoredBy) -> String {
     match scored {
-        ScoredBy::Far | ScoredBy::Own => "r_s/c",
-        ScoredBy::Fuel => "c of Δv",
+        ScoredBy::Far | ScoredBy::Own => "r_s/c".into(),
+        ScoredBy::Fuel => language.say("score-unit-fuel"),
     }
 }
 

@@ -14,7 +14,9 @@ use crate::sim::replay::ReplayLog;
 use crate::sim::setup::skills;
 use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 
+use crate::play::choices::Choices;
 use crate::play::input::bindings::Bindings;
+use crate::play::menus::navigate::FileConfig;
 use crate::play::picture::{self, Staged};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
@@ -36,6 +38,7 @@ fn reload(
     mut session: ResMut<Session>,
     real: Res<Time<Real>>,
     mut notice: ResMut<Notice>,
+    (choices, mut base): (Option<Res<Choices>>, Option<ResMut<FileConfig>>),
     mut look: Local<(Duration, Option<SystemTime>)>,
     mut last: Local<Option<GameConfig>>,
 ) {
@@ -52,7 +55,11 @@ fn reload(
         return;
     }
     let text = match config::load(&file) {
-        Ok(config) => {
+        Ok(mut config) => {
+            if let Some(base) = &mut base {
+                base.0 = config.clone();
+            }
+            choices.iter().for_each(|choices| choices.over(&mut config));
             session.config = taken_up(&session.config, said, &config);
             *said = config;
             format!("{} read again", file.display())
@@ -82,6 +89,7 @@ fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> Game
 
 /// Whether the models and the disk of the scene are to be made again.
 fn changes_models(before: &GameConfig, now: &GameConfig) -> bool {
+    let (before, now) = (&before.drawn(), &now.drawn());
     if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
         return true;
     }

@@ -2,6 +2,7 @@
 
 pub mod now;
 pub mod sight;
+pub mod snapshot;
 
 use std::sync::Arc;
 
@@ -10,6 +11,7 @@ use bevy::window::PrimaryWindow;
 
 use crate::play::camera::{CameraView, state_of};
 use crate::play::menus::screens::Screen;
+use crate::play::photo::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
@@ -54,7 +56,7 @@ fn load_scene(world: &mut World, mut frames: Local<u32>) {
 /// Makes models and disk of the session's scene anew.
 pub fn restage(world: &mut World) {
     let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
-    let (scene, config) = (&session.scene, &session.effective());
+    let (scene, config) = (&session.scene, &session.effective().drawn());
     let (stage, upload) = Stage::prepare(&table.0, scene, scene.assemble(config), config, None);
     world.insert_resource(Staged(stage.watched()));
     world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
@@ -72,9 +74,14 @@ fn point_camera(
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
     playback: Option<Res<Playback>>,
+    photo: Option<Res<Photo>>,
     mut player: ResMut<PlayerState>,
     mut shot: ResMut<CurrentShot>,
 ) {
+    if let Some(photo) = photo {
+        shot.0 = Some(photo.frame());
+        return;
+    }
     shot.0 = None;
     let Some((history, ..)) = now.own() else { return };
     if area(&windows).is_none() {
@@ -112,12 +119,13 @@ fn make_frame(
     (staged, shot, statistics): (Res<Staged>, Res<CurrentShot>, Res<RenderStatistics>),
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
-    windows: Query<&Window, With<PrimaryWindow>>,
+    (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),
     mut frame: ResMut<FrameToDraw>,
     mut last: Local<Option<(ScreenContent, f64)>>,
 ) {
     let (Some(size), Some(shot)) = (area(&windows), shot.0) else { return };
-    let config = &now.session.config;
+    let config = &now.session.config.drawn();
+    let config = &photo.map_or_else(|| config.clone(), |photo| photo.config(config));
     // Times of an earlier frame will do.
     staged.0.ration_aurora(&statistics.passes);
     let mut settings = settings(config);

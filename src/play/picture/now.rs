@@ -8,6 +8,11 @@ use crate::play::session::Session;
 use crate::sim::bolts::Gun;
 use crate::sim::{ActiveMission, Bolts, Chase, Clock, Controls, Engine, Fleet, Fuel, History, Progress};
 
+/// T of the frame, in r_s/c: at most a step before the clock's.
+pub fn time(clock: &Clock, fixed: &Time<Fixed>) -> f64 {
+    (clock.time - clock.step * (1.0 - fixed.overstep_fraction_f64())).max(0.0)
+}
+
 /// What the picture and the HUD are made of.
 #[derive(SystemParam)]
 pub struct Now<'w, 's> {
@@ -31,7 +36,7 @@ pub struct Now<'w, 's> {
 impl Now<'_, '_> {
     /// T of the frame, in r_s/c: at most a step before the clock's.
     pub fn time(&self) -> f64 {
-        (self.clock.time - self.clock.step * (1.0 - self.fixed.overstep_fraction_f64())).max(0.0)
+        time(&self.clock, &self.fixed)
     }
 
     /// T of the last step, in r_s/c.
@@ -57,13 +62,17 @@ impl Now<'_, '_> {
 
     /// The worldline of the ship that the player is after, and its index.
     pub fn target(&self) -> Option<(usize, &History)> {
-        let chased = self.chase.as_ref().and_then(|chase| chase.quarry);
-        let index = match (&self.mission, chased) {
-            (Some(_), Some(quarry)) => self.fleet.0.iter().position(|&ship| ship == quarry)?,
-            (Some(_), None) => return None,
-            (None, _) => self.session.target()?,
-        };
+        let index = target_index(&self.session, self.mission.is_some(), &self.fleet, self.chase.as_deref())?;
         let ship = self.fleet.0.get(index)?;
         Some((index, self.ships.get(*ship).ok()?.0))
     }
+}
+
+/// Index of the ship that the player is after: in a mission the one that the present goal is about, else the one that the scene names.
+pub fn target_index(session: &Session, in_mission: bool, fleet: &Fleet, chase: Option<&Chase>) -> Option<usize> {
+    if !in_mission {
+        return session.target();
+    }
+    let quarry = chase.and_then(|chase| chase.quarry)?;
+    fleet.0.iter().position(|&ship| ship == quarry)
 }

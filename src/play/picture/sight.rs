@@ -26,7 +26,7 @@ impl ScreenContent {
     /// What a screen shows, of a chase that is undecided or has this outcome. `by_holding`: its mission is done by holding a ship.
     pub fn of(screen: Screen, outcome: Option<Outcome>, by_holding: bool) -> ScreenContent {
         match (screen, outcome) {
-            (Screen::Title, _) => ScreenContent::Afar,
+            (Screen::Title | Screen::Warning, _) => ScreenContent::Afar,
             (Screen::Result, Some(Outcome::Caught)) => ScreenContent::Caught,
             (Screen::Result, Some(Outcome::Done)) if by_holding => ScreenContent::Caught,
             (Screen::Result, Some(_)) => ScreenContent::Afar,

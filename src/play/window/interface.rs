@@ -1,41 +1,143 @@
 //! The window's side of the interface: its 2-D camera, its scale, the cursor.
 
+use bevy::camera::RenderTarget;
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::input::mouse::AccumulatedMouseMotion;
 use bevy::prelude::*;
-use bevy::window::{CursorGrabMode, CursorOptions, PrimaryWindow};
+use bevy::render::render_resource::TextureFormat;
+use bevy::window::{CursorGrabMode, CursorOptions, MonitorSelection, PresentMode, PrimaryWindow, WindowMode};
 use bevy_egui::EguiContexts;
+
+use std::time::{Duration, Instant};
+
+use crate::play::choices::Choices;
+use crate::play::hud::notice::Notice;
+use crate::play::hud::palette::Palette;
 
 use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
+use crate::play::photo::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
+use crate::play::words::font;
+use crate::scene::config::Video;
 
 /// A camera for the picture and the interface, which fits the window; and the mouse in play.
-pub struct InterfacePlugin;
+pub struct InterfacePlugin {
+    /// Draws on a picture of this size, in pixels, instead of the window.
+    pub picture: Option<[u32; 2]>,
+}
+
+/// The picture that is drawn on instead of a window.
+#[derive(Resource, Clone, Debug)]
+pub struct DrawnOn(pub Handle<Image>);
 
 impl Plugin for InterfacePlugin {
     fn build(&self, app: &mut App) {
         app.insert_resource(ClearColor(Color::BLACK))
             .add_systems(Startup, spawn_camera)
-            .add_systems(Update, (fit_interface, grab_cursor).in_set(GameSet::Window));
+            .insert_resource(Target(self.picture))
+            .init_resource::<Choices>()
+            .add_systems(Update, (fit_interface, grab_cursor, follow_settings, keep_choices).in_set(GameSet::Window))
+            .add_systems(Last, (keep_at_the_end, limit_frames).chain());
     }
 }
 
-fn spawn_camera(mut commands: Commands) {
+#[derive(Resource)]
+struct Target(Option<[u32; 2]>);
+
+fn spawn_camera(target: Res<Target>, mut images: ResMut<Assets<Image>>, mut commands: Commands) {
     // The renderer fills the picture itself, tone curve included.
-    commands.spawn((Camera2d, Msaa::Off, Tonemapping::None, DebandDither::Disabled));
+    let mut camera = commands.spawn((Camera2d, Msaa::Off, Tonemapping::None, DebandDither::Disabled));
+    if let Some([width, height]) = target.0 {
+        let image = images.add(Image::new_target_texture(width, height, TextureFormat::Rgba8UnormSrgb, None));
+        camera.insert(RenderTarget::from(image.clone()));
+        commands.insert_resource(DrawnOn(image));
+    }
 }
 
-/// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the title card is as high.
+/// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the HUD is laid out for it.
 pub(in crate::play) const INTERFACE: [f32; 2] = [900.0, 620.0];
 
-fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: EguiContexts) {
+/// Gives the interface its letters, its size and its colours.
+fn fit_interface(
+    windows: Query<&Window, With<PrimaryWindow>>,
+    session: Res<Session>,
+    mut contexts: EguiContexts,
+    mut has_letters: Local<bool>,
+) {
+    let Ok(context) = contexts.ctx_mut() else { return };
+    if !std::mem::replace(&mut *has_letters, true) {
+        font::install(context);
+    }
+    let settings = &session.config.accessibility;
+    Palette::of(settings).put(context);
     let Some(window) = windows.iter().next() else { return };
     let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
-    if let Ok(context) = contexts.ctx_mut() {
-        context.set_zoom_factor(fit);
+    context.set_zoom_factor(fit * settings.text_size as f32);
+}
+
+/// The window is as the settings say, from when they change on.
+fn follow_settings(session: Res<Session>, mut before: Local<Option<Video>>, mut windows: Query<&mut Window, With<PrimaryWindow>>) {
+    let video = &session.config.video;
+    let Some(last) = before.replace(video.clone()) else { return };
+    for mut window in &mut windows {
+        if last.vsync != video.vsync {
+            window.present_mode = present_mode(video);
+        }
+        if last.fullscreen != video.fullscreen {
+            window.mode = mode(video);
+        }
+        if (last.width, last.height) != (video.width, video.height) {
+            window.resolution.set(video.width as f32, video.height as f32);
+        }
+    }
+}
+
+/// How frames reach the screen.
+pub(in crate::play) fn present_mode(video: &Video) -> PresentMode {
+    if video.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync }
+}
+
+/// In a window, or over the whole screen.
+pub(in crate::play) fn mode(video: &Video) -> WindowMode {
+    if video.fullscreen { WindowMode::BorderlessFullscreen(MonitorSelection::Current) } else { WindowMode::Windowed }
+}
+
+/// Waits until the next frame is due, where frames are limited.
+fn limit_frames(session: Res<Session>, mut due: Local<Option<Instant>>) {
+    let limit = session.config.video.frame_limit;
+    let now = Instant::now();
+    if limit == 0 {
+        *due = None;
+        return;
+    }
+    let period = Duration::from_secs_f64(1.0 / f64::from(limit));
+    // Who is late does not hurry afterwards.
+    let next = due.map_or(now, |due| due + period).max(now.checked_sub(period).unwrap_or(now));
+    std::thread::sleep(next.saturating_duration_since(now));
+    *due = Some(next);
+}
+
+/// Writes what the player chose, soon after it was chosen: a game that ends badly has lost nothing.
+fn keep_choices(mut choices: ResMut<Choices>, real: Res<Time<Real>>, mut notice: ResMut<Notice>, mut last: Local<f64>) {
+    /// Wall time between two writings, in seconds: a slider that is dragged changes in each frame.
+    const PERIOD: f64 = 0.5;
+    let now = real.elapsed_secs_f64();
+    if now < *last + PERIOD {
+        return;
+    }
+    *last = now;
+    if let Some(text) = choices.bypass_change_detection().write() {
+        *notice = Notice { text, until: now + 8.0 };
+    }
+}
+
+/// What was chosen in the last moment is kept as well.
+fn keep_at_the_end(mut ends: MessageReader<AppExit>, mut choices: ResMut<Choices>) {
+    if ends.read().next().is_some() {
+        choices.write();
     }
 }
 
@@ -43,19 +145,20 @@ fn fit_interface(windows: Query<&Window, With<PrimaryWindow>>, mut contexts: Egu
 fn grab_cursor(
     screen: Res<State<Screen>>,
     player: Res<PlayerState>,
-    motion: Res<AccumulatedMouseMotion>,
+    (motion, photo): (Res<AccumulatedMouseMotion>, Option<Res<Photo>>),
     session: Res<Session>,
     mut turn: ResMut<MouseTurn>,
     mut cursors: Query<&mut CursorOptions, With<PrimaryWindow>>,
 ) {
-    let grabbed = *screen.get() == Screen::Playing && !player.overlay && !player.autopilot;
+    let flown = *screen.get() == Screen::Playing && !player.overlay && !player.autopilot;
+    let grabbed = flown || photo.is_some_and(|photo| !photo.panel);
     for mut cursor in &mut cursors {
         if cursor.visible == grabbed {
             cursor.visible = !grabbed;
             cursor.grab_mode = if grabbed { CursorGrabMode::Locked } else { CursorGrabMode::None };
         }
     }
-    if grabbed {
+    if flown {
         turn.push(motion.delta, &session.config);
     }
 }

@@ -2,17 +2,23 @@
 
 pub mod focus;
 pub mod interface;
+pub mod pictures;
 pub mod record;
 
 use std::sync::Arc;
 
+use bevy::log::LogPlugin;
 use bevy::prelude::*;
-use bevy::window::{MonitorSelection, PresentMode, WindowMode};
+use bevy::window::WindowMode;
+use bevy::winit::WinitPlugin;
 use bevy_egui::EguiPlugin;
 
+use crate::play::choices::Choices;
 use crate::play::game::{GamePlugin, begin};
 use crate::play::hud::HudPlugin;
+use crate::play::hud::notice::Notice;
 use crate::play::menus::MenusPlugin;
+use crate::play::menus::navigate::FileConfig;
 use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
@@ -20,12 +26,13 @@ use crate::play::picture::{PicturePlugin, Staged};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::{SCENE, Session};
+use crate::play::sound::plugin::SoundPlugin;
 use crate::render::plugin::RelativisticRenderPlugin;
 use crate::render::shot::surroundings;
 use crate::scene;
 use crate::sim::SimulationPlugins;
 use crate::sim::replay::Replay;
-use interface::InterfacePlugin;
+use interface::{InterfacePlugin, mode, present_mode};
 
 /// What the command line asked for beyond the session.
 #[derive(Clone, Debug, Default)]
@@ -44,17 +51,94 @@ pub struct Options {
     pub at_once: bool,
 }
 
+/// What the game is drawn on.
+#[derive(Clone, Debug)]
+pub enum Surface {
+    /// A window.
+    Window,
+    /// A picture of this size in pixels, for whoever looks at it without a display.
+    Picture([u32; 2]),
+}
+
 /// Opens the window and plays until it closes.
 pub fn run(session: Session, options: &Options) -> AppExit {
-    let video = &session.config.video;
-    let [width, height] = options.size.unwrap_or([video.width, video.height]);
-    let window = Window {
-        title: "Lensrunner".into(),
-        resolution: (width, height).into(),
-        present_mode: if video.vsync { PresentMode::AutoVsync } else { PresentMode::AutoNoVsync },
-        mode: if video.fullscreen { WindowMode::BorderlessFullscreen(MonitorSelection::Primary) } else { WindowMode::Windowed },
+    let (choices, said) = Choices::load();
+    let mut app = app(session, options, Surface::Window, choices);
+    if let Some(text) = said {
+        app.insert_resource(Notice { text, until: 15.0 });
+    }
+    app.run()
+}
+
+/// The whole game, drawn on `surface`, with these choices over the session's configuration.
+pub fn app(mut session: Session, options: &Options, surface: Surface, choices: Choices) -> App {
+    let file_config = session.config.clone();
+    choices.over(&mut session.config);
+    let (catalogue, choice) = catalogue(&session, options.at_once);
+    // What a program films is nobody's first start.
+    let warns = !session.config.interface.warned && options.frames.is_none();
+    let mut app = App::new();
+    let log = LogPlugin {
+        // What libraries warn of means nothing to a player; RUST_LOG shows it.
+        filter: "error,lensrunner=info".into(),
+        level: bevy::log::Level::WARN,
         ..default()
     };
+    let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
+    match surface {
+        Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
+        Surface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
+    };
+    app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
+        .add_plugins((
+            SimulationPlugins,
+            GamePlugin,
+            MissionsPlugin,
+            PicturePlugin,
+            HudPlugin,
+            MenusPlugin,
+            OverlayPlugin,
+            InterfacePlugin { picture: if let Surface::Picture(size) = surface { Some(size) } else { None } },
+            SoundPlugin,
+            focus::FocusPlugin,
+        ))
+        .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
+        .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
+        .insert_resource(catalogue)
+        .insert_resource(choices)
+        .insert_resource(FileConfig(file_config))
+        .insert_resource(session);
+    if warns {
+        app.insert_state(Screen::Warning);
+    }
+    if let Some(replay) = &options.replay {
+        app.insert_resource(Watched(replay.clone()));
+    }
+    if options.replay.is_some() || options.at_once {
+        let ready = resource_exists::<Staged>.and_then(not(in_state(Screen::Warning)));
+        app.add_systems(Update, fly_at_once.run_if(ready).before(GameSet::Answer));
+    }
+    app
+}
+
+/// The window as the settings and the command line have it.
+fn window(session: &Session, options: &Options, surface: &Surface) -> Window {
+    let video = &session.config.video;
+    let [width, height] = match surface {
+        Surface::Window => options.size.unwrap_or([video.width, video.height]),
+        Surface::Picture(size) => *size,
+    };
+    Window {
+        title: "Lensrunner".into(),
+        resolution: (width, height).into(),
+        present_mode: present_mode(video),
+        mode: if matches!(surface, Surface::Window) { mode(video) } else { WindowMode::Windowed },
+        ..default()
+    }
+}
+
+/// The missions and scenes to choose from, and the one that is chosen at the start; what of them is wrong is said on the terminal.
+fn catalogue(session: &Session, at_once: bool) -> (Catalogue, usize) {
     // Behind the title nothing is to be won.
     let home = if session.scene.mission.is_some() { scene::load(SCENE).unwrap_or(session.scene.clone()) } else { session.scene.clone() };
     let (mut catalogue, wrong) = Catalogue::read(home);
@@ -67,38 +151,8 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     }
     let chosen = catalogue.missions.iter().position(|mission| mission.fingerprint == session.scene.fingerprint);
     // Another scene that was named is flown freely.
-    let freely = if options.at_once || session.scene.name != SCENE { catalogue.missions.len() } else { 0 };
-    let choice = chosen.unwrap_or(freely);
-    let mut app = App::new();
-    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }).set(bevy::log::LogPlugin {
-        // What libraries warn of means nothing to a player; RUST_LOG shows it.
-        filter: "error,lensrunner=info".into(),
-        level: bevy::log::Level::WARN,
-        ..default()
-    }))
-    .add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
-    .add_plugins((
-        SimulationPlugins,
-        GamePlugin,
-        MissionsPlugin,
-        PicturePlugin,
-        HudPlugin,
-        MenusPlugin,
-        OverlayPlugin,
-        InterfacePlugin,
-        focus::FocusPlugin,
-    ))
-    .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
-    .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
-    .insert_resource(catalogue)
-    .insert_resource(session);
-    if let Some(replay) = &options.replay {
-        app.insert_resource(Watched(replay.clone()));
-    }
-    if options.replay.is_some() || options.at_once {
-        app.add_systems(Update, fly_at_once.run_if(resource_exists::<Staged>).before(GameSet::Answer));
-    }
-    app.run()
+    let freely = if at_once || session.scene.name != SCENE { catalogue.missions.len() } else { 0 };
+    (catalogue, chosen.unwrap_or(freely))
 }
 
 /// Goes from the title to play, once.

@@ -7,9 +7,12 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use bevy::prelude::*;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
-use crate::play::demonstration::write_png;
+use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
 use crate::play::picture::Staged;
+use crate::play::picture::snapshot::snapshot;
+use crate::play::window::pictures::{folders, save_new, stem};
+use crate::sim::snapshot::Snapshot;
 
 /// Writes frames, and closes the window after so many.
 pub struct RecordPlugin {
@@ -26,8 +29,12 @@ struct VideoRecording {
     drawn: u32,
 }
 
-/// A picture's file, and why it could not be written, if it could not.
-type Written = (PathBuf, Result<(), String>);
+/// A picture's file and, in words, what of its moment it does not carry; or why it could not be written.
+type Written = Result<(PathBuf, Option<&'static str>), String>;
+
+/// The key has asked for a picture of this frame: it is taken when the frame's camera is chosen.
+#[derive(Resource, Default)]
+struct Wanted(bool);
 
 /// What became of the pictures that were asked for by the key, from the threads that write them.
 #[derive(Resource)]
@@ -41,8 +48,9 @@ impl Plugin for RecordPlugin {
         let (sender, receiver) = channel();
         app.insert_resource(VideoRecording { folder: self.folder.clone(), frames: self.frames, drawn: 0 })
             .insert_resource(News { sender, receiver: Mutex::new(receiver) })
+            .init_resource::<Wanted>()
             .add_systems(Update, tell)
-            .add_systems(Last, record.run_if(resource_exists::<Staged>));
+            .add_systems(Last, (take_wanted, record.run_if(resource_exists::<Staged>)).chain());
     }
 }
 
@@ -52,10 +60,11 @@ const SHOWN: f64 = 4.0;
 /// Says, on the screen and in the log, where a picture is or why there is none.
 fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
     let Ok(receiver) = news.receiver.lock() else { return };
-    for (path, result) in receiver.try_iter() {
+    for result in receiver.try_iter() {
         let text = match &result {
-            Ok(()) => format!("picture written to {}", path.display()),
-            Err(error) => format!("the picture cannot be written to {}: {error}", path.display()),
+            Ok((path, None)) => format!("picture written to {}", path.display()),
+            Ok((path, Some(why))) => format!("picture written to {}, without its moment: {why}", path.display()),
+            Err(error) => format!("the picture cannot be written: {error}"),
         };
         if result.is_ok() {
             info!("{text}")
@@ -69,25 +78,26 @@ fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
 /// Frames at the start whose picture is not ready yet: the window's surface and the pipelines are being made.
 const WARM_UP: u32 = 3;
 
-fn record(mut recording: ResMut<VideoRecording>, mut commands: Commands, mut exit: MessageWriter<AppExit>) {
+fn record(world: &mut World) {
+    let mut recording = world.resource_mut::<VideoRecording>();
     recording.drawn += 1;
     let Some(index) = recording.drawn.checked_sub(WARM_UP) else { return };
     if recording.frames.is_some_and(|frames| index > frames) {
-        exit.write(AppExit::Success);
+        world.write_message(AppExit::Success);
         return;
     }
-    if let Some(folder) = &recording.folder {
+    if let Some(folder) = recording.folder.clone() {
         let path = folder.join("frames").join(format!("frame-{index:05}.png"));
-        take(&mut commands, path, |path, result| {
-            if let Err(error) = result {
+        take(world, move |image, moment| {
+            if let Err(error) = encoded(image, moment.ok()).and_then(|png| write(&path, &png)) {
                 eprintln!("warning: cannot write {}: {error}", path.display());
             }
         });
     }
 }
 
-/// Writes the window's picture to `out/` and says so. Where every frame is written this one is among them, and a window gives one picture a
-/// frame.
+/// Has the window's picture of this frame written to the player's folder of pictures, and says so. Where every frame is written this one
+/// is among them, and a window gives one picture a frame.
 pub fn screenshot(world: &mut World) {
     let until = world.get_resource::<Time<Real>>().map_or(0.0, |real| real.elapsed_secs_f64()) + SHOWN;
     let Some(mut notice) = world.get_resource_mut::<Notice>() else { return };
@@ -98,29 +108,45 @@ pub fn screenshot(world: &mut World) {
         world.insert_resource(Notice { text, until });
         return;
     }
-    let Some(sender) = world.get_resource::<News>().map(|news| news.sender.clone()) else { return };
-    let now = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).unwrap_or_default().as_millis();
-    let path = PathBuf::from("out").join(format!("screenshot-{now}.png"));
-    // The player may not know in which folder the game was started.
-    let path = std::path::absolute(&path).unwrap_or(path);
-    // After the game's end nobody listens.
-    take(&mut world.commands(), path, move |path, result| _ = sender.send((path.to_path_buf(), result)));
+    world.insert_resource(Wanted(true));
 }
 
-/// Takes a picture of the window into `path`; `done` hears from another thread how that went.
-fn take(commands: &mut Commands, path: PathBuf, done: impl Fn(&Path, Result<(), String>) + Clone + Send + Sync + 'static) {
-    commands.spawn(Screenshot::primary_window()).observe(move |captured: On<ScreenshotCaptured>| {
-        let (path, image, done) = (path.clone(), captured.image.clone(), done.clone());
-        std::thread::spawn(move || done(&path, write(image, &path)));
+/// Takes the picture that was asked for.
+fn take_wanted(world: &mut World) {
+    if !std::mem::take(&mut world.resource_mut::<Wanted>().0) {
+        return;
+    }
+    let sender = world.resource::<News>().sender.clone();
+    let stem = stem(std::time::SystemTime::now());
+    take(world, move |image, moment| {
+        let without = moment.as_ref().err().copied();
+        let saved = encoded(image, moment.ok()).and_then(|png| save_new(&folders(), &stem, &png).map_err(|error| error.to_string()));
+        // After the game's end nobody listens.
+        _ = sender.send(saved.map(|path| (path, without)));
     });
 }
 
-fn write(image: Image, path: &Path) -> Result<(), String> {
+/// Takes a picture of the window and its moment; `done` gets them in a thread of its own.
+fn take(world: &mut World, done: impl Fn(Image, Result<Snapshot, &'static str>) + Clone + Send + Sync + 'static) {
+    let moment = snapshot(world);
+    world.spawn(Screenshot::primary_window()).observe(move |captured: On<ScreenshotCaptured>| {
+        let (image, moment, done) = (captured.image.clone(), moment.clone(), done.clone());
+        std::thread::spawn(move || done(image, moment));
+    });
+}
+
+/// The bytes of a PNG of the image, with its moment.
+fn encoded(image: Image, moment: Option<Snapshot>) -> Result<Vec<u8>, String> {
     let picture = image.try_into_dynamic().map_err(|error| error.to_string())?.to_rgb8();
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
-    }
-    write_png(path, [picture.width(), picture.height()], picture.as_raw()).map_err(|error| error.to_string())
+    let size = [picture.width(), picture.height()];
+    // The window may have changed its size since.
+    let text = moment.map(|moment| moment.resized(size).to_text());
+    png(picture.as_raw(), size, true, text.as_deref())
+}
+
+fn write(path: &Path, png: &[u8]) -> Result<(), String> {
+    let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+    made.and_then(|()| std::fs::write(path, png)).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -133,8 +159,12 @@ mod tests {
         app.add_plugins((MinimalPlugins, RecordPlugin { folder: None, frames: None })).init_resource::<Notice>();
         app.update();
         assert_eq!(app.world().resource::<Notice>().text, "");
-        for (result, said) in [(Ok(()), "picture written to out/a.png"), (Err("no room".to_owned()), "no room")] {
-            app.world().resource::<News>().sender.send(("out/a.png".into(), result)).expect("somebody listens");
+        for (result, said) in [
+            (Ok(("out/a.png".into(), None)), "picture written to out/a.png"),
+            (Ok(("out/a.png".into(), Some("it is late"))), "out/a.png, without its moment: it is late"),
+            (Err("no room".to_owned()), "no room"),
+        ] {
+            app.world().resource::<News>().sender.send(result).expect("somebody listens");
             app.update();
             let notice = app.world().resource::<Notice>();
             assert!(notice.text.contains(said) && notice.until > 1.0, "{notice:?}");

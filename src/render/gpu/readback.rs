@@ -4,6 +4,7 @@ use std::path::Path;
 
 use thiserror::Error;
 
+use crate::picture_file;
 use crate::render::Gpu;
 
 /// Why a picture could not be written.
@@ -174,15 +175,20 @@ pub struct Picture {
 impl Picture {
     /// Writes the finished picture (.png) or the linear light and layers (.exr).
     pub fn write(&self, path: &Path) -> Result<(), PictureError> {
+        self.write_with_text(path, None)
+    }
+
+    /// The same; a PNG carries `text`, if that is given.
+    pub fn write_with_text(&self, path: &Path, text: Option<&str>) -> Result<(), PictureError> {
         let failed = |reason: String| PictureError::Write { path: path.display().to_string(), reason };
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder).map_err(|error| failed(error.to_string()))?;
         }
         match path.extension().and_then(|extension| extension.to_str()) {
             Some("png") => {
-                let [width, height] = self.size;
                 let opaque: Vec<u8> = self.display.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-                image::save_buffer(path, &opaque, width, height, image::ColorType::Rgb8).map_err(|error| failed(error.to_string()))
+                let bytes = picture_file::png(&opaque, self.size, false, text).map_err(failed)?;
+                std::fs::write(path, bytes).map_err(|error| failed(error.to_string()))
             }
             Some("exr") => self.write_exr(path).map_err(|error| failed(error.to_string())),
             _ => Err(PictureError::Format(path.display().to_string())),

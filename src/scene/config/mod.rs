@@ -84,6 +84,11 @@ fn check_together(config: &GameConfig, document: &DeTable<'_>) -> Result<(), Fau
     })
 }
 
+/// What is wrong with a configuration as a whole whose values are each allowed.
+pub fn check(config: &GameConfig) -> Result<(), String> {
+    together(config).map_err(|(_, message)| message)
+}
+
 /// What single ranges cannot say: a lower end above its upper one, a key for two things. The keys that clash, and what is wrong.
 fn together(config: &GameConfig) -> Result<(), ([String; 2], String)> {
     let below = |low: &str, a: f64, high: &str, b: f64| {

@@ -110,9 +110,7 @@ impl<C> Setting<C> {
             Allowed::Integer { min, max } => format!("whole numbers {}", range_text(f64::from(min), f64::from(max), self.unit)),
             Allowed::Switch => "true or false".into(),
             Allowed::Choice(words) => format!("one of {}", words.iter().map(|word| format!("{word:?}")).collect::<Vec<_>>().join(", ")),
-            Allowed::Buttons => {
-                "up to four keys or buttons: KeyA, Digit0, F1, Space, MouseLeft, PadSouth, PadLeftStickUp, … or None".into()
-            }
+            Allowed::Buttons => "up to four of KeyA, Digit0, F1, Space, MouseLeft, PadSouth, … or None".into(),
             Allowed::Words(words) => format!("some of {}, or None", words.join(" ")),
         }
     }

@@ -61,11 +61,15 @@ pub fn load_model(path: &Path) -> Result<Model, ModelError> {
     }
 }
 
+/// The file of a model: of this name under `assets/models/`, else the one at this path.
+pub fn model_path(name: &str) -> PathBuf {
+    let inside = assets_folder().join("models").join(name);
+    if inside.is_file() || !Path::new(name).is_file() { inside } else { PathBuf::from(name) }
+}
+
 /// Reads a model by its name under `assets/models/` (or its path); on failure a placeholder and the reason.
 pub fn load_or_placeholder(name: &str) -> (Model, Option<ModelError>) {
-    let inside = assets_folder().join("models").join(name);
-    let path = if inside.is_file() || !Path::new(name).is_file() { inside } else { PathBuf::from(name) };
-    match load_model(&path) {
+    match load_model(&model_path(name)) {
         Ok(model) => (model, None),
         Err(error) => (placeholder(), Some(error)),
     }

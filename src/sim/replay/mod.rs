@@ -163,16 +163,10 @@ impl Replay {
 
     /// Its text.
     pub fn to_text(&self) -> String {
-        let value = |value: &Value| match value.clone() {
-            Value::Number(number) => toml::Value::Float(number),
-            Value::Integer(number) => toml::Value::Integer(number.into()),
-            Value::Switch(on) => toml::Value::Boolean(on),
-            Value::Word(word) => toml::Value::String(word),
-        };
         let quoted = |word: &str| toml::Value::String(word.to_owned()).to_string();
-        let mut text = format!(
+        let text = format!(
             "replay = {FORMAT}\nversion = {}\nscene = {}\nfingerprint = \"{:016x}\"\ndifficulty = \"{}\"\npilot = \"{}\"\nseed = {}\nticks = {}\n\
-             outcome = {}\nhash = {}\nsettings = {{ ",
+             outcome = {}\nhash = {}\nsettings = {}\nlog = \"{}\"\n",
             quoted(env!("CARGO_PKG_VERSION")),
             quoted(&self.scene),
             self.fingerprint,
@@ -182,10 +176,9 @@ impl Replay {
             self.ticks,
             quoted(&self.outcome),
             quoted(&self.hash),
+            settings_text(&self.settings),
+            BASE64.encode(&pack(&self.records)),
         );
-        let settings: Vec<String> = self.settings.iter().map(|(path, found)| format!("\"{path}\" = {}", value(found))).collect();
-        text += &settings.join(", ");
-        text += &format!(" }}\nlog = \"{}\"\n", BASE64.encode(&pack(&self.records)));
         let check = crc32fast::hash(text.as_bytes());
         text + &format!("check = \"{check:08x}\"\n")
     }
@@ -292,8 +285,20 @@ pub fn record(scene: &Scene, config: &GameConfig, request: &RunRequest) -> (Flig
     (report, replay)
 }
 
+/// Settings as a table, inline.
+pub(in crate::sim) fn settings_text(settings: &[(String, Value)]) -> String {
+    let value = |value: &Value| match value.clone() {
+        Value::Number(number) => toml::Value::Float(number),
+        Value::Integer(number) => toml::Value::Integer(number.into()),
+        Value::Switch(on) => toml::Value::Boolean(on),
+        Value::Word(word) => toml::Value::String(word),
+    };
+    let settings: Vec<String> = settings.iter().map(|(path, found)| format!("\"{path}\" = {}", value(found))).collect();
+    format!("{{ {} }}", settings.join(", "))
+}
+
 /// Checked settings of a file.
-fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
+pub(in crate::sim) fn settings(table: toml::Table) -> Result<Vec<(String, Value)>, String> {
     let one = |(path, value): (String, toml::Value)| {
         let setting = config::setting(&path).ok_or_else(|| format!("{path}: unknown setting"))?;
         let value = match value {

@@ -92,7 +92,8 @@ impl World<'_> {
 
     /// Intersects the piece, in the body's rest frame, with the body's tree. `bend` bounds how much it bends there, if that is known.
     fn cross_flying(&self, piece: &Piece, flying: &Flying, line: &dyn Worldline, bend: Option<Bend>, met: &mut Option<Met>) {
-        let body = |elapsed: f64| line.at(self.time - piece.segment.start - elapsed).to_body(piece.position(elapsed));
+        let late = |elapsed: f64| self.time - piece.segment.start - elapsed;
+        let body = |elapsed: f64| line.at(late(elapsed)).to_body(piece.position(elapsed));
         let span = piece.to - piece.from;
         let at = |k: usize| piece.from + span * k as f64 / 4.0;
         let ends = [body(at(0)), body(at(4))];
@@ -126,7 +127,8 @@ impl World<'_> {
                 if met.is_some_and(|met| met.elapsed < elapsed) {
                     return true;
                 }
-                first = weights(corners, normal, body(elapsed), rounding).map(|barycentrics| (elapsed, barycentrics));
+                let hit = weights(corners, normal, body(elapsed), rounding).filter(|_| line.exists_at(late(elapsed)));
+                first = hit.map(|barycentrics| (elapsed, barycentrics));
                 first.is_some()
             };
             // Only the first crossing of this triangle counts.

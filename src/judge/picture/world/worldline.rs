@@ -73,6 +73,11 @@ pub trait Worldline: Sync {
     /// The body at T = `time`, in r_s/c.
     fn at(&self, time: f64) -> Pose;
 
+    /// Whether there is such a body at T = `time`: a bolt is there from when it is fired until it ends.
+    fn exists_at(&self, _time: f64) -> bool {
+        true
+    }
+
     /// Bounds on its motion from T = `from` to `to`. None if they are not known; then the bend of light in the body's axes is measured
     /// instead.
     fn sway(&self, _from: f64, _to: f64) -> Option<Sway> {

@@ -1,0 +1,84 @@
+//! What the result says.
+
+use bevy_egui::egui::{Color32, RichText, Ui};
+
+use super::words::{stars, unit};
+use crate::play::hud::instruments::Scale;
+use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE};
+use crate::play::hud::palette::Palette;
+use crate::play::hud::panel::Panel;
+use crate::play::missions::LastFlight;
+use crate::play::player_state::Flown;
+use crate::play::session::Session;
+use crate::sim::{Chase, Outcome};
+
+/// Says how the flight ended, and its times.
+pub(super) fn result(ui: &mut Ui, session: &Session, chase: Option<&Chase>, panel: &Panel, flown: Flown) {
+    let Some((outcome, time)) = chase.and_then(|chase| chase.outcome) else { return };
+    let (palette, language) = (Palette::in_use(ui.ctx()), session.language());
+    let mut line = |words: &str, size: f32, colour| _ = ui.label(RichText::new(words).size(size).color(palette.shown(colour)));
+    line(&language.say(&format!("outcome-{}", outcome.name())), 34.0, colour_of(outcome));
+    line(&language.say(&format!("outcome-{}-why", outcome.name())), 15.0, TEXT);
+    if let Some(key) = pilot(flown) {
+        line(&language.say(key), 13.0, TRUE);
+    }
+    let scale = Scale::of(session);
+    let say = |key: &str, value: &str| language.fill(key, &[("value", value)]);
+    line(&say("result-far", &format!("{}   (T = {time:.1} r_s/c)", scale.clock(time))), 13.0, TEXT);
+    if let Some(own) = panel.decided {
+        line(&say("result-own", &scale.clock(own)), 13.0, TEXT);
+        line(&say("result-younger", &scale.clock((time - own).max(0.0))), 13.0, TEXT);
+    }
+    if let Some(fuel) = panel.instruments.and_then(|read| read.fuel) {
+        line(&say("result-fuel", &format!("{:.0} %", 100.0 * fuel)), 13.0, FAINT);
+    }
+}
+
+/// The stars and the score of a mission.
+pub(super) fn score(ui: &mut Ui, session: &Session, last: &LastFlight) {
+    let Some((won, mission)) = last.won.zip(session.scene.mission.as_ref()) else { return };
+    let (palette, language) = (Palette::in_use(ui.ctx()), session.language());
+    let unit = unit(language, mission.clock);
+    ui.label(RichText::new(stars(won.stars)).size(28.0).color(palette.shown(TRUE)));
+    let score = format!("{:.1} {unit}", won.score);
+    let before = last.before.map(|before| format!("{:.1}", before.score)).unwrap_or_default();
+    let key = match (last.is_best, last.before) {
+        (true, Some(_)) => "score-better",
+        (true, None) => "score-first",
+        (false, Some(_)) => "score-worse",
+        (false, None) => "score-only",
+    };
+    let words = language.fill(key, &[("score", score.as_str()), ("before", before.as_str())]);
+    ui.label(RichText::new(words).size(13.5).color(palette.shown(TEXT)));
+}
+
+/// The key of what the result says of the autopilot, if it flew.
+fn pilot(flown: Flown) -> Option<&'static str> {
+    match (flown.by_autopilot, flown.by_hand) {
+        (false, _) => None,
+        (true, true) => Some("result-autopilot-part"),
+        (true, false) => Some("result-autopilot"),
+    }
+}
+
+/// The colour of the headline.
+fn colour_of(outcome: Outcome) -> Color32 {
+    match outcome {
+        Outcome::Caught | Outcome::Done => OWN,
+        Outcome::HunterLost | Outcome::Taken | Outcome::ShipLost => ALARM,
+        Outcome::QuarryLost | Outcome::TimeOut | Outcome::Strayed => TRUE,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_result_says_when_the_autopilot_flew() {
+        let said = |by_hand, by_autopilot| pilot(Flown { by_hand, by_autopilot });
+        assert_eq!(said(true, false), None);
+        assert_eq!(said(false, true), Some("result-autopilot"));
+        assert_eq!(said(true, true), Some("result-autopilot-part"));
+    }
+}

@@ -1,0 +1,103 @@
+//! Pictures that are being made in the background: drawn in any size, or traced exactly.
+
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use bevy::prelude::*;
+
+use crate::picture_file;
+use crate::play::develop::{Developing, Progress};
+use crate::play::hud::notice::Notice;
+use crate::play::session::Session;
+use crate::play::window::pictures::{folders, stem};
+use crate::sim::snapshot::Snapshot;
+
+/// Rays a pixel of an exact picture.
+const SAMPLES: u32 = 4;
+
+/// How a picture is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum How {
+    /// As the game draws it.
+    Drawn,
+    /// Each pixel by rays of its own.
+    Exactly,
+}
+
+/// The picture that is being made, one at a time; the last that was asked for goes before.
+#[derive(Resource, Debug, Default)]
+pub struct Darkroom(Option<(How, Developing, PathBuf)>);
+
+/// Begins to make a picture of a moment.
+pub fn begin(world: &mut World, moment: &Snapshot, how: How) {
+    let name = stem(SystemTime::now());
+    let started = place(&name, how).and_then(|output| {
+        let carrier = carrier(moment, &name)?;
+        let developing = match how {
+            How::Drawn => Developing::draw(&carrier, &output),
+            How::Exactly => Developing::trace(&carrier, SAMPLES, &output),
+        };
+        Ok((how, developing, carrier))
+    });
+    match started {
+        Ok(job) => {
+            let before = world.get_resource_or_init::<Darkroom>().0.replace(job);
+            before.iter().for_each(|(.., carrier)| _ = std::fs::remove_file(carrier));
+        }
+        Err(why) => say_failed(world, &why),
+    }
+}
+
+/// Says that there will be no picture, and why.
+pub fn say_failed(world: &mut World, why: &str) {
+    let text = world.resource::<Session>().language().fill("photo-failed", &[("why", why)]);
+    let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 6.0;
+    world.insert_resource(Notice { text, until });
+}
+
+/// A file for the picture that is not there yet, in the first folder that can be made.
+fn place(name: &str, how: How) -> Result<PathBuf, String> {
+    let suffix = if how == How::Exactly { "-exact" } else { "" };
+    let mut wrong = "there is no folder for pictures".to_owned();
+    for folder in folders() {
+        match std::fs::create_dir_all(&folder) {
+            Ok(()) => {
+                let numbered = |n: u32| folder.join(if n == 1 { format!("{name}{suffix}.png") } else { format!("{name}-{n}{suffix}.png") });
+                if let Some(file) = (1..1000).map(numbered).find(|file| !file.exists()) {
+                    return Ok(file);
+                }
+            }
+            Err(error) => wrong = format!("{}: {error}", folder.display()),
+        }
+    }
+    Err(wrong)
+}
+
+/// A picture of one pixel that carries the moment, for the program that makes the whole one.
+fn carrier(moment: &Snapshot, name: &str) -> Result<PathBuf, String> {
+    let file = std::env::temp_dir().join(format!("{name}-{}.png", std::process::id()));
+    picture_file::write_png_with_text(&file, &[0; 3], [1, 1], &moment.to_text()).map_err(|error| error.to_string())?;
+    Ok(file)
+}
+
+/// Says how far the picture is, and where it is in the end.
+pub(super) fn watch(mut darkroom: ResMut<Darkroom>, session: Res<Session>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
+    let Some((how, developing, carrier)) = &darkroom.0 else { return };
+    let language = session.language();
+    let file = |path: &Path| path.display().to_string();
+    let (text, seconds) = match (developing.progress(), how) {
+        (Progress::Traced(share), how) => {
+            let key = if *how == How::Drawn { "photo-drawing" } else { "photo-developing" };
+            (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5)
+        }
+        (Progress::Done(path), How::Drawn) => (language.fill("photo-saved", &[("file", file(&path).as_str())]), 6.0),
+        (Progress::Done(path), How::Exactly) => (language.fill("photo-developed", &[("file", file(&path).as_str())]), 6.0),
+        (Progress::Failed(why), _) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0),
+        (Progress::Cancelled, _) => (String::new(), 0.0),
+    };
+    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
+    if seconds != 0.5 {
+        _ = std::fs::remove_file(carrier);
+        darkroom.0 = None;
+    }
+}
