@@ -96,19 +96,28 @@ pub struct LastFlight {
 }
 
 /// Records flights and keeps the best.
-pub struct MissionsPlugin;
+#[derive(Clone, Debug, Default)]
+pub struct MissionsPlugin {
+    /// Where the best flights are kept; None: in the user's data folder.
+    pub folder: Option<std::path::PathBuf>,
+}
+
+/// Where the best flights are kept, if it was said.
+#[derive(Resource)]
+struct RecordsFolder(Option<std::path::PathBuf>);
 
 impl Plugin for MissionsPlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<LastFlight>()
+        app.insert_resource(RecordsFolder(self.folder.clone()))
+            .init_resource::<LastFlight>()
             .init_resource::<Records>()
             .add_systems(Startup, read_records)
             .add_systems(Update, keep_score.in_set(GameSet::Window).run_if(resource_exists::<ReplayLog>));
     }
 }
 
-fn read_records(mut records: ResMut<Records>, mut notice: Option<ResMut<Notice>>, real: Res<Time<Real>>) {
-    let (found, said) = Records::load();
+fn read_records(folder: Res<RecordsFolder>, mut records: ResMut<Records>, mut notice: Option<ResMut<Notice>>, real: Res<Time<Real>>) {
+    let (found, said) = folder.0.as_deref().map_or_else(Records::load, Records::load_from);
     *records = found;
     if let (Some(text), Some(notice)) = (said, &mut notice) {
         **notice = Notice { text, until: real.elapsed_secs_f64() + 10.0 };

@@ -186,6 +186,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             record: args.record.clone(),
             replay,
             at_once: args.at_once,
+            data: None,
         };
         return match window::run(session, &options) {
             bevy::app::AppExit::Success => ExitCode::SUCCESS,

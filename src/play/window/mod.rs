@@ -49,6 +49,8 @@ pub struct Options {
     pub replay: Option<Replay>,
     /// Flies at once, without the title.
     pub at_once: bool,
+    /// Where the best flights are kept; None: in the user's data folder.
+    pub data: Option<std::path::PathBuf>,
 }
 
 /// What the game is drawn on.
@@ -93,7 +95,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         .add_plugins((
             SimulationPlugins,
             GamePlugin,
-            MissionsPlugin,
+            MissionsPlugin { folder: options.data.clone() },
             PicturePlugin,
             HudPlugin,
             MenusPlugin,
