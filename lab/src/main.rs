@@ -17,7 +17,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Compare(verdict::CompareArgs),
+    Compare(Box<verdict::CompareArgs>),
     #[command(subcommand)]
     Chart(charts::ChartCommand),
 }

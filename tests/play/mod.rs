@@ -1,4 +1,4 @@
-//! Tests of `src/play/` that need no window and no GPU.
+//! Tests of `src/play/` that need no window.
 
 mod heard;
 mod interface;

@@ -2,6 +2,7 @@
 //! [`crate::play::hud::markers`].
 
 pub mod ahead;
+pub mod colours;
 pub mod dials;
 pub mod goals;
 pub mod instruments;
@@ -82,23 +83,16 @@ fn draw(
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
         TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]).paint(&painter);
     }
-    let mut taken = markers::Taken::default();
-    if real.elapsed_secs_f64() < notice.until {
-        // In front of menus and the overlay too.
-        let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
-        // A mission's goal is where messages are otherwise.
-        let place = if progress.is_some() && *screen.get() == Screen::Playing {
-            rect.bottom() - 0.2 * rect.height()
-        } else {
-            rect.top() + BELOW_DIALS
-        };
-        let message = message(&front, rect, place, &notice.text);
-        taken.panels.push(message.frame);
-        message.paint(&front);
-    }
+    let says = (real.elapsed_secs_f64() < notice.until).then_some(notice.text.as_str()).filter(|words| !words.is_empty());
+    // In front of menus and the overlay too.
+    let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
     if !shown {
+        if let Some(words) = says {
+            message(&front, rect, rect.top() + BELOW_DIALS, words).paint(&front);
+        }
         return Ok(());
     }
+    let mut taken = markers::Taken::default();
     let Some(read) = panel.instruments else { return Ok(()) };
     let mut text_boxes = dials::lay(
         &painter,
@@ -127,6 +121,11 @@ fn draw(
         let scene = (language, &session.scene);
         let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules), scene };
         text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
+    }
+    if let Some(words) = says {
+        let message = message(&front, rect, middle_bottom(&text_boxes, rect) + BETWEEN, words);
+        taken.panels.push(message.frame);
+        message.paint(&front);
     }
     if let Some(words) = extra(&panel, language) {
         let at = pos2(rect.right() - MARGIN, target_top(&text_boxes, rect) - BETWEEN);
@@ -169,6 +168,12 @@ fn lay_in(context: &egui::Context, painter: &Painter) {
         // Kept by the fonts as long as it is asked for.
         let _ = painter.layout_no_wrap(letters.clone(), FontId::proportional(size), TEXT);
     }
+}
+
+/// The lower edge of the panels that come down in the middle.
+fn middle_bottom(text_boxes: &[TextBox], rect: Rect) -> f32 {
+    let middle = text_boxes.iter().map(|text_box| text_box.frame).filter(|frame| frame.x_range().contains(rect.center().x));
+    middle.filter(|frame| frame.top() < rect.center().y).map(|frame| frame.bottom()).fold(rect.top() + MARGIN, f32::max)
 }
 
 /// The upper edge of what is said of the target, the lowest panel at the right.

@@ -3,25 +3,10 @@
 
 use std::sync::Arc;
 
+pub use crate::play::hud::colours::{ALARM, FAINT, OWN, SEEN, SHADE, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
 use bevy_egui::egui::{Align, Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as Size, pos2, vec2};
 
-/// What is read.
-pub const TEXT: Color32 = Color32::from_rgb(222, 232, 240);
-/// What explains it.
-pub const FAINT: Color32 = Color32::from_rgb(168, 184, 200);
-/// The image of the target.
-pub const SEEN: Color32 = Color32::from_rgb(96, 220, 255);
-/// The target itself.
-pub const TRUE: Color32 = Color32::from_rgb(255, 176, 72);
-/// One's own motion.
-pub const OWN: Color32 = Color32::from_rgb(150, 240, 150);
-/// Danger.
-pub const ALARM: Color32 = Color32::from_rgb(255, 96, 80);
-/// Behind text, so that it stays readable before stars and before the bright disk.
-///
-/// What shines through is weighed as light, not as the eye sees it: of the white of the disk 1 % is a tenth of the way from black to white.
-pub const SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 252);
 /// Behind the names of markers: a little more is seen through them, for they lie on what they name.
 const NAME_SHADE: Color32 = Color32::from_rgba_premultiplied(4, 8, 14, 250);
 /// Space between a text box's edge and its words, in points.

@@ -1,10 +1,10 @@
 //! The colours of markers and words for the kinds of colour blindness, and with high contrast.
 //!
-//! What is painted is named by its standard colour ([`super::paint`]); the palette says which colour it has for this player.
+//! What is painted is named by its standard colour ([`super::colours`]); the palette says which colour it has for this player.
 
 use bevy_egui::egui::{Color32, Context, Id};
 
-use crate::play::hud::paint::{ALARM, FAINT, OWN, SEEN, SHADE, TEXT, TRUE};
+use crate::play::hud::colours::{ALARM, FAINT, OWN, SEEN, SHADE, TEXT, TRUE};
 use crate::scene::config::Accessibility;
 
 /// For whom the colours are.

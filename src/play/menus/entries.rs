@@ -164,7 +164,7 @@ pub struct Menu {
     /// A button is awaited for this action and column.
     pub awaits: Option<(Action, usize)>,
     /// The focus in the pages below.
-    before: Vec<usize>,
+    pub(super) before: Vec<usize>,
     /// The screen that the entries belong to.
     pub screen: Option<Screen>,
 }

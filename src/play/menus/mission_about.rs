@@ -2,15 +2,24 @@
 
 use bevy_egui::egui::{RichText, Ui};
 
-use super::title::Title;
 use super::words::{goal, measure, unit};
 use crate::play::hud::instruments::Scale;
 use crate::play::hud::paint::{FAINT, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
+use crate::play::missions::Catalogue;
+use crate::play::records::Records;
 use crate::play::session::Session;
 use crate::scene::Scene;
 use crate::scene::mission::{Mission, ScoredBy};
 use crate::scene::ship::Ai;
+
+/// What the title is made of.
+pub(super) struct Title<'a> {
+    pub(super) catalogue: &'a Catalogue,
+    pub(super) records: &'a Records,
+    pub(super) choice: usize,
+    pub(super) free: usize,
+}
 
 /// Says what the chosen mission, or the scene for free flight, is about.
 pub(super) fn about(ui: &mut Ui, session: &Session, title: &Title) {

@@ -41,8 +41,9 @@ use crate::play::words::Language;
 use crate::scene::ship::Ai;
 use crate::sim::replay::Playback;
 use crate::sim::{Chase, Clock};
+use mission_about::Title;
 use rows::{header, rows};
-use title::{ABOUT, LIST, Title, title};
+use title::{ABOUT, LIST, title};
 use words::{Prompts, camera_hint, goal, hint};
 
 /// What the menus know and do, without painting them. Needs [`GamePlugin`](crate::play::game::GamePlugin).

@@ -147,3 +147,63 @@ fn value(painter: &egui::Painter, cell: Rect, entry: &Entry, k: usize, chosen: b
         painter.rect_stroke(cell.shrink(2.0), 3.0, Stroke::new(1.0, colour), StrokeKind::Inside);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::play::menus::entries::Way;
+    use crate::play::menus::screens::MenuAction;
+    use bevy_egui::egui::{Area, Context, Event, Id, Modifiers, PointerButton, Pos2, RawInput};
+
+    /// What a menu of two entries, a button and a slider, notes of these events of the mouse.
+    fn touched(events: Vec<Event>) -> Vec<Touch> {
+        let setting = crate::scene::config::setting("sound.music").expect("a setting");
+        let entries = vec![
+            Entry::new("quit", "Quit".into(), Does::Ask(MenuAction::Quit)),
+            Entry { share: Some(0.5), ..Entry::new("music", "Music".into(), Does::Choose(setting)).valued("50 %".into()) },
+        ];
+        let mut menu = Menu { entries, ..Menu::default() };
+        let context = Context::default();
+        let screen = Rect::from_min_size(Pos2::ZERO, vec2(400.0, 300.0));
+        let mut draw = |events: Vec<Event>| {
+            let input = RawInput { screen_rect: Some(screen), events, ..RawInput::default() };
+            // What is drawn with the result is nobody's.
+            let _ = context.run_ui(input, |ui| {
+                Area::new(Id::new("menu")).fixed_pos(pos2(0.0, 0.0)).show(ui.ctx(), |ui| {
+                    ui.set_width(400.0);
+                    ui.spacing_mut().item_spacing = vec2(0.0, 0.0);
+                    rows(ui, &mut menu);
+                });
+            });
+        };
+        // Measured, painted; then the mouse, a frame for each event.
+        draw(Vec::new());
+        draw(Vec::new());
+        events.into_iter().for_each(|event| draw(vec![event]));
+        menu.touched
+    }
+
+    fn click(at: Pos2) -> Vec<Event> {
+        let button = |pressed| Event::PointerButton { pos: at, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
+        vec![Event::PointerMoved(at), button(true), button(false)]
+    }
+
+    #[test]
+    fn a_click_chooses_and_confirms() {
+        let done = touched(click(pos2(60.0, 12.0)));
+        assert_eq!(done, [Touch::Focus(0, 0), Touch::Confirm]);
+    }
+
+    #[test]
+    fn the_pointer_takes_the_focus_with_it() {
+        assert_eq!(touched(vec![Event::PointerMoved(pos2(60.0, 38.0)), Event::PointerMoved(pos2(62.0, 38.0))])[0], Touch::Focus(1, 0));
+    }
+
+    /// The bar begins 184 points from the right edge and is 110 long.
+    #[test]
+    fn a_bar_is_turned_where_it_is_clicked() {
+        let done = touched(click(pos2(400.0 - BAR - NUMBER - PAD + 0.75 * BAR, 38.0)));
+        assert!(done.iter().any(|touch| matches!(touch, Touch::Turn(share) if (share - 0.75).abs() < 0.02)), "{done:?}");
+        assert!(!done.contains(&Touch::Confirm) && !done.contains(&Touch::Step(Way::Up)), "{done:?}");
+    }
+}

@@ -2,24 +2,14 @@
 
 use bevy_egui::egui::{RichText, Ui};
 
-use super::mission_about::about;
+use super::mission_about::{Title, about};
 use super::rows::row;
 use super::words::stars;
 use crate::play::hud::paint::{FAINT, TEXT, TRUE};
 use crate::play::hud::palette::Palette;
 use crate::play::menus::entries::{Does, Menu};
-use crate::play::missions::Catalogue;
-use crate::play::records::Records;
 use crate::play::session::Session;
 use bevy_egui::egui::{Align2, FontId, vec2};
-
-/// What the title is made of.
-pub(super) struct Title<'a> {
-    pub(super) catalogue: &'a Catalogue,
-    pub(super) records: &'a Records,
-    pub(super) choice: usize,
-    pub(super) free: usize,
-}
 
 /// Width of the list of missions, in points.
 pub(super) const LIST: f32 = 290.0;

@@ -11,7 +11,7 @@ use bevy::window::PrimaryWindow;
 
 use crate::play::camera::{CameraView, state_of};
 use crate::play::menus::screens::Screen;
-use crate::play::photo::Photo;
+use crate::play::photo::state::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;

@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
 
 use crate::play::missions::{LastFlight, TitleFlight, Watched};
-use crate::play::photo::Photo;
+use crate::play::photo::state::Photo;
 use crate::play::picture::{CurrentShot, now};
 use crate::play::session::Session;
 use crate::sim::Clock;

@@ -12,7 +12,9 @@ pub fn install(context: &Context) {
     let mut fonts = FontDefinitions::default();
     fonts.font_data.insert("japanese".into(), Arc::new(FontData::from_static(JAPANESE)));
     for family in [FontFamily::Proportional, FontFamily::Monospace] {
-        fonts.families.entry(family).or_default().push("japanese".into());
+        // After the letters, before the signs: those of egui have wide brackets and question marks of another kind.
+        let names = fonts.families.entry(family).or_default();
+        names.insert(names.len().min(1), "japanese".into());
     }
     context.set_fonts(fonts);
 }
