@@ -263,6 +263,12 @@ fn the_menus_by_the_gamepad() {
     press(&mut app, GamepadButton::Start);
     assert_eq!(screen(&app), Screen::Paused);
     choose(&mut app, "title");
-    choose(&mut app, "quit");
+    go(&mut app, "quit", &mut |app| press(app, GamepadButton::DPadDown));
+    app.world_mut().write_message(RawGamepadEvent::Button(RawGamepadButtonChangedEvent {
+        gamepad: pad,
+        button: GamepadButton::South,
+        value: 1.0,
+    }));
+    app.update();
     assert!(app.should_exit().is_some());
 }
