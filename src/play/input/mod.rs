@@ -36,12 +36,16 @@ impl Plugin for ControlsPlugin {
         app.add_plugins(InputManagerPlugin::<Action>::default())
             .init_resource::<Bindings>()
             .init_resource::<Taps>()
+            .init_resource::<NextTaps>()
             .init_resource::<Device>()
             .init_resource::<MouseTurn>()
             .init_resource::<AccumulatedMouseMotion>()
             .add_systems(
                 PreUpdate,
-                (map_buttons.before(InputManagerSystem::Update), (note_taps, note_device).after(InputManagerSystem::Update)),
+                (
+                    map_buttons.before(InputManagerSystem::Update),
+                    ((note_taps, take_taps).chain(), note_device).after(InputManagerSystem::Update),
+                ),
             );
     }
 }
@@ -50,18 +54,25 @@ impl Plugin for ControlsPlugin {
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq)]
 pub struct Taps([bool; Action::ALL.len()]);
 
+/// What is switched on from this frame on.
+#[derive(Resource, Clone, Copy, Debug, Default)]
+struct NextTaps(Taps);
+
 fn map_buttons(bindings: Res<Bindings>, mut maps: Query<&mut InputMap<Action>>) {
     if bindings.is_changed() {
         maps.iter_mut().for_each(|mut map| *map = bindings.map());
     }
 }
 
-fn note_taps(bindings: Res<Bindings>, actions: Query<&ActionState<Action>>, mut taps: ResMut<Taps>) {
+fn note_taps(input: PlayerInput, mut taps: ResMut<NextTaps>) {
     for action in Action::ALL {
-        let on = taps.0[action as usize];
-        let tapped = actions.iter().any(|actions| actions.just_pressed(&action));
-        taps.0[action as usize] = bindings.is_tapped(action) && (on != tapped);
+        let on = input.taps.0[action as usize];
+        taps.0.0[action as usize] = input.bindings.is_tapped(action) && (on != input.pushed(action));
     }
+}
+
+fn take_taps(next: Res<NextTaps>, mut taps: ResMut<Taps>) {
+    *taps = next.0;
 }
 
 /// Which device was used last: prompts name its buttons.
@@ -111,9 +122,15 @@ impl PlayerInput<'_, '_> {
         }
     }
 
-    /// Whether it went down in this frame.
+    /// Whether it went down in this frame. A short press may begin and end within one, which leaves nothing that is held.
     pub fn pushed(&self, action: Action) -> bool {
-        self.actions.iter().any(|actions| actions.just_pressed(&action))
+        let shortly = self.bindings.buttons(action).iter().any(|button| match *button {
+            Button::Key(key) => self.keys.just_pressed(key),
+            Button::Mouse(button) => self.mouse.just_pressed(button),
+            Button::Pad(button) => self.pads.iter().any(|pad| pad.just_pressed(button)),
+            Button::Stick(..) => false,
+        });
+        shortly || self.actions.iter().any(|actions| actions.just_pressed(&action))
     }
 
     /// Whether a key, or a button that is pressed or not, asks for `action`.
@@ -301,6 +318,18 @@ pub(in crate::play) mod tests {
         assert_eq!(up(&mut app), 0.5);
         app.insert_resource(Bindings::of(&GameConfig::default()));
         assert_eq!(up(&mut app), -1.0);
+    }
+
+    /// A press that begins and ends between two slow frames counts.
+    #[test]
+    fn a_short_press_is_not_missed() {
+        let mut app = devices(&GameConfig::default());
+        press_key(&mut app, KeyCode::F1, ButtonState::Pressed);
+        press_key(&mut app, KeyCode::F1, ButtonState::Released);
+        app.update();
+        assert!(ask(&mut app, |hands| hands.pushed(Action::WhatAmISeeing) && !hands.holds(Action::WhatAmISeeing)));
+        app.update();
+        assert!(!ask(&mut app, |hands| hands.pushed(Action::WhatAmISeeing)));
     }
 
     /// One tap thrusts, the next stops.

@@ -107,7 +107,8 @@ fn point_camera(
             FrameCamera::caught((caught, history, now.session.length(caught)), state.position, time, field_of_view)
         }
         _ => {
-            let turn = if video.reduced_motion { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
+            let stands = video.reduced_motion || *screen.get() == Screen::Warning;
+            let turn = if stands { 0.0 } else { real.elapsed_secs_f64() * TITLE_TURN };
             FrameCamera::afar(state.position, turn, field_of_view)
         }
     });
