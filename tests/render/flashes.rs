@@ -94,7 +94,11 @@ fn assert_slow(means: &[f64], what: &str) {
     let most = GREATEST_RISE * SECONDS + TOLERANCE;
     let steepest = means.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let second = means.windows(31).map(|second| second[30] - second[0]).fold(0.0, f64::max);
-    println!("{what}: {} frames to {:.4}, by {steepest:.5} at most in one, {second:.4} in a second", means.len() - 1, means[means.len() - 1]);
+    println!(
+        "{what}: {} frames to {:.4}, by {steepest:.5} at most in one, {second:.4} in a second",
+        means.len() - 1,
+        means[means.len() - 1]
+    );
     assert!(steepest <= most, "{what}: by {steepest} in a frame, {most} are allowed");
     assert!(second <= GREATEST_RISE + TOLERANCE, "{what}: by {second} in a second");
 }
