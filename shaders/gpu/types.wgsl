@@ -42,6 +42,9 @@ struct Frame {
     unmetered: vec4<f32>,
     /// Indices of the disk's triangles in the picture, as DiskCounters has them; some number if it is not drawn from arcs.
     disk: vec4<u32>,
+    /// How far the mean luminance of the picture as shown may rise, where it is bound: x: by how much of white in this frame, y: 1 over
+    /// that of the frame before, 0 over black.
+    rise: vec4<f32>,
 }
 
 const FLAG_DOPPLER: u32 = 1u;

@@ -5,7 +5,7 @@
 #import lensrunner::gpu::types::FLAG_HOLD_EXPOSURE
 
 @group(2) @binding(0) var source: texture_2d<f32>;
-/// State from the last frame: x: exposure, y: mean log luminance, z: 1 once it has been set.
+/// State from the last frame: x: exposure, y: mean log luminance, z: 1 once it has been set; w: 1.
 @group(2) @binding(1) var<storage, read_write> adaptation: vec4<f32>;
 
 var<workgroup> sums: array<vec2<f32>, 64>;
@@ -43,6 +43,6 @@ fn main(@builtin(local_invocation_index) lane: u32) {
         // In stops, like the eye; the first frame begins at the target.
         let nearer = exp(mix(log(max(adaptation.x, 1e-12)), log(wanted), select(frame.exposure.z, 1.0, adaptation.z == 0.0)));
         let exposure = select(nearer, adaptation.x, (frame.switches.x & FLAG_HOLD_EXPOSURE) != 0u);
-        adaptation = vec4<f32>(exposure, metered, 1.0, 0.0);
+        adaptation = vec4<f32>(exposure, metered, 1.0, 1.0);
     }
 }

@@ -1,11 +1,12 @@
 // Tone mapping: exposure, bloom, tone curve. The target encodes sRGB.
 
-#import lensrunner::gpu::bindings::frame
+#import lensrunner::post_process::tone_curve::display_light
 
 @group(2) @binding(0) var picture: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
 @group(2) @binding(2) var bloom: texture_2d<f32>;
-/// A copy of `adaptation`: of a storage buffer that may be written, a software driver reads every pixel's anew.
+/// A copy of `adaptation`; w: factor on the picture that flashes.wgsl chose, else 1. Of a storage buffer that may be written, a software
+/// driver reads every pixel's anew.
 @group(2) @binding(3) var<uniform> adapted: vec4<f32>;
 
 struct Screen {
@@ -17,16 +18,6 @@ struct Screen {
 fn vertex(@builtin(vertex_index) i: u32) -> Screen {
     let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
     return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
-}
-
-/// A filmic curve: straight in the dark, a soft shoulder that reaches white at about ten times middle grey; colours lose their hue only
-/// as they come near to white.
-fn tone_curve(x: vec3<f32>) -> vec3<f32> {
-    let peak = max(max(x.r, max(x.g, x.b)), 1e-12);
-    let mapped = 1.0 - exp(-peak);
-    let toned = x * (mapped / peak);
-    let bleach = smoothstep(0.6, 1.0, mapped);
-    return toned + bleach * bleach * (vec3<f32>(1.0) - toned);
 }
 
 /// The picture, and once more for what smooths its outlines.
@@ -47,11 +38,9 @@ fn fragment(in: Screen) -> @location(0) vec4<f32> {
 }
 
 fn fragment_colour(in: Screen) -> vec4<f32> {
-    // Infinite where sums of light were more than halves can hold.
-    let light = min(textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb, vec3<f32>(6e4));
     let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
-    let exposed = mix(light, glow, frame.light.w) * (adapted.x * frame.light.x);
+    let light = display_light(textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb, glow, adapted.x) * adapted.w;
     // Half a step of 8-bit noise against banding in the dark.
     let noise = fract(52.9829189 * fract(dot(in.position.xy, vec2<f32>(0.06711056, 0.00583715)))) - 0.5;
-    return vec4<f32>(max(tone_curve(exposed) + noise / 1024.0, vec3<f32>(0.0)), 1.0);
+    return vec4<f32>(max(light + noise / 1024.0, vec3<f32>(0.0)), 1.0);
 }

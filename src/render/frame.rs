@@ -78,6 +78,8 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         fill: [settings.fill[0], settings.fill[1], 1.0, 0.0],
         unmetered: [settings.unmetered[0], settings.unmetered[1], settings.unmetered[2], settings.exposure_key],
         disk: [0; 4],
+        // Over what, the renderer knows.
+        rise: [settings.rise, 0.0, 0.0, 0.0],
     }
 }
 

@@ -150,12 +150,12 @@ fn upload_scene(scene: Res<SceneToDraw>, mut renderer: ResMut<OwnedRenderer>) {
 
 fn draw(view: ViewQuery<&ViewTarget>, frame: Res<FrameToDraw>, mut renderer: ResMut<OwnedRenderer>, mut context: RenderContext) {
     let target = view.into_inner();
-    let Some(input) = &frame.0 else { return };
-    let size = target.main_texture().size();
-    if size.width == 0 || size.height == 0 {
-        return;
-    }
     let renderer = renderer.0.get();
+    let size = target.main_texture().size();
+    let Some(input) = frame.0.as_ref().filter(|_| size.width > 0 && size.height > 0) else {
+        renderer.nothing_shown();
+        return;
+    };
     renderer.set_output_format(target.main_texture_format());
     renderer.resize([size.width, size.height]);
     if input.camera.radius() < NEAR_THE_HORIZON {
@@ -163,5 +163,7 @@ fn draw(view: ViewQuery<&ViewTarget>, frame: Res<FrameToDraw>, mut renderer: Res
     }
     if renderer.prepare(input) {
         renderer.encode(context.command_encoder(), target.main_texture_view());
+    } else {
+        renderer.nothing_shown();
     }
 }

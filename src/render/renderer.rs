@@ -82,11 +82,25 @@ pub struct Renderer {
     hidden: bool,
     /// The frame has bodies whose outlines are to be smooth.
     smooth: bool,
+    /// The rise of the frame's mean brightness is bound.
+    steady: bool,
+    before: Before,
     timing: Timing,
     /// Whether counters are brought back after each frame.
     counting: bool,
     /// The counters of geometry and disk of an earlier frame.
     counted: [DeferredCopy; 2],
+}
+
+/// What was on the screen before a frame: over that its mean brightness may rise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Before {
+    /// Nothing.
+    Black,
+    /// A picture of unknown brightness.
+    Unmeasured,
+    /// A picture whose brightness is kept on the device.
+    Measured,
 }
 
 impl Renderer {
@@ -136,6 +150,8 @@ impl Renderer {
             targets,
             hidden: size.contains(&0),
             smooth: false,
+            steady: false,
+            before: Before::Black,
             counting: false,
             counted: Default::default(),
         }
@@ -214,9 +230,16 @@ impl Renderer {
     pub fn set_output_format(&mut self, format: wgpu::TextureFormat) {
         if format != self.format {
             self.format = format;
+            // What the passes kept of the picture before goes with them.
+            self.before = Before::Black;
             self.post_process = PostProcess::new(&self.gpu.device, &self.frame_layout, format);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
+    }
+
+    /// The screen has stayed black in place of a frame.
+    pub fn nothing_shown(&mut self) {
+        self.before = Before::Black;
     }
 
     /// Uploads what the frame needs. There must be a device and a size, and the camera must be finite and away from r = 0; else the frame
@@ -259,6 +282,13 @@ impl Renderer {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
             uniform.disk = [1; 4];
         }
+        self.steady = input.settings.rise.is_finite();
+        match self.before {
+            Before::Black => {}
+            // Nobody sees a jump here: it is the picture that was shown without a bound.
+            Before::Unmeasured => uniform.rise[0] = f32::MAX,
+            Before::Measured => uniform.rise[1] = 1.0,
+        }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
@@ -292,7 +322,8 @@ impl Renderer {
         shown.draw_aurora(&mut recording, true);
         shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
         shown.draw_aurora(&mut recording, false);
-        self.post_process.run(&mut recording, &self.adaptation, self.smooth, output);
+        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, output);
+        self.before = if self.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
             if let Some(disk) = disk {

@@ -52,6 +52,9 @@ pub struct Settings {
     pub exposure_bias: f32,
     /// How far the exposure moves in this frame towards what it should be, (0, 1]; 1 at once.
     pub adaptation: f32,
+    /// How far the mean luminance of the picture as shown may rise in this frame, of 1 for white; infinite: as it likes. See
+    /// [`greatest_rise`].
+    pub rise: f32,
     /// The exposure stays as it is.
     pub hold_exposure: bool,
     /// The player's own ship, by its number among the scene's: lit for the picture and not metered. None for what is measured.
@@ -72,6 +75,16 @@ pub struct Settings {
 
 /// Light that any middle grey may have: the own ship is drawn as it is lit.
 pub const ANY_FILL: [f32; 2] = [0.0, f32::MAX];
+
+/// How fast the mean luminance of the picture may rise with `accessibility.reduced_flashes`, of 1 for white, in 1/s.
+pub const GREATEST_RISE: f64 = 0.1;
+/// A frame that took longer counts as this, in s: after a wait the picture must not jump by what has gathered.
+const LONGEST_FRAME: f64 = 0.1;
+
+/// [`Settings::rise`] of a frame that took `seconds`, if it is bound.
+pub fn greatest_rise(reduced_flashes: bool, seconds: f64) -> f32 {
+    if reduced_flashes { (GREATEST_RISE * seconds.clamp(0.0, LONGEST_FRAME)) as f32 } else { f32::INFINITY }
+}
 
 impl Settings {
     /// All that can be drawn, at its finest, as it shines: what tests measure. The game draws by [`super::stage::settings`].
@@ -100,6 +113,7 @@ impl Settings {
             exposure_key: 0.35,
             exposure_bias: 1.0,
             adaptation: 1.0,
+            rise: f32::INFINITY,
             hold_exposure: false,
             own_ship: None,
             engines: None,

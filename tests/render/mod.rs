@@ -3,6 +3,7 @@
 mod aurora;
 mod disk;
 mod engines;
+mod flashes;
 mod geometry;
 mod gpu;
 mod instances;

@@ -15,6 +15,7 @@ use thiserror::Error;
 use crate::picture_file;
 use crate::render::gpu::readback::{self, PictureError};
 use crate::render::gpu::targets::target;
+use crate::render::settings::greatest_rise;
 use crate::render::shot::surroundings;
 use crate::render::stage::{Stage, settings};
 use crate::render::{Gpu, Renderer};
@@ -147,6 +148,8 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
     let started = Instant::now();
     let mut times = Vec::new();
     let mut passes = Vec::new();
+    let seconds = (span[1] - span[0]) / f64::from(flight.frames) / session.config.clock.pace;
+    settings.rise = greatest_rise(session.config.accessibility.reduced_flashes, seconds);
     for index in 0..flight.frames {
         let began = Instant::now();
         let share = f64::from(index) / f64::from((flight.frames - 1).max(1));
@@ -161,7 +164,6 @@ pub fn fly(gpu: &Gpu, session: &Session, flight: &DemonstrationRequest) -> Resul
         times.push(began.elapsed().as_secs_f64() * 1e3);
         passes = renderer.timing().latest().to_vec();
         // From the second frame on the eye adapts, by the time that passes for a player.
-        let seconds = (span[1] - span[0]) / f64::from(flight.frames) / session.config.clock.pace;
         settings.adaptation = (1.0 - (-session.config.render.exposure_speed * seconds).exp2()) as f32;
         let (ticks, lit) = (step_after(time, step) as u64, settings.own_ship);
         let seen = View { time, ticks, camera, size: flight.size, hidden, lit };

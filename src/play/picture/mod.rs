@@ -16,7 +16,7 @@ use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
 use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
-use crate::render::settings::ANY_FILL;
+use crate::render::settings::{ANY_FILL, Settings, greatest_rise};
 use crate::render::stage::{Stage, settings};
 use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
@@ -124,18 +124,26 @@ fn make_frame(
     mut frame: ResMut<FrameToDraw>,
     mut last: Local<Option<(ScreenContent, f64)>>,
 ) {
-    let (Some(size), Some(shot)) = (area(&windows), shot.0) else { return };
+    let seconds = real.delta_secs_f64();
+    let rise = greatest_rise(now.session.config.accessibility.reduced_flashes, seconds);
+    let (Some(size), Some(shot)) = (area(&windows), shot.0) else {
+        // The frame before is shown once more.
+        if let Some(frame) = &mut frame.0 {
+            frame.settings.rise = rise;
+        }
+        return;
+    };
     let config = &now.session.config.drawn();
     let config = &photo.map_or_else(|| config.clone(), |photo| photo.config(config));
     // Times of an earlier frame will do.
     staged.0.ration_aurora(&statistics.passes);
-    let mut settings = settings(config);
+    let mut settings = Settings { rise, ..settings(config) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
         // should be.
         settings.fill = ANY_FILL;
     } else {
-        settings.adaptation = (1.0 - (-config.render.exposure_speed * real.delta_secs_f64()).exp2()) as f32;
+        settings.adaptation = (1.0 - (-config.render.exposure_speed * seconds).exp2()) as f32;
     }
     settings.own_ship = shot.lit;
     settings.engines = Some([config.ship.thrust, config.enemy.thrust]);

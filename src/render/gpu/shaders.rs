@@ -59,6 +59,8 @@ pub enum Pass {
     Bloom,
     /// Meters the light.
     Exposure,
+    /// Measures the brightness of the whole picture.
+    Flashes,
     /// Exposes, blooms, encodes.
     ToneMap,
     /// Smooths outlines of bodies.
@@ -83,7 +85,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 32] = [
+    pub const ALL: [Pass; 33] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -106,6 +108,7 @@ impl Pass {
         Pass::Compose,
         Pass::Bloom,
         Pass::Exposure,
+        Pass::Flashes,
         Pass::ToneMap,
         Pass::Smooth,
         Pass::DiskVertices,
@@ -186,6 +189,7 @@ impl Pass {
             Pass::Compose => file!("post_process/compose.wgsl"),
             Pass::Bloom => file!("post_process/bloom.wgsl"),
             Pass::Exposure => file!("post_process/exposure.wgsl"),
+            Pass::Flashes => file!("post_process/flashes.wgsl"),
             Pass::ToneMap => file!("post_process/tone_map.wgsl"),
             Pass::Smooth => file!("post_process/smooth.wgsl"),
             Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),

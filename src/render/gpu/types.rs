@@ -25,6 +25,7 @@ pub struct Frame {
     pub fill: [f32; 4],
     pub unmetered: [f32; 4],
     pub disk: [u32; 4],
+    pub rise: [f32; 4],
 }
 
 /// Bits of `Frame::switches[0]`, the `FLAG_*` of WGSL.

@@ -1,6 +1,7 @@
-//! Post-processing: thin triangles laid over, bloom, exposure, tone curve, outlines smoothed.
+//! Post-processing: thin triangles laid over, bloom, exposure, reduced flashes, tone curve, outlines smoothed.
 
 pub mod coverage;
+pub mod flashes;
 
 use wgpu::ShaderStages;
 
@@ -9,6 +10,8 @@ use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::{Targets, target};
 use crate::render::passes::{Recording, colour};
+
+use flashes::Flashes;
 
 /// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
 pub const TILE: u32 = 16;
@@ -31,8 +34,9 @@ pub struct PostProcess {
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
-    /// The exposure that the exposure pass chose, for the pixels.
+    /// The exposure that the exposure pass chose, for the pixels, and the factor on the picture.
     adapted: wgpu::Buffer,
+    flashes: Flashes,
     groups: Option<Groups>,
 }
 
@@ -85,6 +89,7 @@ impl PostProcess {
                 min_filter: wgpu::FilterMode::Linear,
                 ..Default::default()
             }),
+            flashes: Flashes::new(device, frame_layout),
             adapted: buffer(device, "adapted", 16, wgpu::BufferUsages::UNIFORM),
             thin_layout,
             sampled_layout,
@@ -99,6 +104,7 @@ impl PostProcess {
     pub fn resize(&mut self, gpu: &Gpu, targets: &Targets, adaptation: &wgpu::Buffer) {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
+        self.flashes.resize(device, targets, &self.sampler, &self.adapted);
         let (_, display) = target(device, "display", targets.size, self.output);
         let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
@@ -136,8 +142,8 @@ impl PostProcess {
     }
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
-    /// frame's exposure is kept in.
-    pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, smooth: bool, output: &wgpu::TextureView) {
+    /// frame's exposure is kept in. `steady`: the rise of its mean brightness is bound.
+    pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, smooth: bool, steady: bool, output: &wgpu::TextureView) {
         let Some(groups) = &self.groups else { return };
         let targets = recording.targets;
         for (view, level) in targets.bloom.iter().zip(&groups.sampled) {
@@ -161,6 +167,9 @@ impl PostProcess {
         for (from, to) in [(1, &targets.glow), (last, &targets.bloom[0])] {
             let (from, to) = (&groups.sampled[from], &[Some(colour(to, true))]);
             begin(recording, ["bloom", "bloom soften"], to, &self.soften, from).draw(0..3, 0..1);
+        }
+        if steady {
+            self.flashes.run(recording, &self.adapted);
         }
         // The pass that smooths outlines reads the picture before that.
         let both = [output, &groups.display].map(|view| Some(colour(view, true)));

@@ -23,7 +23,7 @@ use lensrunner::render::method::Method;
 use lensrunner::render::models::ALONE;
 use lensrunner::render::models::hiding::DIRECTIONS;
 use lensrunner::render::models::outside;
-use lensrunner::render::post_process::TILE;
+use lensrunner::render::post_process::{TILE, flashes};
 use wgpu::naga::{Expression, Literal, Module};
 
 use crate::layout::{fields, fields_of, struct_of};
@@ -53,7 +53,7 @@ fn structs_have_one_layout_in_both_languages() {
         (
             "gpu::types::Frame",
             fields!(Frame: camera_from_rain, rain_from_camera, radial, side_a, side_b, projection, size, light, exposure, switches,
-            sky_x, sky_y, sky_z, capacity, fill, unmetered, disk),
+            sky_x, sky_y, sky_z, capacity, fill, unmetered, disk, rise),
         ),
         (
             "gpu::types::Instance",
@@ -126,6 +126,7 @@ fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
 fn constants_of_passes_have_one_value_in_both_languages() {
     let cases = [
         (Pass::Smooth, "TILE", f64::from(TILE)),
+        (Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)),
         (Pass::AuroraWalk, "DEPTH_TILES", f64::from(DEPTH_TILES)),
         (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE)),
     ];
