@@ -1,5 +1,6 @@
-//! Tests of `src/play/` that need no window and no GPU.
+//! Tests of `src/play/` that need no window.
 
 mod heard;
 mod samples;
 mod sound;
+mod trailer;

@@ -70,20 +70,19 @@ pub enum TrailerError {
 /// Quality of the pictures, 1 to 100: at 90 neither stars nor letters have a seam round them.
 const QUALITY: u8 = 90;
 /// Light of the picture behind the title, of 1.
-const BEHIND_TITLE: f64 = 0.55;
+const BEHIND_TITLE: f64 = 0.7;
 
 /// Makes a film of these parts, at least one; how many pictures it has.
-pub fn make(args: &TrailerArgs, parts: &[Part]) -> Result<u32, TrailerError> {
+pub fn make(gpu: &Gpu, args: &TrailerArgs, parts: &[Part]) -> Result<u32, TrailerError> {
     let failed = |reason: String| TrailerError::Write { path: args.output.clone(), reason };
     // What cannot be written is said before the work.
     let file = File::create(&args.output).map_err(|error| failed(error.to_string()))?;
-    let gpu = Gpu::headless()?;
     let format = AviFormat { size: args.size, fps: args.fps, rate: RATE };
     let mut avi = AviWriter::new(BufWriter::new(file), format).map_err(|error| failed(error.to_string()))?;
     let mut takes = parts.iter().map(Take::play).collect::<Result<Vec<Take>, TakeError>>()?;
     let (frames, seconds) = (args.seconds * args.fps, f64::from(args.seconds));
     let sound = score::score(parts, &takes, seconds);
-    let mut studio = Studio::new(&gpu, args.size);
+    let mut studio = Studio::new(gpu, args.size);
     let bar = progress(frames);
     for index in 0..frames {
         let moment = Moment::at(parts, f64::from(index) / f64::from(frames), seconds);
@@ -105,7 +104,7 @@ pub fn make(args: &TrailerArgs, parts: &[Part]) -> Result<u32, TrailerError> {
 
 /// Makes it and says so.
 pub fn run(args: &TrailerArgs) -> Result<String, TrailerError> {
-    let frames = make(args, &PARTS)?;
+    let frames = make(&Gpu::headless()?, args, &PARTS)?;
     let ([width, height], path): (_, &Path) = (args.size, &args.output);
     Ok(format!("{}: {frames} pictures of {width}x{height}, {} s", path.display(), args.seconds))
 }
@@ -169,8 +168,8 @@ fn finish(letters: &mut Letters, part: &Part, moment: &Moment, size: [u32; 2], r
     letters.write(part.line, &line, size, rgb);
     if title > 0.0 {
         let strength = moment.light * title;
-        letters.write(TITLE[0], &Style { height: 0.17, at: 0.44, spread: 0.22, strength }, size, rgb);
-        letters.write(TITLE[1], &Style { height: 0.055, at: 0.6, spread: 0.06, strength }, size, rgb);
+        letters.write(TITLE[0], &Style { height: 0.17, at: 0.26, spread: 0.22, strength }, size, rgb);
+        letters.write(TITLE[1], &Style { height: 0.055, at: 0.4, spread: 0.06, strength }, size, rgb);
     }
 }
 

@@ -44,28 +44,92 @@ pub struct Part {
     pub line: &'static str,
 }
 
-/// The trailer, in its order. Its usual length is the sum of the seconds.
-pub const PARTS: [Part; 12] = [
-    part(Place::Scene("disk"), [0.0, 6.0], 4.0, Camera::Hover([4.0, -34.0, 8.0], [-4.0, -23.0, 2.5]), 60.0, 0.1, "Nothing is hidden behind a black hole."),
-    part(Place::Flight("03-through-the-disk"), [60.0, 66.0], 4.0, Camera::Director(Shot::Chase), 75.0, 0.5, ""),
-    part(Place::Flight("03-through-the-disk"), [88.0, 94.0], 4.0, Camera::Director(Shot::Chase), 75.0, 0.5, ""),
-    part(Place::Flight("04-the-ghost"), [100.0, 106.0], 4.0, Camera::Director(Shot::Chase), 75.0, 0.5, ""),
-    part(Place::Scene("aurora-lensed"), [0.0, 12.0], 4.0, Camera::Own, 0.0, 0.5, ""),
-    part(Place::Scene("chase"), [0.0, 2.0], 4.0, Camera::Planet([3.0, -1.2, 0.6], [2.2, -0.6, 0.9], [-15.0, 0.0, -3.0]), 70.0, 0.5, ""),
-    part(Place::Scene("aurora-orbit"), [0.0, 2.0], 4.0, Camera::Own, 0.0, 0.5, ""),
-    part(Place::Flight("10-no-way-back"), [58.0, 63.5], 4.0, Camera::Director(Shot::Chase), 80.0, 0.5, ""),
-    part(Place::Scene("plunge"), [0.2, 1.6], 4.0, Camera::Own, 0.0, 0.5, ""),
-    part(Place::Scene("galaxy-axis"), [0.0, 1.0], 4.0, Camera::Hover([7.0, 2.0, 15.0], [0.0, 0.0, 15.0]), 60.0, 0.5, ""),
-    part(Place::Flight("02-first-pursuit"), [15.0, 21.0], 4.0, Camera::Director(Shot::Quarry), 75.0, 0.5, ""),
-    part(Place::Flight("05-the-last-orbit"), [40.0, 46.0], 4.0, Camera::Director(Shot::Chase), 75.0, 0.5, ""),
+/// The trailer, in its order. Its usual length is the sum of the seconds: 30.
+pub const PARTS: [Part; 8] = [
+    // The hole and its disk from afar; the camera comes down to the plane.
+    Part {
+        place: Place::Scene("disk"),
+        span: [0.0, 6.0],
+        seconds: 4.5,
+        camera: Camera::Hover([4.0, -34.0, 8.0], [-4.0, -23.0, 2.5]),
+        fov: 60.0,
+        tension: 0.0,
+        line: "Light bends.",
+    },
+    // After a ship that hides in the gas.
+    Part {
+        place: Place::Flight("03-through-the-disk"),
+        span: [60.0, 66.0],
+        seconds: 3.5,
+        camera: Camera::Director(Shot::Chase),
+        fov: 75.0,
+        tension: 0.5,
+        line: "",
+    },
+    // Over the disk, the photon ring in the shadow, after a ship that is seen late.
+    Part {
+        place: Place::Flight("04-the-ghost"),
+        span: [5.0, 11.0],
+        seconds: 3.5,
+        camera: Camera::Director(Shot::Chase),
+        fov: 75.0,
+        tension: 0.5,
+        line: "Light is late.",
+    },
+    // A planet behind the hole, seen on both sides of it, with its aurora. It ends before the two images close to a ring.
+    Part {
+        place: Place::Scene("aurora-lensed"),
+        span: [2.5, 7.0],
+        seconds: 3.5,
+        camera: Camera::Own,
+        fov: 0.0,
+        tension: 0.3,
+        line: "One planet, seen twice.",
+    },
+    // Over the pole of a planet, its aurora before the disk.
+    Part {
+        place: Place::Scene("chase"),
+        span: [0.0, 2.0],
+        seconds: 3.5,
+        camera: Camera::Planet([2.2, -0.9, 1.2], [1.2, -0.3, 1.7], [-10.0, 0.5, -2.8]),
+        fov: 75.0,
+        tension: 0.3,
+        line: "",
+    },
+    // The camera comes before the galaxy that is behind the hole: its Einstein ring closes.
+    Part {
+        place: Place::Scene("galaxy-axis"),
+        span: [0.0, 1.0],
+        seconds: 3.0,
+        camera: Camera::Hover([7.0, 2.0, 15.0], [0.0, 0.0, 15.0]),
+        fov: 60.0,
+        tension: 0.6,
+        line: "",
+    },
+    // Through the horizon, after a ship that falls in.
+    Part {
+        place: Place::Flight("10-no-way-back"),
+        span: [57.0, 63.5],
+        seconds: 3.5,
+        camera: Camera::Director(Shot::Chase),
+        fov: 80.0,
+        tension: 1.0,
+        line: "Nothing marks the horizon.",
+    },
+    // The catch, at T = 20.25, and the title over it.
+    Part {
+        place: Place::Flight("02-first-pursuit"),
+        span: [17.5, 25.0],
+        seconds: 5.0,
+        camera: Camera::Director(Shot::Quarry),
+        fov: 75.0,
+        tension: 0.4,
+        line: "",
+    },
 ];
 
 /// The name, and what is written under it: at the end, over the last part.
 pub const TITLE: [&str; 2] = ["LENSRUNNER", "What you see is where it was."];
-
-const fn part(place: Place, span: [f64; 2], seconds: f64, camera: Camera, fov: f64, tension: f64, line: &'static str) -> Part {
-    Part { place, span, seconds, camera, fov, tension, line }
-}
 
 /// Seconds in which a part comes out of black, and goes back.
 const FADE: f64 = 0.4;
@@ -113,4 +177,30 @@ impl Moment {
 pub fn smooth(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
     x * x * (3.0 - 2.0 * x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_usual_trailer_lasts_thirty_seconds() {
+        assert_eq!(PARTS.iter().map(|part| part.seconds).sum::<f64>(), 30.0);
+    }
+
+    /// All parts are shown, in their order and over their whole span; each comes out of black and goes back, and is never made brighter.
+    #[test]
+    fn every_part_is_shown_between_two_fades() {
+        let all: Vec<Moment> = (0..=3000).map(|k| Moment::at(&PARTS, f64::from(k) / 3000.0, 30.0)).collect();
+        for (index, part) in PARTS.iter().enumerate() {
+            let of: Vec<&Moment> = all.iter().filter(|moment| moment.part == index).collect();
+            let (first, last) = (of[0], of[of.len() - 1]);
+            assert!(first.light < 0.02 && last.light < 0.02, "{index}: {first:?} {last:?}");
+            assert!((first.time - part.span[0]).abs() < 0.05 && (last.time - part.span[1]).abs() < 0.05, "{index}: {first:?} {last:?}");
+            assert!(of.iter().any(|moment| moment.light == 1.0) && of.iter().all(|moment| (0.0..=1.0).contains(&moment.light)));
+        }
+        assert!(all.windows(2).all(|pair| pair[0].part <= pair[1].part));
+        // A fade takes 0.4 s: in 0.01 s no more than this.
+        assert!(all.windows(2).all(|pair| (pair[1].light - pair[0].light).abs() < 0.05));
+    }
 }
