@@ -120,7 +120,7 @@ impl<W: Write + Seek> AviWriter<W> {
     /// `AVIMAINHEADER`.
     fn main(&self) -> Vec<u8> {
         let AviFormat { size: [width, height], fps, rate } = self.format;
-        let a_second = self.largest * fps + rate * SAMPLE_BYTES;
+        let a_second = self.largest.saturating_mul(fps).saturating_add(rate * SAMPLE_BYTES);
         let fields = [1_000_000 / fps, a_second, 0, FLAGS, self.frames, 0, 2, self.largest, width, height, 0, 0, 0, 0];
         chunk(*b"avih", &words(&fields))
     }

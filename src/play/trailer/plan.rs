@@ -82,7 +82,7 @@ pub const PARTS: [Part; 8] = [
         span: [2.5, 7.0],
         seconds: 3.5,
         camera: Camera::Own,
-        fov: 0.0,
+        fov: 66.0,
         tension: 0.3,
         line: "One planet, seen twice.",
     },
@@ -106,10 +106,10 @@ pub const PARTS: [Part; 8] = [
         tension: 0.6,
         line: "",
     },
-    // Through the horizon, after a ship that falls in.
+    // Through the horizon, after a ship that falls in. It ends before the catch, at T = 62.6, when the camera swings round.
     Part {
         place: Place::Flight("10-no-way-back"),
-        span: [57.0, 63.5],
+        span: [56.5, 62.5],
         seconds: 3.5,
         camera: Camera::Director(Shot::Chase),
         fov: 80.0,

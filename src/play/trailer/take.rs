@@ -38,8 +38,8 @@ pub struct Take {
     pub session: Session,
     app: App,
     moments: Vec<Heard>,
-    /// T after the first step that was listened to, and the length of a step, in r_s/c.
-    times: [f64; 2],
+    /// Length of a step, in r_s/c: the first of the moments is after the first step.
+    step: f64,
     nobody: History,
     director: Director,
 }
@@ -72,7 +72,7 @@ impl Take {
             }
         }
         let moments = recorder.map_or(Vec::new(), |recorder| recorder.since(0.0).0);
-        Ok(Take { part: *part, session, app, moments, times: [step, step], nobody: History::nobody(), director: Director::default() })
+        Ok(Take { part: *part, session, app, moments, step, nobody: History::nobody(), director: Director::default() })
     }
 
     /// Whether there are ships.
@@ -82,8 +82,8 @@ impl Take {
 
     /// What is heard at T = `time` (r_s/c); music alone where no ship flies.
     pub fn heard(&self, time: f64) -> Heard {
-        let step = ((time - self.times[0]) / self.times[1]).round().max(0.0) as usize;
-        self.moments.get(step.min(self.moments.len().saturating_sub(1))).copied().unwrap_or(Heard::MUSIC)
+        let index = ((time / self.step).round() as usize).saturating_sub(1);
+        self.moments.get(index.min(self.moments.len().saturating_sub(1))).copied().unwrap_or(Heard::MUSIC)
     }
 
     /// The worldlines as a stage takes them.
@@ -109,7 +109,7 @@ impl Take {
         match self.part.camera {
             Camera::Own => (self.own(stage, time), None),
             Camera::Director(shot) => {
-                let mut director = self.director.clone();
+                let mut director = std::mem::take(&mut self.director);
                 let seen = self.cast().map(|cast| director.shoot(shot, &cast, time, share, field_of_view));
                 self.director = director;
                 seen.unwrap_or_else(|| (self.own(stage, time), None))

@@ -3,6 +3,11 @@
 use bevy_egui::egui::epaint::text::{Fonts, LayoutJob, TextFormat, TextOptions};
 use bevy_egui::egui::{Color32, FontDefinitions, FontId};
 
+/// How far the shadow of letters goes, as a share of a row's height.
+const SHADOW: f32 = 0.04;
+/// How dark each of its nine layers is, of 1.
+const SHADE: f64 = 0.12;
+
 /// The letters.
 pub struct Letters(Fonts);
 
@@ -49,22 +54,26 @@ impl Letters {
         // The space after the last letter is not part of the words.
         let left = 0.5 * (width - galley.rect.width() + style.spread as f32 * points);
         let top = style.at as f32 * height - 0.5 * galley.rect.height();
-        for row in &galley.rows {
-            for glyph in &row.row.glyphs {
-                let place = row.pos + glyph.pos.to_vec2() + glyph.uv_rect.offset;
-                let [x, y] = [(left + place.x).round() as i64, (top + place.y).round() as i64];
-                let ([u, v], [u_end, v_end]) = (glyph.uv_rect.min, glyph.uv_rect.max);
-                for (dy, v) in (v..v_end).enumerate() {
-                    for (dx, u) in (u..u_end).enumerate() {
+        let glyphs =
+            || galley.rows.iter().flat_map(|row| row.row.glyphs.iter().map(|glyph| (row.pos + glyph.pos.to_vec2(), glyph.uv_rect)));
+        // A shadow all round, so that they are read before what is bright, too.
+        let edge = (points * SHADOW).max(1.0).round() as i64;
+        let around = [-1, 0, 1].into_iter().flat_map(|x| [-1, 0, 1].map(|y| ([x * edge, y * edge], 0.0, SHADE)));
+        for ([across, down], light, share) in around.chain([([0, 0], 255.0, 1.0)]) {
+            for (place, image) in glyphs() {
+                let corner = place + image.offset;
+                let [x, y] = [(left + corner.x).round() as i64 + across, (top + corner.y).round() as i64 + down];
+                for (dy, v) in (image.min[1]..image.max[1]).enumerate() {
+                    for (dx, u) in (image.min[0]..image.max[0]).enumerate() {
                         let (x, y) = (x + dx as i64, y + dy as i64);
                         if !(0..i64::from(size[0])).contains(&x) || !(0..i64::from(size[1])).contains(&y) {
                             continue;
                         }
                         let cover = atlas.pixels.get(usize::from(v) * atlas.size[0] + usize::from(u)).map_or(0, |texel| texel.a());
-                        let share = f64::from(cover) / 255.0 * style.strength;
+                        let share = f64::from(cover) / 255.0 * style.strength * share;
                         let pixel = 3 * (y as usize * size[0] as usize + x as usize);
                         for channel in rgb.iter_mut().skip(pixel).take(3) {
-                            *channel = (f64::from(*channel) + (255.0 - f64::from(*channel)) * share).round() as u8;
+                            *channel = (f64::from(*channel) + (light - f64::from(*channel)) * share).round() as u8;
                         }
                     }
                 }
