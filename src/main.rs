@@ -44,6 +44,8 @@ enum Command {
     Shot(ShotArgs),
     #[cfg(feature = "game")]
     Screens(lensrunner::play::tour::TourArgs),
+    #[cfg(feature = "game")]
+    Trailer(lensrunner::play::trailer::TrailerArgs),
     Bake(BakeArgs),
     Project(ProjectArgs),
     Simulate(SimulateArgs),
@@ -266,6 +268,18 @@ fn main() -> ExitCode {
             }
             Err(error) => fail(&error, 1),
         },
+        #[cfg(feature = "game")]
+        Some(Command::Trailer(args)) => {
+            lensrunner::play::warn_on_stderr();
+            match lensrunner::play::trailer::run(&args) {
+                Ok(done) => {
+                    // Nobody may be reading.
+                    _ = writeln!(io::stdout(), "{done}");
+                    ExitCode::SUCCESS
+                }
+                Err(error) => fail(&error, 1),
+            }
+        }
         Some(Command::Bake(args)) => run_bake(args),
         Some(Command::Project(args)) => run_project(&args),
         Some(Command::Simulate(args)) => run_simulate(&args),

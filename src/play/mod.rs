@@ -25,6 +25,7 @@ pub mod schedule;
 pub mod session;
 pub mod sound;
 pub mod tour;
+pub mod trailer;
 pub mod window;
 pub mod words;
 

@@ -4,3 +4,4 @@ mod heard;
 mod interface;
 mod samples;
 mod sound;
+mod trailer;

@@ -72,7 +72,11 @@ pub struct Cast<'a> {
 impl Director {
     /// The camera at T = `time`, `share` of the way through the flight, and the ship that is not drawn.
     pub fn camera(&mut self, cast: &Cast, time: f64, share: f64, field_of_view: f64) -> (Observer, Option<usize>) {
-        let shot = shot_at(share);
+        self.shoot(shot_at(share), cast, time, share, field_of_view)
+    }
+
+    /// The same for a shot of one's own choice.
+    pub fn shoot(&mut self, shot: Shot, cast: &Cast, time: f64, share: f64, field_of_view: f64) -> (Observer, Option<usize>) {
         let (near, far) = match (shot, cast.quarry) {
             (Shot::Quarry, Some(quarry)) => (quarry, Some(cast.hunter)),
             (_, quarry) => (cast.hunter, quarry),
