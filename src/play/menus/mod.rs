@@ -181,7 +181,7 @@ fn card(context: &egui::Context, name: &'static str, width: f32, content: impl F
     area.anchor(Align2::LEFT_CENTER, [ASIDE, 0.0]).show(context, |ui| {
         egui::Frame::new().fill(palette.shown(SHADE)).corner_radius(10.0).inner_margin(ASIDE).show(ui, |ui| {
             ui.set_width(width);
-            ScrollArea::vertical().max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+            ScrollArea::vertical().max_height(most).min_scrolled_height(most).auto_shrink([false, true]).show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(8.0, 2.0);
                 content(ui);
             });

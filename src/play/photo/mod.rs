@@ -135,7 +135,7 @@ fn lead(
     mut photo: ResMut<Photo>,
 ) {
     /// Of the camera's distance from the hole a second; of a turn in radians a second.
-    const RATES: (f64, f64) = (0.35, 1.0);
+    const RATES: (f64, f64) = (0.12, 1.0);
     if input.pushed(Action::ToggleHud) {
         photo.panel = !photo.panel;
     }
