@@ -135,7 +135,7 @@ fn take(app: &mut App, name: &'static str, path: &Path) -> Result<(), TourError>
     let picture = image.try_into_dynamic().map_err(|error| wrong(error.to_string()))?.to_rgb8();
     let mut file = std::io::BufWriter::new(std::fs::File::create(path).map_err(|error| wrong(error.to_string()))?);
     // Good enough to read every letter; a tenth of the bytes of a PNG with stars.
-    let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, 78);
+    let encoder = image::codecs::jpeg::JpegEncoder::new_with_quality(&mut file, 65);
     picture.write_with_encoder(encoder).map_err(|error| wrong(error.to_string()))
 }
 
