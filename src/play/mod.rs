@@ -30,6 +30,7 @@ pub mod words;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use crate::render::Gpu;
 use crate::scene::Difficulty;
@@ -77,6 +78,9 @@ pub struct PlayArgs {
     /// Writes the sound of the flight to this file; without --record and --frames the sound alone.
     #[arg(long, value_name = "FILE.wav", requires = "headless")]
     pub sound: Option<PathBuf>,
+    /// Writes when each frame was ready, counted from the start; with --headless the game is played unseen, without files of pictures.
+    #[arg(long, value_name = "FILE.csv", requires = "frames", conflicts_with_all = ["record", "sound"])]
+    pub timings: Option<PathBuf>,
 }
 
 /// Where no window is opened, warnings (a model that cannot be read, a table that is baked anew) go to standard error as they are.
@@ -133,6 +137,7 @@ fn answers(_: &str) -> bool {
 
 /// Plays. Exit code 2 for wrong input, 1 for a failure.
 pub fn run(args: &PlayArgs) -> ExitCode {
+    let started = Instant::now();
     let fail = |error: &dyn std::fmt::Display, code: u8| {
         eprintln!("error: {error}");
         ExitCode::from(code)
@@ -159,7 +164,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
     }
     let without_window = args.headless || !has_display();
-    if without_window && !args.headless {
+    if without_window && !args.headless && args.timings.is_none() {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
     if let (Some(path), None, None) = (&args.sound, &args.record, args.frames) {
@@ -176,7 +181,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         Ok(gpu) => gpu,
         Err(error) => return fail(&error, 1),
     };
-    if !without_window {
+    if !without_window || args.timings.is_some() {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
         let options = window::Options {
@@ -186,8 +191,14 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             record: args.record.clone(),
             replay,
             at_once: args.at_once,
+            timings: args.timings.clone().map(|file| (file, started)),
         };
-        return match window::run(session, &options) {
+        let exit = if without_window {
+            window::run_unseen(session, &options, args.size.unwrap_or(demonstration::SIZE))
+        } else {
+            window::run(session, &options)
+        };
+        return match exit {
             bevy::app::AppExit::Success => ExitCode::SUCCESS,
             bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),
         };

@@ -4,8 +4,10 @@ pub mod focus;
 pub mod interface;
 pub mod pictures;
 pub mod record;
+pub mod timings;
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
@@ -49,6 +51,8 @@ pub struct Options {
     pub replay: Option<Replay>,
     /// Flies at once, without the title.
     pub at_once: bool,
+    /// Writes the time of each frame here, counted from then.
+    pub timings: Option<(std::path::PathBuf, Instant)>,
 }
 
 /// What the game is drawn on.
@@ -68,6 +72,19 @@ pub fn run(session: Session, options: &Options) -> AppExit {
         app.insert_resource(Notice { text, until: 15.0 });
     }
     app.run()
+}
+
+/// Plays without a display, on a picture that nobody sees, until the frames are drawn: to measure.
+pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExit {
+    let mut app = app(session, options, Surface::Picture(size), Choices::default());
+    app.finish();
+    app.cleanup();
+    loop {
+        app.update();
+        if let Some(exit) = app.should_exit() {
+            return exit;
+        }
+    }
 }
 
 /// The whole game, drawn on `surface`, with these choices over the session's configuration.
@@ -108,6 +125,10 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         .insert_resource(choices)
         .insert_resource(FileConfig(file_config))
         .insert_resource(session);
+    if let Some((file, started)) = &options.timings {
+        let waits = matches!(surface, Surface::Picture(_));
+        app.add_plugins(timings::TimingsPlugin { file: file.clone(), started: *started, waits });
+    }
     if warns {
         app.insert_state(Screen::Warning);
     }
