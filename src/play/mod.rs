@@ -13,6 +13,7 @@ pub mod files;
 pub mod game;
 pub mod hud;
 pub mod input;
+pub mod loading;
 pub mod menus;
 pub mod missions;
 pub mod overlay;

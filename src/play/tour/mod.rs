@@ -11,7 +11,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::time::TimeUpdateStrategy;
 
 use crate::play::choices::Choices;
-use crate::play::picture::Staged;
+use crate::play::picture::staging::Staged;
 use crate::play::session::{Session, SessionError};
 use crate::play::window::interface::DrawnOn;
 use crate::play::window::{Options, Surface, app};

@@ -6,7 +6,6 @@ pub mod pictures;
 pub mod record;
 pub mod timings;
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use bevy::log::LogPlugin;
@@ -24,7 +23,7 @@ use crate::play::menus::navigate::FileConfig;
 use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
-use crate::play::picture::{PicturePlugin, Staged};
+use crate::play::picture::PicturePlugin;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::{SCENE, Session};
@@ -106,7 +105,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
         Surface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
     };
-    app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
+    app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings }))
         .add_plugins((
             SimulationPlugins,
             GamePlugin,
@@ -136,8 +135,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         app.insert_resource(Watched(replay.clone()));
     }
     if options.replay.is_some() || options.at_once {
-        let ready = resource_exists::<Staged>.and_then(not(in_state(Screen::Warning)));
-        app.add_systems(Update, fly_at_once.run_if(ready).before(GameSet::Answer));
+        app.add_systems(Update, fly_at_once.run_if(not(in_state(Screen::Warning))).before(GameSet::Answer));
     }
     app
 }

@@ -9,8 +9,8 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
-use crate::play::picture::Staged;
 use crate::play::picture::snapshot::snapshot;
+use crate::play::picture::staging::Staged;
 use crate::play::window::pictures::{folders, save_new, stem};
 use crate::sim::snapshot::Snapshot;
 

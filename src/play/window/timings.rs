@@ -9,7 +9,7 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::{Extract, ExtractSchedule, Render, RenderApp, RenderSystems};
 
 use crate::play::menus::screens::Screen;
-use crate::play::picture::Staged;
+use crate::play::picture::staging::Staged;
 use crate::play::window::record::record;
 
 /// Writes the time of each frame, and says in a few words what they come to.
@@ -46,8 +46,7 @@ struct Showing(&'static str);
 
 impl Plugin for TimingsPlugin {
     fn build(&self, app: &mut App) {
-        let timings =
-            Timings { started: self.started, waits: self.waits, file: self.file.clone(), rows: Arc::new(Mutex::new(Vec::new())) };
+        let timings = Timings { started: self.started, waits: self.waits, file: self.file.clone(), rows: Arc::new(Mutex::new(Vec::new())) };
         app.insert_resource(timings.clone()).add_systems(Last, write.after(record));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
