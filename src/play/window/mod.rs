@@ -2,6 +2,7 @@
 
 pub mod focus;
 pub mod interface;
+pub mod lost;
 pub mod pictures;
 pub mod record;
 pub mod timings;
@@ -95,8 +96,8 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
     let warns = !session.config.interface.warned && options.frames.is_none();
     let mut app = App::new();
     let log = LogPlugin {
-        // What libraries warn of means nothing to a player; RUST_LOG shows it.
-        filter: "error,lensrunner=info".into(),
+        // What libraries warn of means nothing to a player; RUST_LOG shows it. A device or a window that is lost is said by `lost`.
+        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=info".into(),
         level: bevy::log::Level::WARN,
         ..default()
     };
@@ -117,6 +118,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
             InterfacePlugin { picture: if let Surface::Picture(size) = surface { Some(size) } else { None } },
             SoundPlugin,
             focus::FocusPlugin,
+            lost::LostDevicePlugin,
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
         .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
