@@ -16,9 +16,8 @@ use lensrunner::scene::{self, GameConfig};
 fn main() -> AppExit {
     App::new()
         .add_plugins(DefaultPlugins)
-        .add_plugins(RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) })
-        .add_systems(Startup, load)
-        .add_systems(Update, draw)
+        .add_plugins(RelativisticRenderPlugin { surroundings })
+        .add_systems(Update, (load.run_if(resource_added::<LensingTable>), draw.run_if(resource_exists::<Staged>)))
         .run()
 }
 

@@ -24,7 +24,7 @@ use crate::play::menus::screens::{MenuAction, Screen, answer};
 use crate::play::missions::{Catalogue, LastFlight, Watched, begin_log};
 use crate::play::pace::{PacePlugin, Slowing, run_time};
 use crate::play::photo::PhotoPlugin;
-use crate::play::picture::{Staged, restage};
+use crate::play::picture::staging::change_scene;
 use crate::play::schedule::{self, GameSet};
 use crate::play::session::Session;
 use crate::play::window::record;
@@ -102,8 +102,8 @@ fn choose_scene(world: &mut World, screen: Screen) {
         (None, _) => session.scene = catalogue.home.clone(),
     }
     let is_other = before != (session.scene.name.clone(), session.scene.fingerprint);
-    if is_other && world.contains_resource::<Staged>() {
-        restage(world);
+    if is_other {
+        change_scene(world);
     }
 }
 

@@ -13,6 +13,7 @@ pub mod files;
 pub mod game;
 pub mod hud;
 pub mod input;
+pub mod loading;
 pub mod menus;
 pub mod missions;
 pub mod overlay;
@@ -31,6 +32,7 @@ pub mod words;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use crate::render::Gpu;
 use crate::scene::Difficulty;
@@ -78,6 +80,9 @@ pub struct PlayArgs {
     /// Writes the sound of the flight to this file; without --record and --frames the sound alone.
     #[arg(long, value_name = "FILE.wav", requires = "headless")]
     pub sound: Option<PathBuf>,
+    /// Writes when each frame was ready, counted from the start; with --headless the game is played unseen, without files of pictures.
+    #[arg(long, value_name = "FILE.csv", requires = "frames", conflicts_with_all = ["record", "sound"])]
+    pub timings: Option<PathBuf>,
 }
 
 /// Where no window is opened, warnings (a model that cannot be read, a table that is baked anew) go to standard error as they are.
@@ -134,6 +139,7 @@ fn answers(_: &str) -> bool {
 
 /// Plays. Exit code 2 for wrong input, 1 for a failure.
 pub fn run(args: &PlayArgs) -> ExitCode {
+    let started = Instant::now();
     let fail = |error: &dyn std::fmt::Display, code: u8| {
         eprintln!("error: {error}");
         ExitCode::from(code)
@@ -160,7 +166,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
     }
     let without_window = args.headless || !has_display();
-    if without_window && !args.headless {
+    if without_window && !args.headless && args.timings.is_none() {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
     if let (Some(path), None, None) = (&args.sound, &args.record, args.frames) {
@@ -177,7 +183,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
         Ok(gpu) => gpu,
         Err(error) => return fail(&error, 1),
     };
-    if !without_window {
+    if !without_window || args.timings.is_some() {
         // Bevy opens the adapter again; this one was to say in words what is missing.
         drop(gpu);
         let options = window::Options {
@@ -188,8 +194,14 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             replay,
             at_once: args.at_once,
             data: None,
+            timings: args.timings.clone().map(|file| (file, started)),
         };
-        return match window::run(session, &options) {
+        let exit = if without_window {
+            window::run_unseen(session, &options, args.size.unwrap_or(demonstration::SIZE))
+        } else {
+            window::run(session, &options)
+        };
+        return match exit {
             bevy::app::AppExit::Success => ExitCode::SUCCESS,
             bevy::app::AppExit::Error(code) => ExitCode::from(code.get()),
         };

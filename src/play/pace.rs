@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use bevy::prelude::*;
 
+use crate::play::loading::Loading;
 use crate::play::menus::screens::Screen;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
@@ -71,7 +72,7 @@ fn slow_down(
 pub(in crate::play) fn run_time(
     screen: Res<State<Screen>>,
     next: Res<NextState<Screen>>,
-    (session, slowing): (Res<Session>, Res<Slowing>),
+    (session, slowing, loading): (Res<Session>, Res<Slowing>, Option<Res<Loading>>),
     mut time: ResMut<Time<Virtual>>,
     mut fixed: ResMut<Time<Fixed>>,
 ) {
@@ -80,7 +81,7 @@ pub(in crate::play) fn run_time(
     fixed.set_timestep_seconds(step);
     time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
     let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
-    if screen.get().runs() && !leaving { time.unpause() } else { time.pause() }
+    if screen.get().runs() && !leaving && loading.is_none() { time.unpause() } else { time.pause() }
 }
 
 /// The share of the pace with danger `ahead`, in r_s/c of T.

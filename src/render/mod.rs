@@ -20,6 +20,7 @@ pub mod settings;
 pub mod shot;
 pub mod sky;
 pub mod stage;
+mod workshop;
 
 pub use gpu::device::{DeviceError, Gpu};
 pub use renderer::Renderer;

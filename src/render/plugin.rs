@@ -2,11 +2,10 @@
 //! world owns the [`Renderer`], draws it into the view of the 2-D camera, after Bevy's own passes and under the user interface, and gives
 //! [`RenderStatistics`] back.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use bevy::core_pipeline::core_2d::main_transparent_pass_2d;
 use bevy::core_pipeline::{Core2d, Core2dSystems};
-use bevy::platform::cell::SyncCell;
 use bevy::prelude::*;
 use bevy::render::renderer::{RenderAdapterInfo, RenderContext, RenderDevice, RenderQueue, ViewQuery};
 use bevy::render::view::ViewTarget;
@@ -19,17 +18,23 @@ use crate::render::frame::FrameInput;
 use crate::render::gpu::device::{Watch, missing_limits};
 use crate::render::gpu::types::Counters;
 use crate::render::renderer::{Renderer, SceneUpload, Surroundings};
+use crate::render::workshop::{Broken, Workshop};
 
 /// Nearer than this, in r_s, a camera may soon be inside the horizon: seconds away for who falls, and none who circles is as near.
 const NEAR_THE_HORIZON: f64 = 3.0;
 
-/// Main world: the lensing table that the renderer draws with, for [`Stage::prepare`](crate::render::stage::Stage::prepare).
+/// Main world: the lensing table that the renderer draws with, for [`Stage::prepare`](crate::render::stage::Stage::prepare). It is there
+/// once it has been read.
 #[derive(Resource, Clone, Debug)]
 pub struct LensingTable(pub Arc<Table>);
 
 /// Main world: the models and the disk of the scene, uploaded when they change; None until a scene is loaded.
 #[derive(Resource, Clone, Debug, Default)]
 pub struct SceneToDraw(pub Option<Arc<SceneUpload>>);
+
+/// Main world: the scene that the renderer can draw now, all of its passes compiled; None while they are.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct SceneReady(pub Option<Arc<SceneUpload>>);
 
 /// Main world: what the next frame shows, made by the [`Stage`](crate::render::stage::Stage) of [`SceneToDraw`]; None draws nothing.
 #[derive(Resource, Clone, Debug, Default)]
@@ -48,31 +53,34 @@ pub struct RenderStatistics {
     pub disk: Option<DiskCounters>,
 }
 
-/// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`. If there is no device, or one that is too
-/// small, the app ends with an error.
+/// Draws [`FrameToDraw`] into the view of every 2-D camera. Add it after Bevy's `RenderPlugin`. Passes are compiled on a thread of their
+/// own; until then nothing is drawn. If there is no device, or one that is too small, the app ends with an error.
 pub struct RelativisticRenderPlugin {
-    /// Table, stars, Milky Way.
-    pub surroundings: Arc<Surroundings>,
+    /// Makes table, stars, Milky Way; called on a thread of its own.
+    pub surroundings: fn() -> Surroundings,
 }
 
 impl Plugin for RelativisticRenderPlugin {
     fn build(&self, app: &mut App) {
+        let making = SurroundingsInTheMaking { ready: Arc::default(), make: self.surroundings };
+        // Without this thread they are made when the renderer is.
+        let early = making.clone();
+        _ = std::thread::Builder::new().name("surroundings".to_owned()).spawn(move || _ = early.wait());
         app.init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
+            .init_resource::<SceneReady>()
             .init_resource::<RenderStatistics>()
-            .insert_resource(LensingTable(self.surroundings.table.clone()));
+            .insert_resource(making.clone())
+            .add_systems(PreUpdate, take_table.run_if(not(resource_exists::<LensingTable>)));
         let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
         render_app
-            .insert_resource(RendererInputs(self.surroundings.clone()))
+            .insert_resource(making)
             .init_resource::<FrameToDraw>()
             .init_resource::<SceneToDraw>()
             .add_systems(RenderStartup, make_renderer)
-            .add_systems(ExtractSchedule, (take_frame, give_statistics).run_if(resource_exists::<OwnedRenderer>))
-            .add_systems(Render, upload_scene.in_set(RenderSystems::PrepareResources).run_if(resource_exists::<OwnedRenderer>))
-            .add_systems(
-                Core2d,
-                draw.after(main_transparent_pass_2d).in_set(Core2dSystems::MainPass).run_if(resource_exists::<OwnedRenderer>),
-            );
+            .add_systems(ExtractSchedule, (take_frame, exchange).chain().run_if(resource_exists::<Workshop>))
+            .add_systems(Render, put_scene.in_set(RenderSystems::PrepareResources).run_if(resource_exists::<Workshop>))
+            .add_systems(Core2d, draw.after(main_transparent_pass_2d).in_set(Core2dSystems::MainPass).run_if(resource_exists::<Workshop>));
     }
 
     fn finish(&self, app: &mut App) {
@@ -91,29 +99,40 @@ impl Plugin for RelativisticRenderPlugin {
     }
 }
 
-/// Render world: the renderer. It is not there where the device cannot be used. One system at a time has it (its receivers are not shared
-/// between threads).
-#[derive(Resource)]
-struct OwnedRenderer(SyncCell<Renderer>);
+/// Table, stars and Milky Way, made by whoever needs them first; both worlds have this.
+#[derive(Resource, Clone, Debug)]
+struct SurroundingsInTheMaking {
+    ready: Arc<OnceLock<Surroundings>>,
+    make: fn() -> Surroundings,
+}
 
-/// Render world: what the renderer is made of.
-#[derive(Resource, Debug)]
-struct RendererInputs(Arc<Surroundings>);
+impl SurroundingsInTheMaking {
+    /// Makes them, or waits for who does.
+    fn wait(&self) -> &Surroundings {
+        self.ready.get_or_init(self.make)
+    }
+}
 
-/// Compiles all passes. The size and the format are the window's from the first frame on.
+fn take_table(making: Res<SurroundingsInTheMaking>, mut commands: Commands) {
+    if let Some(surroundings) = making.ready.get() {
+        commands.insert_resource(LensingTable(surroundings.table.clone()));
+    }
+}
+
+/// Has all passes compiled. The size is the window's from the first frame on.
 fn make_renderer(
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     info: Res<RenderAdapterInfo>,
-    ingredients: Res<RendererInputs>,
+    making: Res<SurroundingsInTheMaking>,
     mut commands: Commands,
 ) {
     if missing_limits(&device.limits()).is_some() {
         return;
     }
     let gpu = Gpu { device: device.wgpu_device().clone(), queue: (**queue.0).clone(), adapter: (***info).clone(), watch: Watch::default() };
-    let renderer = Renderer::new(&gpu, &ingredients.0, wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1]);
-    commands.insert_resource(OwnedRenderer(SyncCell::new(renderer)));
+    let making = making.clone();
+    commands.insert_resource(Workshop::begin(move || Renderer::new(&gpu, making.wait(), wgpu::TextureFormat::Rgba8UnormSrgb, [1, 1])));
 }
 
 fn take_frame(
@@ -123,36 +142,46 @@ fn take_frame(
     main_scene: Extract<Res<SceneToDraw>>,
 ) {
     frame.0.clone_from(&main_frame.0);
-    // Marked as changed only where it is: then it is uploaded.
-    let same = match (&scene.0, &main_scene.0) {
-        (Some(here), Some(there)) => Arc::ptr_eq(here, there),
-        (here, there) => here.is_none() && there.is_none(),
-    };
-    if !same {
-        scene.0.clone_from(&main_scene.0);
-    }
+    scene.0.clone_from(&main_scene.0);
 }
 
-fn give_statistics(mut main: ResMut<MainWorld>, mut renderer: ResMut<OwnedRenderer>) {
-    let Some(mut statistics) = main.get_resource_mut::<RenderStatistics>() else { return };
-    let renderer = renderer.0.get();
+/// Takes the renderer back from its thread, and says how it stands.
+fn exchange(mut main: ResMut<MainWorld>, mut workshop: ResMut<Workshop>, mut said: Local<bool>) {
+    if let Err(Broken) = workshop.collect()
+        && !std::mem::replace(&mut *said, true)
+    {
+        error!("the passes of the picture could not be compiled: the game ends");
+        main.write_message(AppExit::error());
+    }
+    let ready = workshop.ready().cloned();
+    if let Some(mut state) = main.get_resource_mut::<SceneReady>() {
+        state.0 = ready;
+    }
+    let (Some(mut statistics), Some(renderer)) = (main.get_resource_mut::<RenderStatistics>(), workshop.renderer()) else { return };
     renderer.set_counting(statistics.counting);
     statistics.passes.clear();
     statistics.passes.extend_from_slice(renderer.timing().latest());
     (statistics.counters, statistics.disk) = renderer.latest_counters();
 }
 
-fn upload_scene(scene: Res<SceneToDraw>, mut renderer: ResMut<OwnedRenderer>) {
-    if let Some(upload) = scene.0.as_ref().filter(|_| scene.is_changed()) {
-        renderer.0.get().upload(upload);
+fn put_scene(scene: Res<SceneToDraw>, mut workshop: ResMut<Workshop>) {
+    if let Some(upload) = &scene.0 {
+        workshop.put(upload);
     }
 }
 
-fn draw(view: ViewQuery<&ViewTarget>, frame: Res<FrameToDraw>, mut renderer: ResMut<OwnedRenderer>, mut context: RenderContext) {
+fn draw(
+    view: ViewQuery<&ViewTarget>,
+    (frame, scene): (Res<FrameToDraw>, Res<SceneToDraw>),
+    mut workshop: ResMut<Workshop>,
+    mut context: RenderContext,
+) {
     let target = view.into_inner();
-    let renderer = renderer.0.get();
     let size = target.main_texture().size();
-    let Some(input) = frame.0.as_ref().filter(|_| size.width > 0 && size.height > 0) else {
+    // Until a scene is there, its frames name models that are not.
+    let is_there = scene.0.as_ref().is_some_and(|scene| workshop.ready().is_some_and(|ready| Arc::ptr_eq(ready, scene)));
+    let Some(renderer) = workshop.renderer() else { return };
+    let Some(input) = frame.0.as_ref().filter(|_| is_there && size.width > 0 && size.height > 0) else {
         renderer.nothing_shown();
         return;
     };

@@ -48,6 +48,8 @@ pub struct SceneUpload {
     pub models: ModelSet,
     /// The disk, if the scene has one.
     pub disk: Option<Disk>,
+    /// Frames to draw unseen before the first that is seen, so that all is compiled by then; with none the scene is shown at once.
+    pub rehearsal: Vec<FrameInput>,
 }
 
 /// All passes and their buffers.
@@ -210,6 +212,11 @@ impl Renderer {
     /// The size of the output, in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.targets.size
+    }
+
+    /// The format of the output.
+    pub(super) fn output_format(&self) -> wgpu::TextureFormat {
+        self.format
     }
 
     /// The camera is near the horizon and may fall through it: what is needed inside is compiled meanwhile.

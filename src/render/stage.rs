@@ -103,7 +103,7 @@ impl Stage {
             (object, range)
         });
         let disk = scene.disk(config);
-        let upload = SceneUpload { models, disk: disk.clone().map(|disk| Disk::new(disk, config)) };
+        let upload = SceneUpload { models, disk: disk.clone().map(|disk| Disk::new(disk, config)), rehearsal: Vec::new() };
         let disk = disk.map(|disk| [disk.inner, disk.outer]);
         let stage = Stage {
             objects: objects.collect(),

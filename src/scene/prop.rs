@@ -51,8 +51,10 @@ pub struct Prop {
     pub attitude: DQuat,
     /// Length of the model's unit, in r_s.
     pub size: f64,
-    /// Surface of a procedural shape.
+    /// Surface of a procedural shape, without its texture.
     pub material: Material,
+    /// What is painted on it: made when the model is, since a scene that is only listed needs no picture.
+    texture: Option<TextureName>,
 }
 
 /// What a prop looks like.
@@ -71,16 +73,21 @@ pub enum Shape {
 impl Prop {
     /// The model of a procedural shape, `None` for a file.
     pub fn model(&self) -> Option<Model> {
+        let texture = self.texture.map(|name| match name {
+            TextureName::Checker => texture::checker(),
+            TextureName::Galaxy => texture::galaxy(),
+        });
+        let material = Material { texture, ..self.material.clone() };
         match self.shape {
-            Shape::Sphere(triangles) => Some(shapes::uv_sphere(triangles, self.material.clone())),
-            Shape::Icosphere(triangles) => Some(shapes::icosphere(triangles, self.material.clone())),
-            Shape::Square(triangles, anchor) => Some(shapes::square(triangles, anchor, self.material.clone())),
+            Shape::Sphere(triangles) => Some(shapes::uv_sphere(triangles, material)),
+            Shape::Icosphere(triangles) => Some(shapes::icosphere(triangles, material)),
+            Shape::Square(triangles, anchor) => Some(shapes::square(triangles, anchor, material)),
             Shape::File(_) => None,
         }
     }
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum TextureName {
     Checker,
@@ -143,6 +150,7 @@ fn check_prop(index: usize, entry: &PropEntry) -> Result<Prop, Fault> {
         attitude,
         size,
         material,
+        texture: entry.texture,
     })
 }
 
@@ -200,10 +208,7 @@ fn material(entry: &PropEntry) -> Result<Material, Fault> {
         emissive: colour(&entry.emissive, "emissive", 1e6, [0.0; 3])?,
         temperature: number(&entry.temperature, "temperature", 0.0..=1e9, "K", 0.0)? as f32,
         drive: false,
-        texture: entry.texture.map(|name| match name {
-            TextureName::Checker => texture::checker(),
-            TextureName::Galaxy => texture::galaxy(),
-        }),
+        texture: None,
     })
 }
 

@@ -13,9 +13,10 @@ use lensrunner::play::menus::entries::{Menu, Page};
 use lensrunner::play::menus::screens::Screen;
 use lensrunner::play::missions::LastFlight;
 use lensrunner::play::photo::Photo;
-use lensrunner::play::picture::{CurrentShot, Staged};
+use lensrunner::play::picture::CurrentShot;
 use lensrunner::play::player_state::PlayerState;
 use lensrunner::play::session::Session;
+use lensrunner::play::tour::wait_for_scene;
 use lensrunner::play::window::{Options, Surface, app};
 use lensrunner::scene::Difficulty;
 use lensrunner::sim::replay::Playback;
@@ -52,12 +53,7 @@ fn game(folder: &Folder) -> App {
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)));
     app.finish();
     app.cleanup();
-    for _ in 0..2000 {
-        if app.world().contains_resource::<Staged>() {
-            break;
-        }
-        app.update();
-    }
+    wait_for_scene(&mut app);
     app.update();
     app
 }
@@ -142,6 +138,7 @@ fn the_whole_way_by_the_keyboard() {
     assert_eq!(screen(&app), Screen::Title);
     // Training, by hand for a while: the ship thrusts.
     choose(&mut app, "mission-1");
+    wait_for_scene(&mut app);
     assert_eq!((screen(&app), app.world().resource::<Session>().scene.name.as_str()), (Screen::Playing, "01-training"));
     send(&mut app, KeyCode::KeyW, ButtonState::Pressed);
     for _ in 0..5 {
@@ -154,6 +151,7 @@ fn the_whole_way_by_the_keyboard() {
     choose(&mut app, "title");
     // A mission, to its end.
     choose(&mut app, "mission-2");
+    wait_for_scene(&mut app);
     push(&mut app, KeyCode::KeyP);
     fly_on(&mut app);
     assert_eq!(screen(&app), Screen::Result);
@@ -161,6 +159,7 @@ fn the_whole_way_by_the_keyboard() {
     assert!(last.replay.is_some() && !last.is_best, "the autopilot's flights are nobody's best");
     // Its replay.
     choose(&mut app, "watch");
+    wait_for_scene(&mut app);
     assert!(screen(&app) == Screen::Playing && app.world().contains_resource::<Playback>());
     // What is seen, and back to the flight.
     push(&mut app, KeyCode::F1);

@@ -30,7 +30,7 @@ use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
 use crate::play::menus::screens::Screen;
 use crate::play::pace::Slowing;
-use crate::play::picture::Staged;
+use crate::play::picture::staging::Staged;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
@@ -75,10 +75,12 @@ fn draw(
     lay_in(context, &painter);
     let language = session.language();
     if staged.is_none() {
-        let at = rect.center() + vec2(0.2 * rect.width(), 0.0);
+        // Beside the menu of the title.
+        let aside = if *screen.get() == Screen::Title { 0.2 } else { 0.0 };
+        let at = rect.center() + vec2(aside * rect.width(), 0.0);
         text(&painter, at, Align2::CENTER_CENTER, &language.say("hud-loading"), 18.0, TEXT);
     }
-    let shown = shows(*screen.get(), player.hud_off);
+    let shown = staged.is_some() && shows(*screen.get(), player.hud_off);
     if let Some(words) = left_out(&session.config, language) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
         TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]).paint(&painter);

@@ -17,7 +17,7 @@ use crate::sim::{ChaseRules, Clock, Engine, Fleet, Skills};
 use crate::play::choices::Choices;
 use crate::play::input::bindings::Bindings;
 use crate::play::menus::navigate::FileConfig;
-use crate::play::picture::{self, Staged};
+use crate::play::picture::staging::{Staged, restage};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::Session;
@@ -132,7 +132,7 @@ fn apply(world: &mut World, mut before: Local<Option<GameConfig>>) {
     }
     if let Some(staged) = world.get_resource::<Staged>() {
         if before.as_ref().is_some_and(|before| changes_models(before, config)) {
-            picture::restage(world);
+            restage(world);
         } else if before.as_ref().is_some_and(|before| before.aurora != config.aurora) {
             staged.0.change_aurora(&config.aurora);
         }

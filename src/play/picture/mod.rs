@@ -3,8 +3,7 @@
 pub mod now;
 pub mod sight;
 pub mod snapshot;
-
-use std::sync::Arc;
+pub mod staging;
 
 use bevy::prelude::*;
 use bevy::window::PrimaryWindow;
@@ -14,14 +13,14 @@ use crate::play::menus::screens::Screen;
 use crate::play::photo::state::Photo;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
-use crate::play::session::Session;
-use crate::render::plugin::{FrameToDraw, LensingTable, RenderStatistics, SceneToDraw};
+use crate::render::plugin::{FrameToDraw, RenderStatistics};
 use crate::render::settings::{ANY_FILL, Settings, greatest_rise};
-use crate::render::stage::{Stage, settings};
+use crate::render::stage::settings;
 use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
 use now::Now;
 use sight::{FrameCamera, ScreenContent, is_cut};
+use staging::{Staged, StagingPlugin};
 
 /// Loads the scene, and makes a frame of it each time. Needs [`RelativisticRenderPlugin`](crate::render::plugin::RelativisticRenderPlugin)
 /// and [`GamePlugin`](crate::play::game::GamePlugin).
@@ -30,39 +29,14 @@ pub struct PicturePlugin;
 impl Plugin for PicturePlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<CurrentShot>()
-            .add_systems(Update, load_scene.run_if(not(resource_exists::<Staged>)).before(GameSet::Picture))
+            .add_plugins(StagingPlugin)
             .add_systems(Update, (point_camera, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<Staged>));
     }
 }
 
-/// The scene, ready for frames.
-#[derive(Resource, Debug)]
-pub struct Staged(pub Stage);
-
 /// The camera of this frame; None as long as there is nothing to show: no chase has begun, or the window has no area, as a minimised one.
 #[derive(Resource, Clone, Copy, Debug, Default)]
 pub struct CurrentShot(pub Option<FrameCamera>);
-
-/// Frames before the scene is loaded: in them the interface comes to the screen, and says that it will be.
-const BEFORE: u32 = 4;
-
-fn load_scene(world: &mut World, mut frames: Local<u32>) {
-    *frames += 1;
-    if *frames > BEFORE {
-        restage(world);
-    }
-}
-
-/// Makes models and disk of the session's scene anew.
-pub fn restage(world: &mut World) {
-    let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
-    let (scene, config) = (&session.scene, &session.effective().drawn());
-    let (stage, upload) = Stage::prepare(&table.0, scene, scene.assemble(config), config, None);
-    world.insert_resource(Staged(stage.watched()));
-    world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
-    // A frame of the scene before names models that are no longer there.
-    world.insert_resource(FrameToDraw(None));
-}
 
 /// How fast the title's camera goes round, in rad a second.
 const TITLE_TURN: f64 = 0.02;

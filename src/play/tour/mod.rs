@@ -11,7 +11,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::time::TimeUpdateStrategy;
 
 use crate::play::choices::Choices;
-use crate::play::picture::Staged;
+use crate::play::picture::staging::Staged;
 use crate::play::session::{Session, SessionError};
 use crate::play::window::interface::DrawnOn;
 use crate::play::window::{Options, Surface, app};
@@ -101,14 +101,10 @@ fn visit(args: &TourArgs, language: &str, size: [u32; 2]) -> Result<usize, TourE
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs_f64(FRAME)));
     app.finish();
     app.cleanup();
-    let mut waited = 0;
-    while !app.world().contains_resource::<Staged>() && waited < PATIENCE {
-        app.update();
-        waited += 1;
-    }
     let mut count = 0;
     for stop in STOPS {
         (stop.act)(&mut app);
+        wait_for_scene(&mut app);
         if args.only.as_ref().is_some_and(|only| !stop.name.contains(only.as_str())) {
             app.update();
             continue;
@@ -121,6 +117,20 @@ fn visit(args: &TourArgs, language: &str, size: [u32; 2]) -> Result<usize, TourE
         count += 1;
     }
     Ok(count)
+}
+
+/// Goes on until the scene is there, which is made on threads.
+pub fn wait_for_scene(app: &mut App) {
+    /// Looks, and the wall time between two: a minute in all.
+    const LOOKS: (u32, Duration) = (6000, Duration::from_millis(10));
+    app.update();
+    for _ in 0..LOOKS.0 {
+        if app.world().contains_resource::<Staged>() {
+            return;
+        }
+        std::thread::sleep(LOOKS.1);
+        app.update();
+    }
 }
 
 /// Writes what is drawn.

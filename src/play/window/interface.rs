@@ -13,6 +13,7 @@ use std::time::{Duration, Instant};
 use crate::play::choices::Choices;
 use crate::play::hud::notice::Notice;
 use crate::play::hud::palette::Palette;
+use crate::play::loading::Loading;
 
 use crate::play::input::mouse::MouseTurn;
 use crate::play::menus::screens::Screen;
@@ -60,12 +61,15 @@ fn spawn_camera(target: Res<Target>, mut images: ResMut<Assets<Image>>, mut comm
 /// In a window lower or narrower than this (logical pixels) the interface shrinks with it: the HUD is laid out for it.
 pub(in crate::play) const INTERFACE: [f32; 2] = [900.0, 620.0];
 
+/// In a window lower or narrower than this (logical pixels) there is no room for a card.
+const NO_ROOM: f32 = 100.0;
+
 /// Gives the interface its letters, its size and its colours.
 fn fit_interface(
     windows: Query<&Window, With<PrimaryWindow>>,
     session: Res<Session>,
     mut contexts: EguiContexts,
-    mut has_letters: Local<bool>,
+    (mut has_letters, mut had_room): (Local<bool>, Local<bool>),
 ) {
     let Ok(context) = contexts.ctx_mut() else { return };
     if !std::mem::replace(&mut *has_letters, true) {
@@ -76,6 +80,12 @@ fn fit_interface(
     let Some(window) = windows.iter().next() else { return };
     let fit = (window.width() / INTERFACE[0]).min(window.height() / INTERFACE[1]).clamp(0.35, 1.0);
     context.set_zoom_factor(fit * settings.text_size as f32);
+    let has_room = window.width().min(window.height()) >= NO_ROOM;
+    if has_room && !std::mem::replace(&mut *had_room, has_room) {
+        // Cards remember their size, and would stay as small as they were.
+        context.memory_mut(bevy_egui::egui::Memory::reset_areas);
+    }
+    *had_room = has_room;
 }
 
 /// The window is as the settings say, from when they change on.
@@ -105,9 +115,16 @@ pub(in crate::play) fn mode(video: &Video) -> WindowMode {
     if video.fullscreen { WindowMode::BorderlessFullscreen(MonitorSelection::Current) } else { WindowMode::Windowed }
 }
 
+/// Frames a second while the scene is loaded: enough to answer, and the processor is free for the work.
+const LOADING_FRAMES: u32 = 20;
+
 /// Waits until the next frame is due, where frames are limited.
-fn limit_frames(session: Res<Session>, mut due: Local<Option<Instant>>) {
-    let limit = session.config.video.frame_limit;
+fn limit_frames(session: Res<Session>, loading: Option<Res<Loading>>, mut due: Local<Option<Instant>>) {
+    let limit = match session.config.video.frame_limit {
+        limit if loading.is_none() => limit,
+        0 => LOADING_FRAMES,
+        limit => limit.min(LOADING_FRAMES),
+    };
     let now = Instant::now();
     if limit == 0 {
         *due = None;

@@ -2,10 +2,12 @@
 
 pub mod focus;
 pub mod interface;
+pub mod lost;
 pub mod pictures;
 pub mod record;
+pub mod timings;
 
-use std::sync::Arc;
+use std::time::Instant;
 
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
@@ -22,7 +24,7 @@ use crate::play::menus::navigate::FileConfig;
 use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
-use crate::play::picture::{PicturePlugin, Staged};
+use crate::play::picture::PicturePlugin;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::{SCENE, Session};
@@ -51,6 +53,8 @@ pub struct Options {
     pub at_once: bool,
     /// Where the best flights are kept; None: in the user's data folder.
     pub data: Option<std::path::PathBuf>,
+    /// Writes the time of each frame here, counted from then.
+    pub timings: Option<(std::path::PathBuf, Instant)>,
 }
 
 /// What the game is drawn on.
@@ -72,6 +76,19 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     app.run()
 }
 
+/// Plays without a display, on a picture that nobody sees, until the frames are drawn: to measure.
+pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExit {
+    let mut app = app(session, options, Surface::Picture(size), Choices::default());
+    app.finish();
+    app.cleanup();
+    loop {
+        app.update();
+        if let Some(exit) = app.should_exit() {
+            return exit;
+        }
+    }
+}
+
 /// The whole game, drawn on `surface`, with these choices over the session's configuration.
 pub fn app(mut session: Session, options: &Options, surface: Surface, choices: Choices) -> App {
     let file_config = session.config.clone();
@@ -81,8 +98,8 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
     let warns = !session.config.interface.warned && options.frames.is_none();
     let mut app = App::new();
     let log = LogPlugin {
-        // What libraries warn of means nothing to a player; RUST_LOG shows it.
-        filter: "error,lensrunner=info".into(),
+        // What libraries warn of means nothing to a player; RUST_LOG shows it. A device or a window that is lost is said by `lost`.
+        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=info".into(),
         level: bevy::log::Level::WARN,
         ..default()
     };
@@ -91,7 +108,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
         Surface::Picture(_) => app.add_plugins(DefaultPlugins.build().disable::<WinitPlugin>().disable::<LogPlugin>().set(window)),
     };
-    app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings: Arc::new(surroundings()) }))
+    app.add_plugins((EguiPlugin::default(), RelativisticRenderPlugin { surroundings }))
         .add_plugins((
             SimulationPlugins,
             GamePlugin,
@@ -103,6 +120,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
             InterfacePlugin { picture: if let Surface::Picture(size) = surface { Some(size) } else { None } },
             SoundPlugin,
             focus::FocusPlugin,
+            lost::LostDevicePlugin,
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
         .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
@@ -110,6 +128,10 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         .insert_resource(choices)
         .insert_resource(FileConfig(file_config))
         .insert_resource(session);
+    if let Some((file, started)) = &options.timings {
+        let waits = matches!(surface, Surface::Picture(_));
+        app.add_plugins(timings::TimingsPlugin { file: file.clone(), started: *started, waits });
+    }
     if warns {
         app.insert_state(Screen::Warning);
     }
@@ -117,8 +139,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         app.insert_resource(Watched(replay.clone()));
     }
     if options.replay.is_some() || options.at_once {
-        let ready = resource_exists::<Staged>.and_then(not(in_state(Screen::Warning)));
-        app.add_systems(Update, fly_at_once.run_if(ready).before(GameSet::Answer));
+        app.add_systems(Update, fly_at_once.run_if(not(in_state(Screen::Warning))).before(GameSet::Answer));
     }
     app
 }

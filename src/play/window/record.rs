@@ -9,8 +9,8 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 
 use crate::picture_file::png;
 use crate::play::hud::notice::Notice;
-use crate::play::picture::Staged;
 use crate::play::picture::snapshot::snapshot;
+use crate::play::picture::staging::Staged;
 use crate::play::window::pictures::{folders, save_new, stem};
 use crate::sim::snapshot::Snapshot;
 
@@ -78,7 +78,7 @@ fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
 /// Frames at the start whose picture is not ready yet: the window's surface and the pipelines are being made.
 const WARM_UP: u32 = 3;
 
-fn record(world: &mut World) {
+pub(super) fn record(world: &mut World) {
     let mut recording = world.resource_mut::<VideoRecording>();
     recording.drawn += 1;
     let Some(index) = recording.drawn.checked_sub(WARM_UP) else { return };

@@ -1,0 +1,133 @@
+//! A scene on its way to the screen: its models are made on a thread, then the renderer compiles what it needs for them on another.
+//! Meanwhile the window answers.
+
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use bevy::prelude::*;
+
+use crate::play::camera::{CameraView, state_of};
+use crate::play::loading::Loading;
+use crate::play::picture::now::Now;
+use crate::play::picture::sight::FrameCamera;
+use crate::play::session::Session;
+use crate::render::frame::FrameInput;
+use crate::render::gpu::types::placed::THIN;
+use crate::render::plugin::{FrameToDraw, LensingTable, SceneReady, SceneToDraw};
+use crate::render::renderer::SceneUpload;
+use crate::render::stage::{Stage, settings};
+
+/// The scene, ready for frames.
+#[derive(Resource, Debug)]
+pub struct Staged(pub Stage);
+
+/// A scene that is not ready yet.
+#[derive(Resource, Debug)]
+pub enum Staging {
+    /// Its models are being made.
+    Making(JoinHandle<(Stage, SceneUpload)>),
+    /// The renderer has it and compiles.
+    HandedOver(Stage, Arc<SceneUpload>),
+}
+
+/// Brings scenes to the renderer.
+pub struct StagingPlugin;
+
+impl Plugin for StagingPlugin {
+    fn build(&self, app: &mut App) {
+        let nothing = not(resource_exists::<Staged>.or_else(resource_exists::<Staging>));
+        app.init_resource::<Loading>().add_systems(
+            PreUpdate,
+            (restage.run_if(nothing), hand_over.run_if(resource_exists::<Staging>), show.run_if(resource_exists::<Staging>)).chain(),
+        );
+    }
+}
+
+/// Has the models and the disk of the session's scene made anew; until they are there the picture stays as it is.
+pub fn restage(world: &mut World) {
+    let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
+    let (table, scene, config) = (table.0.clone(), session.scene.clone(), session.effective().drawn());
+    let make = move || {
+        let (stage, upload) = Stage::prepare(&table, &scene, scene.assemble(&config), &config, None);
+        (stage.watched(), upload)
+    };
+    match std::thread::Builder::new().name("scene".to_owned()).spawn(make) {
+        // What an earlier thread makes is not wanted any more.
+        Ok(making) => world.insert_resource(Staging::Making(making)),
+        Err(reason) => fail(world, &reason.to_string()),
+    }
+}
+
+/// The same for another scene than before: there is no picture until it is there.
+pub fn change_scene(world: &mut World) {
+    if !world.contains_resource::<Staged>() && !world.contains_resource::<Staging>() {
+        // It has not begun: it will with the session as it is then.
+        return;
+    }
+    world.remove_resource::<Staged>();
+    world.init_resource::<Loading>();
+    world.insert_resource(FrameToDraw(None));
+    restage(world);
+}
+
+/// Ends the game: without a scene there is nothing to see.
+fn fail(world: &mut World, reason: &str) {
+    error!("the scene cannot be loaded: {reason}");
+    world.write_message(AppExit::error());
+}
+
+/// What is made goes to the renderer: at once where the picture before is shown on, else to be rehearsed.
+fn hand_over(world: &mut World) {
+    let making = match world.remove_resource::<Staging>() {
+        Some(Staging::Making(making)) if making.is_finished() => making,
+        Some(other) => return world.insert_resource(other),
+        None => return,
+    };
+    let Ok((stage, mut upload)) = making.join() else { return fail(world, "its models could not be made") };
+    if world.contains_resource::<Staged>() {
+        world.insert_resource(SceneToDraw(Some(Arc::new(upload))));
+        world.insert_resource(Staged(stage));
+        // A frame of the models before names some that are no longer there.
+        world.insert_resource(FrameToDraw(None));
+        return;
+    }
+    upload.rehearsal = world.run_system_cached_with(rehearsal, stage.clone()).unwrap_or_default();
+    let upload = Arc::new(upload);
+    world.insert_resource(SceneToDraw(Some(upload.clone())));
+    world.insert_resource(Staging::HandedOver(stage, upload));
+}
+
+/// Once the renderer is ready, frames are made.
+fn show(world: &mut World) {
+    let Some(Staging::HandedOver(_, upload)) = world.get_resource::<Staging>() else { return };
+    if !world.resource::<SceneReady>().0.as_ref().is_some_and(|ready| Arc::ptr_eq(ready, upload)) {
+        return;
+    }
+    if let Some(Staging::HandedOver(stage, _)) = world.remove_resource::<Staging>() {
+        world.insert_resource(Staged(stage));
+        world.remove_resource::<Loading>();
+    }
+}
+
+/// Radius of the rehearsed camera that is inside the horizon, in r_s.
+const INSIDE: f64 = 0.8;
+
+/// Frames that need whatever this scene may need: as seen from the player's ship and from far, with every image thin, inside the horizon.
+fn rehearsal(stage: In<Stage>, now: Now) -> Vec<FrameInput> {
+    let Some((history, ..)) = now.own() else { return Vec::new() };
+    let (me, time, config) = (now.session.player(), now.time(), now.session.config.drawn());
+    let state = state_of(&history.at(time));
+    let field_of_view = config.video.fov.to_radians();
+    let settings = settings(&config);
+    let frame = |shot: FrameCamera| {
+        let settings = crate::render::settings::Settings { own_ship: shot.lit, ..settings };
+        stage.frame(shot.camera, [1280, 720], time, &now.histories(), shot.hidden, &settings)
+    };
+    let own = frame(FrameCamera::own(me, &state, CameraView::ThirdPerson, state.attitude, now.session.length(me), field_of_view));
+    let far = frame(FrameCamera::afar(state.position, 0.0, field_of_view));
+    let mut thin = far.clone();
+    thin.placed.iter_mut().for_each(|image| image.instance.triangles[3] |= THIN);
+    let mut inside = own.clone();
+    inside.camera.position *= INSIDE / inside.camera.radius();
+    vec![far, own, thin, inside]
+}
