@@ -18,8 +18,9 @@ const SIZE: [u32; 2] = [160, 90];
 /// Simulated time of a frame, in s.
 const SECONDS: f64 = 1.0 / 30.0;
 /// What a rise may be more than its bound, of white: a step of 8 bits is 3e-4 in the dark, of which the mean over thousands of pixels keeps
-/// little; noise against banding adds 1e-4 to what is black; smoothed outlines change the mean a little. 4e-5 is reached.
-const TOLERANCE: f64 = 1e-4;
+/// little (4e-5 is reached) and that over a few dozen more (1.6e-4); noise against banding adds 1e-4 to what is black; smoothed outlines
+/// change the mean a little.
+const TOLERANCE: f64 = 3e-4;
 
 /// A scene that is shown frame by frame.
 struct Show {
