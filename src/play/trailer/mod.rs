@@ -140,7 +140,8 @@ impl Studio<'_> {
             }
             _ => {
                 let stage = Stage::new(&mut self.renderer, &take.session.scene, &take.session.effective());
-                let own_ship = take.has_ships().then(|| take.session.player());
+                // Only a ship that is marked as the player's is lit for the picture.
+                let own_ship = take.session.scene.ships.iter().position(|ship| ship.player);
                 let engines = Some([config.ship.thrust, config.enemy.thrust]);
                 (stage, Settings { own_ship, engines, ..settings(config) })
             }

@@ -106,13 +106,13 @@ pub const PARTS: [Part; 8] = [
         tension: 0.6,
         line: "",
     },
-    // Through the horizon, after a ship that falls in. It ends before the catch, at T = 62.6, when the camera swings round.
+    // Among ships that fall: the camera is at the horizon at T = 1.22 = (2^1.5 − 1)·2/3, at three quarters of the part.
     Part {
-        place: Place::Flight("10-no-way-back"),
-        span: [56.5, 62.5],
+        place: Place::Scene("plunge"),
+        span: [0.3, 1.55],
         seconds: 3.5,
-        camera: Camera::Director(Shot::Chase),
-        fov: 80.0,
+        camera: Camera::Own,
+        fov: 100.0,
         tension: 1.0,
         line: "Nothing marks the horizon.",
     },

@@ -75,11 +75,6 @@ impl Take {
         Ok(Take { part: *part, session, app, moments, step, nobody: History::nobody(), director: Director::default() })
     }
 
-    /// Whether there are ships.
-    pub fn has_ships(&self) -> bool {
-        !self.session.scene.ships.is_empty()
-    }
-
     /// What is heard at T = `time` (r_s/c); music alone where no ship flies.
     pub fn heard(&self, time: f64) -> Heard {
         let index = ((time / self.step).round() as usize).saturating_sub(1);

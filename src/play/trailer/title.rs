@@ -51,8 +51,7 @@ impl Letters {
         }
         let galley = fonts.layout_job(job(points));
         let atlas = fonts.image();
-        // The space after the last letter is not part of the words.
-        let left = 0.5 * (width - galley.rect.width() + style.spread as f32 * points);
+        let left = 0.5 * (width - galley.rect.width());
         let top = style.at as f32 * height - 0.5 * galley.rect.height();
         let glyphs =
             || galley.rows.iter().flat_map(|row| row.row.glyphs.iter().map(|glyph| (row.pos + glyph.pos.to_vec2(), glyph.uv_rect)));
