@@ -21,4 +21,5 @@ mod support;
 #[cfg(feature = "game")]
 mod twin;
 #[cfg(feature = "game")]
+mod window;
 mod words;
