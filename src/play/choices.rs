@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::Resource;
+use bevy::prelude::{Resource, warn};
 
 use crate::play::files::{set_aside, write_whole};
 use crate::scene::GameConfig;
@@ -62,7 +62,10 @@ impl Choices {
                 (Choices { chosen: chosen.collect(), ..none }, None)
             }
             Err(error) => match set_aside(file) {
-                Some(aside) => (none, Some(format!("{error}\nYour settings were damaged; they are set aside as {}.", aside.display()))),
+                Some(aside) => {
+                    warn!("{error}");
+                    (none, Some(format!("Your settings were damaged; they are set aside as {}.", aside.display())))
+                }
                 None => (Choices::default(), Some(format!("{error}\nSettings are kept until the game ends."))),
             },
         }

@@ -132,7 +132,7 @@ fn target(scale: &Scale, read: &Bearing, by_light: bool) -> Vec<Line> {
         (Density::Least, format!("{:.2} r_s", read.range), 26.0, TEXT),
         (Density::Full, scale.kilometres(read.range), 12.0, FAINT),
         (Density::Full, language.say("hud-closing"), 11.0, FAINT),
-        (Density::Reduced, format!("{:+.3} c", read.closing), 19.0, closing),
+        (Density::Reduced, format!("{:+.3} c", thousandths(read.closing)), 19.0, closing),
     ];
     if let Some(g) = read.shift {
         let key = if g >= 1.0 { "hud-light-bluer" } else { "hud-light-redder" };
@@ -140,6 +140,11 @@ fn target(scale: &Scale, read: &Bearing, by_light: bool) -> Vec<Line> {
     }
     lines.push((Density::Full, language.fill("hud-target-clock", &[("clock", scale.clock(read.clock).as_str())]), 12.0, FAINT));
     lines
+}
+
+/// Rounded as it is written, so that nothing is −0.000.
+fn thousandths(value: f64) -> f64 {
+    (value * 1e3).round() * 1e-3 + 0.0
 }
 
 /// Who flies, where one looks from, the pace, and what is in the tanks, over a bar of it.

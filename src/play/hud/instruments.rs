@@ -34,7 +34,10 @@ impl Scale {
     /// A length of `r` r_s in words: `265.8 bn km`.
     pub fn kilometres(&self, r: f64) -> String {
         let km = r * self.metres * 1e-3;
-        let sizes = [(1e12, "unit-trillion-km"), (1e9, "unit-billion-km"), (1e6, "unit-million-km"), (1e3, "unit-thousand-km")];
+        let english = [(1e12, "unit-trillion-km"), (1e9, "unit-billion-km"), (1e6, "unit-million-km"), (1e3, "unit-thousand-km")];
+        // Japanese counts by ten thousands.
+        let japanese = [(1e12, "unit-trillion-km"), (1e8, "unit-hundred-million-km"), (1e4, "unit-ten-thousand-km")];
+        let sizes = if self.language == Language::Japanese { &japanese[..] } else { &english[..] };
         sizes.iter().find(|(size, _)| km.abs() >= *size).map_or_else(
             || format!("{km:.0} km"),
             |(size, key)| self.language.fill(key, &[("value", format!("{:.1}", km / size).as_str())]),

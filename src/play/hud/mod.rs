@@ -81,9 +81,12 @@ fn draw(
         text(&painter, at, Align2::CENTER_CENTER, &language.say("hud-loading"), 18.0, TEXT);
     }
     let shown = staged.is_some() && shows(*screen.get(), player.hud_off);
+    let mut said = Vec::new();
     if let Some(words) = left_out(&session.config, language) {
         let at = pos2(rect.center().x, rect.bottom() - MARGIN);
-        TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]).paint(&painter);
+        let text_box = TextBox::lay(&painter, at, Align2::CENTER_BOTTOM, 0.5 * rect.width(), &[(&words, 12.0, TRUE)]);
+        said.push(text_box.frame);
+        text_box.paint(&painter);
     }
     let says = (real.elapsed_secs_f64() < notice.until).then_some(notice.text.as_str()).filter(|words| !words.is_empty());
     // In front of menus and the overlay too.
@@ -94,7 +97,7 @@ fn draw(
         }
         return Ok(());
     }
-    let mut taken = markers::Taken::default();
+    let mut taken = markers::Taken { panels: said, other: Vec::new() };
     let Some(read) = panel.instruments else { return Ok(()) };
     let mut text_boxes = dials::lay(
         &painter,

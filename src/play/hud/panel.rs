@@ -14,7 +14,7 @@ use crate::play::player_state::PlayerState;
 use crate::scene::disk::Gas;
 use crate::scene::mission::GoalTask;
 use crate::sim::Outcome;
-use crate::sim::seeing::{Body, Pointer, Scenery, Track, pointers};
+use crate::sim::seeing::{Body, Pointer, Scenery, Sight, Track, pointers};
 use crate::sim::sight::{Apparition, apparition, direction, emission_time, frequency_ratio, true_direction};
 use crate::spacetime::Observer;
 use crate::spacetime::frames::relative_momentum;
@@ -103,7 +103,12 @@ pub(super) fn read_panel(
     let moving = -relative_momentum(state.momentum, resting);
     *panel = Panel {
         instruments: Some(Instruments::read(&state, time, camera.radius(), thrust, (fuel.left, fuel.capacity), shown.as_ref())),
-        images: [0, 1].map(|order| target.and_then(|history| apparition(&camera, time, history, Order::ALL[order]))),
+        images: [0, 1].map(|order| {
+            // Where the picture leaves out what light does, its images are elsewhere.
+            let render = &now.session.config.render;
+            let is_drawn = render.lensing && render.light_delay && order < render.orders as usize;
+            target.filter(|_| is_drawn).and_then(|history| apparition(&camera, time, history, Order::ALL[order]))
+        }),
         truth: there.filter(|_| marked_now).and_then(|there| true_direction(&camera, there.position)),
         hole: camera.position.try_normalize().map(|out| camera.seen_direction(-out)),
         decided: now.chase.as_ref().and_then(|chase| chase.outcome).map(|(_, decided)| history.at(decided).proper_time),
@@ -140,5 +145,15 @@ fn pointed_at(now: &Now, camera: &Observer, aspect: f64) -> Vec<Pointer> {
         .into_iter()
         .chain(session.scene.planet.iter().map(|planet| Body { track: Track::Planet(planet), radius: planet.radius }))
         .collect();
-    pointers(camera, now.time(), &Scenery { disk: gas.as_ref(), target, others: &others }, aspect)
+    let mut found = pointers(camera, now.time(), &Scenery { disk: gas.as_ref(), target, others: &others }, aspect);
+    // What is switched off is not there to be named.
+    let render = &config.render;
+    found.retain(|pointer| match pointer.sight {
+        Sight::BlueSide | Sight::RedSide => render.doppler,
+        Sight::TrueTarget | Sight::TargetImage => render.light_delay,
+        Sight::SecondImage | Sight::EinsteinRing => render.light_delay && render.orders > 1,
+        Sight::DiskUnderside | Sight::PhotonRing => render.orders > 1,
+        Sight::Shadow | Sight::DiskFarSide | Sight::Aberration => true,
+    });
+    found
 }

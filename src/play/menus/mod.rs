@@ -224,8 +224,8 @@ type Buttons<'w> = (Res<'w, Bindings>, Res<'w, Device>);
 
 /// Says the goal when a chase begins, and on the first flight what to begin with: until the player has, or has had time to read it.
 fn welcome(
-    (session, screen, clock, real): (Res<Session>, Res<State<Screen>>, Res<Clock>, Res<Time<Real>>),
-    playback: Option<Res<Playback>>,
+    (session, screen): (Res<Session>, Res<State<Screen>>),
+    (clock, real, playback): (Res<Clock>, Res<Time<Real>>, Option<Res<Playback>>),
     (bindings, device): Buttons,
     mut player: ResMut<PlayerState>,
     mut notice: ResMut<Notice>,

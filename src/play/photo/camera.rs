@@ -80,7 +80,7 @@ mod tests {
         let home = Observer {
             position: DVec3::X * 3.0,
             momentum: DVec3::Y * 0.2,
-            attitude: DQuat::from_rotation_y(1.5707963),
+            attitude: DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
             field_of_view: 1.0,
         };
         let mut camera = FreeCamera::at(home);

@@ -24,9 +24,9 @@ pub enum How {
     Exactly,
 }
 
-/// The picture that is being made, one at a time; the last that was asked for goes before.
+/// The pictures that are being made: how, by whom, and the file that carries the moment.
 #[derive(Resource, Debug, Default)]
-pub struct Darkroom(Option<(How, Developing, PathBuf)>);
+pub struct Darkroom(Vec<(How, Developing, PathBuf)>);
 
 /// Begins to make a picture of a moment.
 pub fn begin(world: &mut World, moment: &Snapshot, how: How) {
@@ -40,10 +40,7 @@ pub fn begin(world: &mut World, moment: &Snapshot, how: How) {
         Ok((how, developing, carrier))
     });
     match started {
-        Ok(job) => {
-            let before = world.get_resource_or_init::<Darkroom>().0.replace(job);
-            before.iter().for_each(|(.., carrier)| _ = std::fs::remove_file(carrier));
-        }
+        Ok(job) => world.get_resource_or_init::<Darkroom>().0.push(job),
         Err(why) => say_failed(world, &why),
     }
 }
@@ -75,29 +72,34 @@ fn place(name: &str, how: How) -> Result<PathBuf, String> {
 
 /// A picture of one pixel that carries the moment, for the program that makes the whole one.
 fn carrier(moment: &Snapshot, name: &str) -> Result<PathBuf, String> {
-    let file = std::env::temp_dir().join(format!("{name}-{}.png", std::process::id()));
+    let names = (0..1000).map(|n| std::env::temp_dir().join(format!("{name}-{}-{n}.png", std::process::id())));
+    let file = names.into_iter().find(|file| !file.exists()).ok_or("there are too many pictures at once")?;
     picture_file::write_png_with_text(&file, &[0; 3], [1, 1], &moment.to_text()).map_err(|error| error.to_string())?;
     Ok(file)
 }
 
-/// Says how far the picture is, and where it is in the end.
+/// Says how far the pictures are, and where each is in the end.
 pub(super) fn watch(mut darkroom: ResMut<Darkroom>, session: Res<Session>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
-    let Some((how, developing, carrier)) = &darkroom.0 else { return };
-    let language = session.language();
+    let (language, now) = (session.language(), real.elapsed_secs_f64());
     let file = |path: &Path| path.display().to_string();
-    let (text, seconds) = match (developing.progress(), how) {
-        (Progress::Traced(share), how) => {
-            let key = if *how == How::Drawn { "photo-drawing" } else { "photo-developing" };
-            (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5)
+    darkroom.0.retain(|(how, developing, carrier)| {
+        let (text, seconds, goes_on) = match (developing.progress(), how) {
+            (Progress::Traced(share), how) => {
+                let key = if *how == How::Drawn { "photo-drawing" } else { "photo-developing" };
+                (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5, true)
+            }
+            (Progress::Done(path), How::Drawn) => (language.fill("photo-saved", &[("file", file(&path).as_str())]), 6.0, false),
+            (Progress::Done(path), How::Exactly) => (language.fill("photo-developed", &[("file", file(&path).as_str())]), 6.0, false),
+            (Progress::Failed(why), _) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0, false),
+            (Progress::Cancelled, _) => (String::new(), 0.0, false),
+        };
+        // How far one is does not hide where another is.
+        if !goes_on || now + 0.5 >= notice.until {
+            *notice = Notice { text, until: now + seconds };
         }
-        (Progress::Done(path), How::Drawn) => (language.fill("photo-saved", &[("file", file(&path).as_str())]), 6.0),
-        (Progress::Done(path), How::Exactly) => (language.fill("photo-developed", &[("file", file(&path).as_str())]), 6.0),
-        (Progress::Failed(why), _) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0),
-        (Progress::Cancelled, _) => (String::new(), 0.0),
-    };
-    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
-    if seconds != 0.5 {
-        _ = std::fs::remove_file(carrier);
-        darkroom.0 = None;
-    }
+        if !goes_on {
+            _ = std::fs::remove_file(carrier);
+        }
+        goes_on
+    });
 }

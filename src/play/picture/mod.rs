@@ -47,8 +47,7 @@ fn point_camera(
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
     windows: Query<&Window, With<PrimaryWindow>>,
-    playback: Option<Res<Playback>>,
-    photo: Option<Res<Photo>>,
+    (playback, photo): (Option<Res<Playback>>, Option<Res<Photo>>),
     mut player: ResMut<PlayerState>,
     mut shot: ResMut<CurrentShot>,
 ) {

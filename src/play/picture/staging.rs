@@ -27,7 +27,7 @@ pub enum Staging {
     /// Its models are being made.
     Making(JoinHandle<(Stage, SceneUpload)>),
     /// The renderer has it and compiles.
-    HandedOver(Stage, Arc<SceneUpload>),
+    HandedOver(Box<Stage>, Arc<SceneUpload>),
 }
 
 /// Brings scenes to the renderer.
@@ -94,7 +94,7 @@ fn hand_over(world: &mut World) {
     upload.rehearsal = world.run_system_cached_with(rehearsal, stage.clone()).unwrap_or_default();
     let upload = Arc::new(upload);
     world.insert_resource(SceneToDraw(Some(upload.clone())));
-    world.insert_resource(Staging::HandedOver(stage, upload));
+    world.insert_resource(Staging::HandedOver(Box::new(stage), upload));
 }
 
 /// Once the renderer is ready, frames are made.
@@ -104,7 +104,7 @@ fn show(world: &mut World) {
         return;
     }
     if let Some(Staging::HandedOver(stage, _)) = world.remove_resource::<Staging>() {
-        world.insert_resource(Staged(stage));
+        world.insert_resource(Staged(*stage));
         world.remove_resource::<Loading>();
     }
 }

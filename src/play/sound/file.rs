@@ -36,6 +36,9 @@ pub fn render<E>(moments: &[Heard], seconds: f64, volumes: &Volumes, mut take: i
     Ok(())
 }
 
+/// Samples over which a file fades out: a hundredth of a second.
+const FADE: f32 = 0.01 * RATE as f32;
+
 /// Writes `moments`, each of which lasts `seconds`, to a WAV file. Its length in seconds.
 pub fn write(path: &Path, moments: &[Heard], seconds: f64, volumes: &Volumes) -> Result<f64, SoundFileError> {
     let failed = |error: hound::Error| {
@@ -47,8 +50,15 @@ pub fn write(path: &Path, moments: &[Heard], seconds: f64, volumes: &Volumes) ->
     };
     let spec = WavSpec { channels: 2, sample_rate: RATE, bits_per_sample: 16, sample_format: SampleFormat::Int };
     let mut file = WavWriter::create(path, spec).map_err(failed)?;
+    // It ends without a click, whatever sounds at the end.
+    let all = (moments.len() as f64 * seconds * f64::from(RATE)).round() as u64;
+    let mut index = 0;
     render(moments, seconds, volumes, |block| {
-        block.iter().flatten().try_for_each(|&sample| file.write_sample((sample * f32::from(i16::MAX)).round() as i16))
+        block.iter().try_for_each(|frame| {
+            let gain = (all.saturating_sub(index) as f32 / FADE).min(1.0);
+            index += 1;
+            frame.iter().try_for_each(|sample| file.write_sample((sample * gain * f32::from(i16::MAX)).round() as i16))
+        })
     })
     .map_err(failed)?;
     let length = f64::from(file.duration()) / f64::from(RATE);

@@ -33,5 +33,5 @@ pub fn draw(sketch: &Sketch) {
     sketch.label(plot.at(dvec2(-3.6, 1.2)), Align2::CENTER_CENTER, "caught", ALARM);
     sketch.label(dvec2(410.0, 188.0), Align2::RIGHT_CENTER, "bent", SEEN);
     sketch.pointer(plot.at(DVec2::ZERO), plot.at(dvec2(3.2, 0.0)), Align2::LEFT_CENTER, "hole", TEXT);
-    sketch.write(plot.at(dvec2(-9.9, 0.5 * edge + 0.2)), Align2::LEFT_CENTER, "2.6 r_s", TEXT);
+    sketch.write(plot.at(dvec2(-9.9, 0.5 * edge + 0.2)), Align2::LEFT_CENTER, "2 × 2.6 r_s", TEXT);
 }
