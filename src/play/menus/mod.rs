@@ -1,7 +1,7 @@
 //! The menus: title, pause, result, settings, manual, and what a chase begins with.
 //!
-//! A menu is a list of entries ([`mod@entries`], [`lists`]), one of which has the focus. Keyboard, gamepad ([`mod@keys`]) and mouse (`rows`) touch
-//! it; [`mod@navigate`] does what they ask. What is painted never decides anything, so all of it works without a window.
+//! A menu is a list of entries ([`mod@entries`], [`lists`]), one of which has the focus. Keyboard, gamepad ([`mod@keys`]) and mouse
+//! (`rows`) touch it; [`mod@navigate`] does what they ask. What is painted never decides anything, so all of it works without a window.
 
 pub mod change;
 pub mod entries;
