@@ -534,27 +534,3 @@ fn every_pointer_is_on_the_screen() {
         assert!(found.is_empty() || !matches!(number % 20, 4 | 5));
     }
 }
-
-/// Not a test of anything: `cargo test --release -- --ignored how_long_pointing_takes --nocapture`.
-#[test]
-#[ignore]
-fn how_long_pointing_takes() {
-    let gas = gas(|_| ());
-    for (name, position, momentum) in [
-        ("hovering", DVec3::new(14.0, 2.0, 4.0), hovering(DVec3::new(14.0, 2.0, 4.0))),
-        ("near", DVec3::new(6.0, 0.0, 1.0), DVec3::ZERO),
-        ("inside", DVec3::new(0.6, 0.0, 0.35), DVec3::ZERO),
-    ] {
-        for field in [0.1, 1.2, 2.4] {
-            let camera = facing(position, momentum, field, [0.0; 3]);
-            let ship = circling(DVec3::new(-2.0, -6.0, 5.0), DVec3::X, 7.0);
-            let body = Body { track: Track::Ship(&ship), radius: 0.3 };
-            let scenery = Scenery { disk: Some(&gas), target: Some(body), others: &[body] };
-            let start = std::time::Instant::now();
-            for _ in 0..50 {
-                std::hint::black_box(pointers(&camera, 7.0, &scenery, ASPECT));
-            }
-            println!("{name}, field {field}: {:.3} ms", start.elapsed().as_secs_f64() * 20.0);
-        }
-    }
-}

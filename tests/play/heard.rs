@@ -20,6 +20,7 @@ use lensrunner::spacetime::Observer;
 use lensrunner::spacetime::light::Order;
 
 use super::samples::{BEACON, mono, next, pitch};
+use crate::sim::chase::CHASE;
 use crate::support::Folder;
 
 /// A session of this scene, by the game's own configuration.
@@ -69,22 +70,6 @@ orbit = { radius = 14.0, phase = 3.5 }
 name = "other"
 position = [12, 0, 0]
 momentum = [0.15, 0.22, 0.0]
-"#;
-
-const CHASE: &str = r#"
-[[ship]]
-name = "hunter"
-position = [9, 0, 0]
-momentum = [0.36, 0.25, 0.05]
-ai = "pursue"
-player = true
-fuel = 7
-[[ship]]
-name = "quarry"
-position = [4.25, 5.5, 1.5]
-momentum = [0.0, 0.45, 0.12]
-ai = "flee"
-fuel = 4
 "#;
 
 /// In the whole sound of a flight: each ping has the pitch that the clocks say, and comes when the light of its beat arrives.

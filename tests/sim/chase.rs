@@ -18,7 +18,7 @@ use lensrunner::spacetime::orbit::{circular_orbit, static_momentum};
 use crate::sim::simulate::run;
 
 /// Hunter and quarry 7 r_s apart, given by plain numbers: every operation from here on is + − × ÷ √, so the hash holds on any machine.
-const CHASE: &str = r#"
+pub const CHASE: &str = r#"
 [[ship]]
 name = "hunter"
 position = [9, 0, 0]

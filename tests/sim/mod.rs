@@ -1,6 +1,6 @@
 //! Tests of `src/sim/`.
 
-mod chase;
+pub mod chase;
 mod history;
 mod missions;
 mod simulate;
