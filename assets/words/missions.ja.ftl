@@ -6,15 +6,15 @@ mission-01-training-brief =
     短い練習が六つあります。どれも時間はたっぷりあります。追ってくるものはいません。「やさしい」では、ドローンも眠っています。
     あなたの船は、ブラックホールのまわりを落ち続けています。それが軌道です。エンジンは、その落ち方を変えるだけです。
 mission-01-training-goal-1 = 噴射する
-mission-01-training-goal-1-hint = W を押し続けると、エンジンが船を前へ押します。S・A・D・Space・Ctrl で、ほかの向きへ押します。Shift で全力噴射です。
+mission-01-training-goal-1-hint = [thrust_forward] を押し続けると、エンジンが船を前へ押します。[thrust_back] は後ろへ、[thrust_left] と [thrust_right] は横へ押します。[boost] で全力噴射です。
 mission-01-training-goal-2 = 船の向きを変える
-mission-01-training-goal-2-hint = マウスか矢印キーを使います。変わるのは船首の向きだけです。飛んでいく方向は変わりません。
+mission-01-training-goal-2-hint = マウスか、[yaw_left]・[yaw_right]・[pitch_up]・[pitch_down] を使います。変わるのは船首の向きだけです。飛んでいく方向は変わりません。
 mission-01-training-goal-3 = 落ちる：キーから手をはなす
-mission-01-training-goal-3-hint = すべてのキーをはなしてください。バーがのびないときは、アシストがまだブレーキをかけています。Z で切れます。
+mission-01-training-goal-3-hint = すべてから手をはなしてください。バーがのびないときは、アシストがまだブレーキをかけています。[toggle_assist] で切れます。
 mission-01-training-goal-4 = ドローンを見る
-mission-01-training-goal-4-hint = V を押し続けるか、船首を青い印へ向けます。その光は、少し前にドローンを出たものです。どれだけ前かは、印に書いてあります。
+mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船首を青い印へ向けます。その光は、少し前にドローンを出たものです。どれだけ前かは、印に書いてあります。
 mission-01-training-goal-5 = r = 7 まで下りる
-mission-01-training-goal-5-hint = ブラックホール（赤い矢印）のほうを向いて、W を押し続けます。r は右上に出ています。手をはなすと、アシストが落下を円軌道に変えます。前より速い円軌道です。
+mission-01-training-goal-5-hint = ブラックホール（赤い矢印）のほうを向いて、[thrust_forward] を押し続けます。r は右上に出ています。手をはなすと、アシストが落下を円軌道に変えます。前より速い円軌道です。
 mission-01-training-goal-6 = ドローンをつかまえる：1.5 r_s 以内にとどまる
 mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。ドローンはそこにいます。見える姿は、おくれています。
 
@@ -40,7 +40,7 @@ mission-04-the-ghost-brief =
     幽霊船の居場所は、だれも教えてくれません。見えるのは、その光だけです。第1の像と、ブラックホールを回りこんできた、もっと古い第2の像です。
     船は、そのあとも飛び続けています。点線は、像の場所からどう落ちていくかを示します。相手もまた、光でしかあなたを知りません。
 mission-04-the-ghost-goal-1 = 幽霊船の光を見つける
-mission-04-the-ghost-goal-1-hint = V を押し続けると、カメラが第1の像のほうを向きます。印のそばの数字は、その像がどれだけ古いかを表します。
+mission-04-the-ghost-goal-1-hint = [look_at_target] を押し続けると、カメラが第1の像のほうを向きます。印のそばの数字は、その像がどれだけ古いかを表します。
 mission-04-the-ghost-goal-2 = 幽霊船をつかまえる
 mission-04-the-ghost-goal-2-hint = 像の進む道すじの先を目ざしましょう。どれだけ先かは、「古さ × 速さ」でわかります。
 

@@ -3,8 +3,12 @@
 use bevy_egui::egui::{Align2, Painter, Rect, pos2};
 
 use crate::play::hud::paint::{FAINT, OWN, TEXT, TRUE, TextBox};
-use crate::play::words::Language;
+use crate::play::input::action::Action;
+use crate::play::input::bindings::Bindings;
+use crate::play::input::button::Device;
+use crate::play::words::{self, Language};
 use crate::scene::Scene;
+use crate::scene::mission::buttons::with_buttons;
 use crate::scene::mission::{GoalTask, Mission};
 use crate::scene::rules::Rules;
 use crate::sim::goals::needed;
@@ -33,11 +37,13 @@ pub struct Goals<'a> {
     pub rules: ChaseRules,
     /// The language, and the scene whose words they are.
     pub scene: (Language, &'a Scene),
+    /// What is bound to each action, and the device in use.
+    pub buttons: (&'a Bindings, Device),
 }
 
 /// Lays out the present goal below `top`, `seconds` of wall time after the start of the game; nothing when all are done.
 pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Slow, seconds: f64) -> Option<TextBox> {
-    let Goals { mission, progress, rules, scene } = *goals;
+    let Goals { mission, progress, rules, scene, buttons } = *goals;
     let goal = mission.goals.get(progress.goal)?;
     if slow.goal != Some(progress.goal) {
         *slow = Slow { goal: Some(progress.goal), since: seconds };
@@ -48,10 +54,15 @@ pub fn lay(painter: &Painter, rect: Rect, top: f32, goals: &Goals, slow: &mut Sl
         1 => scene.0.say("hud-goal"),
         _ => scene.0.fill("hud-goal-of", &[("number", place.to_string().as_str()), ("count", count.to_string().as_str())]),
     };
-    let words = scene.0.mission(scene.1, &format!("goal-{place}"), &goal.text);
+    let text = scene.0.mission(scene.1, &format!("goal-{place}"), &goal.text);
     let hint = goal.hint.as_ref().filter(|_| seconds - slow.since > SLOW);
     let hint = hint.map(|hint| scene.0.mission(scene.1, &format!("goal-{place}-hint"), hint));
-    let mut lines = vec![(number.as_str(), 11.0, FAINT), (words.as_str(), 15.0, TRUE)];
+    let button = |key: &str| {
+        let action = Action::ALL.into_iter().find(|action| action.key() == key)?;
+        Some(words::buttons::of(scene.0, buttons.0, buttons.1, action))
+    };
+    let hint = hint.map(|hint| with_buttons(&hint, button));
+    let mut lines = vec![(number.as_str(), 11.0, FAINT), (text.as_str(), 15.0, TRUE)];
     lines.extend(hint.as_ref().map(|hint| (hint.as_str(), 12.0, TEXT)));
     let at = pos2(rect.center().x, top);
     let share = progress.share(mission, &rules);

@@ -28,6 +28,8 @@ use crate::play::hud::instruments::{Countdown, Scale, hold_numbers};
 use crate::play::hud::notice::Notice;
 use crate::play::hud::paint::{ALARM, FAINT, OWN, TEXT, TRUE, TextBox, text};
 use crate::play::hud::panel::Panel;
+use crate::play::input::bindings::Bindings;
+use crate::play::input::button::Device;
 use crate::play::menus::screens::Screen;
 use crate::play::pace::Slowing;
 use crate::play::picture::staging::Staged;
@@ -68,6 +70,7 @@ fn draw(
     (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
     (mission, progress, playback): Flown,
     (slowing, mut slow): (Res<Slowing>, Local<goals::Slow>),
+    (bindings, device): (Res<Bindings>, Res<Device>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -124,7 +127,7 @@ fn draw(
         let below = text_boxes.last().map_or(rect.top() + MARGIN, |countdown| countdown.frame.bottom() + BETWEEN);
         let seconds = real.elapsed_secs_f64();
         let scene = (language, &session.scene);
-        let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules), scene };
+        let goals = goals::Goals { mission: &mission.0, progress, rules: ChaseRules(rules), scene, buttons: (&bindings, *device) };
         text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
     }
     if let Some(words) = says {

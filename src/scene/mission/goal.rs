@@ -14,7 +14,7 @@
 //! #   "gates"    fly through every [[gate]] in order
 //! #   "whirl"    turns, radius = [least, most]: go round the hole so often between two radii
 //! text = "Stay with the quarry"   # what the HUD says
-//! hint = "…"                      # how, for those who are slow; none if absent
+//! hint = "Hold [boost]"           # how, for those who are slow; none if absent. [action]: the button bound to it
 //! before = 100.0                  # T in r_s/c: the mission is lost when this is not done by then; no limit if absent
 //! ```
 
@@ -23,7 +23,7 @@ use std::ops::Range;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{MOST_LETTERS, ship_named, short};
+use super::{MOST_LETTERS, buttons, ship_named, short};
 use crate::scene::document::exactly_or_none;
 use crate::scene::document::fault::{Fault, fault, in_range};
 use crate::scene::ship::ShipSpec;
@@ -225,6 +225,7 @@ impl GoalEntry {
         short(&self.text, MOST_LETTERS)?;
         if let Some(hint) = &self.hint {
             short(hint, 2 * MOST_LETTERS)?;
+            buttons::check(hint)?;
         }
         let kind = *self.kind.get_ref();
         let (needed, allowed) = kind.keys();

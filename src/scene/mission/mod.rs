@@ -27,6 +27,7 @@
 //! ship.bolts = 12
 //! ```
 
+pub mod buttons;
 mod difficulty;
 mod gate;
 mod goal;
