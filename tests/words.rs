@@ -63,3 +63,27 @@ fn every_mission_speaks_japanese() {
     assert_eq!(found, wanted);
     assert!(FluentResource::try_new(text).is_ok(), "missions.ja.ftl is not sound");
 }
+
+/// The `[action]`s of a text.
+fn actions(text: &str) -> BTreeSet<&str> {
+    text.split('[').skip(1).filter_map(|part| part.split_once(']')).map(|(action, _)| action).collect()
+}
+
+/// A hint names the same buttons in both languages.
+#[test]
+fn hints_name_the_same_buttons_in_both_languages() {
+    let japanese = std::fs::read_to_string(root().join("assets/words/missions.ja.ftl")).unwrap();
+    let mut named = 0;
+    for file in files("assets/missions", "toml") {
+        let stem = file.file_stem().unwrap().to_string_lossy().into_owned();
+        let scene: toml::Table = std::fs::read_to_string(&file).unwrap().parse().unwrap();
+        for (index, goal) in scene["goal"].as_array().unwrap().iter().enumerate() {
+            let Some(hint) = goal.get("hint").and_then(|hint| hint.as_str()) else { continue };
+            let key = format!("mission-{stem}-goal-{}-hint = ", index + 1);
+            let translated = japanese.lines().find_map(|line| line.strip_prefix(&key)).unwrap();
+            assert_eq!(actions(translated), actions(hint), "{key}");
+            named += actions(hint).len();
+        }
+    }
+    assert!(named > 5, "{named} buttons in hints");
+}

@@ -32,7 +32,7 @@ menu-no-limit = no limit
 menu-press = press …
 menu-hold = hold
 menu-tap = tap
-menu-conflict = also: { $action }
+menu-conflict = { $button } also: { $action }
 menu-keyboard = keyboard, mouse
 menu-keyboard-other = second key
 menu-pad = gamepad
@@ -109,6 +109,8 @@ marker-lines = dotted lines: how you and the target fall on; small rings: neares
 
 curve-way = stick pushed →
 curve-answer = answer ↑
+curve-left = left stick
+curve-right = right stick
 
 ## HUD
 hud-loading = loading the scene…
@@ -221,6 +223,7 @@ photo-home = Back to the ship
 photo-hint = Thrust keys move the camera, dragging turns it. { $button }: panel off or on.
 photo-developing = developing: { $percent } %
 photo-developed = developed exactly: { $file }
+photo-developed-whole = developed exactly, with all effects on: { $file }
 photo-drawing = drawing the picture: { $percent } %
 photo-saved = picture written to { $file }
 photo-failed = It did not work: { $why }
@@ -257,13 +260,16 @@ setting-controls-mouse-sensitivity = Mouse: turn per pixel
 setting-controls-invert-x = Mouse: left and right swapped
 setting-controls-invert-y = Mouse: up and down swapped
 setting-controls-tapped = Tapped, not held
-setting-controls-stick-dead-zone = Stick: dead zone
-setting-controls-stick-curve = Stick: curve
+setting-controls-left-stick-dead-zone = Left stick: dead zone
+setting-controls-left-stick-curve = Left stick: curve
+setting-controls-right-stick-dead-zone = Right stick: dead zone
+setting-controls-right-stick-curve = Right stick: curve
 setting-controls-stick-pitch = Stick: up and down
 setting-controls-stick-yaw = Stick: left and right
 setting-controls-stick-thrust = Stick: thrust
 setting-controls-stick-invert-pitch = Stick: up and down swapped
 setting-controls-stick-invert-yaw = Stick: left and right swapped
+setting-controls-stick-invert-thrust = Stick: thrust swapped
 
 choice-quality-low = low
 choice-quality-medium = medium

@@ -32,7 +32,7 @@ menu-no-limit = 制限なし
 menu-press = 押してください
 menu-hold = 押し続ける
 menu-tap = 一度押す
-menu-conflict = 重なり：{ $action }
+menu-conflict = { $button } の重なり：{ $action }
 menu-keyboard = キーボード・マウス
 menu-keyboard-other = もう一つ
 menu-pad = ゲームパッド
@@ -109,6 +109,8 @@ marker-lines = 点線：このまま落ちていく道。小さい輪：最も�
 
 curve-way = スティックの倒し方 →
 curve-answer = 効き方 ↑
+curve-left = 左スティック
+curve-right = 右スティック
 
 ## 計器
 hud-loading = 読み込み中…
@@ -221,6 +223,7 @@ photo-home = 船にもどる
 photo-hint = 噴射のキーでカメラが動き、ドラッグで向きが変わります。{ $button }：この欄を消す・出す。
 photo-developing = 現像中：{ $percent } %
 photo-developed = 正確に現像しました：{ $file }
+photo-developed-whole = すべての効果を入れて正確に現像しました：{ $file }
 photo-drawing = 写真を描いています：{ $percent } %
 photo-saved = 写真を保存しました：{ $file }
 photo-failed = できませんでした：{ $why }
@@ -257,13 +260,16 @@ setting-controls-mouse-sensitivity = マウスの感度
 setting-controls-invert-x = マウス：左右を逆に
 setting-controls-invert-y = マウス：上下を逆に
 setting-controls-tapped = 一度押すもの
-setting-controls-stick-dead-zone = スティック：遊び
-setting-controls-stick-curve = スティック：曲線
+setting-controls-left-stick-dead-zone = 左スティック：遊び
+setting-controls-left-stick-curve = 左スティック：曲線
+setting-controls-right-stick-dead-zone = 右スティック：遊び
+setting-controls-right-stick-curve = 右スティック：曲線
 setting-controls-stick-pitch = スティック：上下の強さ
 setting-controls-stick-yaw = スティック：左右の強さ
 setting-controls-stick-thrust = スティック：噴射の強さ
 setting-controls-stick-invert-pitch = スティック：上下を逆に
 setting-controls-stick-invert-yaw = スティック：左右を逆に
+setting-controls-stick-invert-thrust = スティック：噴射を逆に
 
 choice-quality-low = 低い
 choice-quality-medium = 中くらい

@@ -120,7 +120,7 @@ fn read_records(folder: Res<RecordsFolder>, mut records: ResMut<Records>, mut no
     let (found, said) = folder.0.as_deref().map_or_else(Records::load, Records::load_from);
     *records = found;
     if let (Some(text), Some(notice)) = (said, &mut notice) {
-        **notice = Notice { text, until: real.elapsed_secs_f64() + 10.0 };
+        **notice = Notice { text, until: real.elapsed_secs_f64() + 10.0, share: None };
     }
 }
 
@@ -188,7 +188,7 @@ fn keep_score(world: &mut World) {
                 last.is_best = is_best;
                 if let Some(text) = wrong {
                     let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 8.0;
-                    world.insert_resource(Notice { text, until });
+                    world.insert_resource(Notice { text, until, share: None });
                 }
             }
         }

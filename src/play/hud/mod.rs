@@ -96,7 +96,7 @@ fn draw(
     let front = context.layer_painter(egui::LayerId::new(egui::Order::Foreground, egui::Id::new("notice")));
     if !shown {
         if let Some(words) = says {
-            message(&front, rect, rect.top() + BELOW_DIALS, words).paint(&front);
+            message(&front, rect, rect.top() + BELOW_DIALS, words, notice.share).paint(&front);
         }
         return Ok(());
     }
@@ -131,7 +131,7 @@ fn draw(
         text_boxes.extend(goals::lay(&painter, rect, below, &goals, &mut slow, seconds));
     }
     if let Some(words) = says {
-        let message = message(&front, rect, middle_bottom(&text_boxes, rect) + BETWEEN, words);
+        let message = message(&front, rect, middle_bottom(&text_boxes, rect) + BETWEEN, words, notice.share);
         taken.panels.push(message.frame);
         message.paint(&front);
     }
@@ -157,9 +157,13 @@ fn shows(screen: Screen, hud_off: bool) -> bool {
 }
 
 /// A line for the player, wrapped where it is wider than the screen.
-fn message(painter: &Painter, rect: Rect, top: f32, words: &str) -> TextBox {
+fn message(painter: &Painter, rect: Rect, top: f32, words: &str, share: Option<f64>) -> TextBox {
     let at = pos2(rect.center().x, top);
-    TextBox::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)])
+    let text_box = TextBox::lay(painter, at, Align2::CENTER_TOP, rect.width() - 2.0 * MARGIN, &[(words, 14.0, TRUE)]);
+    match share {
+        Some(share) => text_box.over_bar(share as f32, TRUE),
+        None => text_box,
+    }
 }
 
 /// Sizes of all text of the HUD, in points.
@@ -267,7 +271,7 @@ mod tests {
         assert!(complaint.len() > 300, "{complaint}");
         for size in [[900.0, 620.0], [1280.0, 720.0]] {
             on_canvas(size, |painter, rect| {
-                let frame = message(painter, rect, rect.top() + BELOW_DIALS, &complaint).frame;
+                let frame = message(painter, rect, rect.top() + BELOW_DIALS, &complaint, None).frame;
                 assert!(rect.contains_rect(frame) && frame.height() > 40.0, "{frame}");
             });
         }

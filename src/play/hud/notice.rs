@@ -9,4 +9,6 @@ pub struct Notice {
     pub text: String,
     /// Until when it is shown.
     pub until: f64,
+    /// The share of something that is done so far, 0 to 1, shown as a bar.
+    pub share: Option<f64>,
 }

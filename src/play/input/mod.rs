@@ -151,16 +151,16 @@ impl PlayerInput<'_, '_> {
         if self.bindings.is_tapped(action) {
             return 0.0;
         }
-        let response = Response::of(&self.bindings.controls);
+        let (left, right) = (Response::left(&self.bindings.controls), Response::right(&self.bindings.controls));
         let asks = |button: &Button, pad: &Gamepad| match *button {
             Button::Stick(axis, sign) => {
                 let is_left = matches!(axis, GamepadAxis::LeftStickX | GamepadAxis::LeftStickY);
-                let way = if is_left { pad.left_stick() } else { pad.right_stick() };
+                let (way, response) = if is_left { (pad.left_stick(), left) } else { (pad.right_stick(), right) };
                 let answer = response.both(DVec2::new(f64::from(way.x), f64::from(way.y)));
                 let along = if matches!(axis, GamepadAxis::LeftStickX | GamepadAxis::RightStickX) { answer.x } else { answer.y };
                 (along * f64::from(sign)).max(0.0)
             }
-            Button::Pad(button) if is_trigger(button) => response.answer(f64::from(pad.get(button).unwrap_or(0.0))),
+            Button::Pad(button) if is_trigger(button) => right.answer(f64::from(pad.get(button).unwrap_or(0.0))),
             _ => 0.0,
         };
         let buttons = self.bindings.buttons(action);
@@ -175,8 +175,8 @@ impl PlayerInput<'_, '_> {
         };
         let controls = &self.bindings.controls;
         let strength = if self.holds(Action::Boost) { 1.0 } else { CRUISE };
-        let thrust = |plus, minus| axis(plus, minus, strength, controls.stick_thrust);
         let signed = |most: f64, inverted: bool| if inverted { -most } else { most };
+        let thrust = |plus, minus| axis(plus, minus, strength, signed(controls.stick_thrust, controls.stick_invert_thrust));
         let (pitch, yaw) =
             (signed(controls.stick_pitch, controls.stick_invert_pitch), signed(controls.stick_yaw, controls.stick_invert_yaw));
         Stick {

@@ -14,9 +14,14 @@ pub struct Response {
 }
 
 impl Response {
-    /// As configured.
-    pub fn of(controls: &Controls) -> Response {
-        Response { dead_zone: controls.stick_dead_zone, curve: controls.stick_curve }
+    /// Of the left stick, as configured.
+    pub fn left(controls: &Controls) -> Response {
+        Response { dead_zone: controls.left_stick_dead_zone, curve: controls.left_stick_curve }
+    }
+
+    /// Of the right stick and the triggers, as configured.
+    pub fn right(controls: &Controls) -> Response {
+        Response { dead_zone: controls.right_stick_dead_zone, curve: controls.right_stick_curve }
     }
 
     /// The answer, 0 to 1, to a stick that is pushed by `way`, 0 to 1.

@@ -26,7 +26,8 @@ pub fn written(language: Language, setting: &Setting<GameConfig>, value: &Value)
 
 /// Whether a number is written in per cent.
 fn is_share(setting: &Setting<GameConfig>) -> bool {
-    setting.section == "sound" || ["text_size", "stick_dead_zone", "stick_pitch", "stick_yaw", "stick_thrust"].contains(&setting.key)
+    setting.section == "sound"
+        || ["text_size", "left_stick_dead_zone", "right_stick_dead_zone", "stick_pitch", "stick_yaw", "stick_thrust"].contains(&setting.key)
 }
 
 /// The ends between which a number is turned on a menu: those of the setting, or narrower where beyond them nobody plays.
@@ -41,8 +42,8 @@ fn ends(setting: &Setting<GameConfig>) -> Option<(f64, f64, f64)> {
         "text_size" => (0.8, 2.0, 0.1),
         "frame_limit" => (0.0, 240.0, 30.0),
         "mouse_sensitivity" => (0.0005, 0.008, 0.0005),
-        "stick_dead_zone" => (0.0, 0.5, 0.02),
-        "stick_curve" => (1.0, 4.0, 0.2),
+        "left_stick_dead_zone" | "right_stick_dead_zone" => (0.0, 0.5, 0.02),
+        "left_stick_curve" | "right_stick_curve" => (1.0, 4.0, 0.2),
         _ => (min, max, (max - min) / 20.0),
     })
 }

@@ -4,6 +4,7 @@ use bevy::prelude::*;
 
 use crate::play::input::action::Action;
 use crate::play::input::bindings::{Bindings, conflicts};
+use crate::play::input::button::Button;
 use crate::play::menus::change::{share, words_key, written};
 use crate::play::menus::entries::{Does, Entry, Menu, Page, SLOTS};
 use crate::play::menus::manual;
@@ -142,13 +143,16 @@ pub fn settings_of(page: Page) -> &'static [&'static str] {
             "controls.mouse_sensitivity",
             "controls.invert_x",
             "controls.invert_y",
-            "controls.stick_dead_zone",
-            "controls.stick_curve",
+            "controls.left_stick_dead_zone",
+            "controls.left_stick_curve",
+            "controls.right_stick_dead_zone",
+            "controls.right_stick_curve",
             "controls.stick_pitch",
             "controls.stick_yaw",
             "controls.stick_thrust",
             "controls.stick_invert_pitch",
             "controls.stick_invert_yaw",
+            "controls.stick_invert_thrust",
         ],
         Page::Accessibility => &[
             "video.reduced_motion",
@@ -215,9 +219,9 @@ fn buttons(session: &Session, menu: &Menu) -> Vec<Entry> {
             None if !HELD.contains(&action.key()) => String::new(),
             None => language.say(if bindings.is_tapped(action) { "menu-tap" } else { "menu-hold" }),
         };
-        let clash = conflicts(config, action).into_iter().next().map(|(_, other)| {
-            let other = action_words(language, other);
-            language.fill("menu-conflict", &[("action", other.as_str())])
+        let clash = conflicts(config, action).into_iter().next().map(|(button, other)| {
+            let (button, other) = (words::buttons::written(language, Button::named(&button)), action_words(language, other));
+            language.fill("menu-conflict", &[("button", button.as_str()), ("action", other.as_str())])
         });
         Entry { values: (0..SLOTS.len()).map(column).collect(), amiss: clash, ..Entry::new(action.key(), name, Does::Bind(action)) }
     };

@@ -251,7 +251,7 @@ fn welcome(
     };
     let words: Vec<String> = goal.into_iter().chain(hint).collect();
     if !words.is_empty() && notice.until < real.elapsed_secs_f64() {
-        *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5 };
+        *notice = Notice { text: words.join("\n"), until: real.elapsed_secs_f64() + 0.5, share: None };
     }
 }
 

@@ -71,7 +71,7 @@ fn reload(
     };
     // Time to read each line.
     let seconds = 4.0 + 2.0 * text.lines().count() as f64;
-    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds };
+    *notice = Notice { text, until: real.elapsed_secs_f64() + seconds, share: None };
 }
 
 /// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace,

@@ -49,7 +49,7 @@ pub fn begin(world: &mut World, moment: &Snapshot, how: How) {
 pub fn say_failed(world: &mut World, why: &str) {
     let text = world.resource::<Session>().language().fill("photo-failed", &[("why", why)]);
     let until = world.resource::<Time<Real>>().elapsed_secs_f64() + 6.0;
-    world.insert_resource(Notice { text, until });
+    world.insert_resource(Notice { text, until, share: None });
 }
 
 /// A file for the picture that is not there yet, in the first folder that can be made.
@@ -82,20 +82,27 @@ fn carrier(moment: &Snapshot, name: &str) -> Result<PathBuf, String> {
 pub(super) fn watch(mut darkroom: ResMut<Darkroom>, session: Res<Session>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
     let (language, now) = (session.language(), real.elapsed_secs_f64());
     let file = |path: &Path| path.display().to_string();
+    // The tracer knows of bending alone.
+    let render = &session.config.render;
+    let whole = render.doppler && render.beaming && render.light_delay && render.orders > 1;
     darkroom.0.retain(|(how, developing, carrier)| {
-        let (text, seconds, goes_on) = match (developing.progress(), how) {
-            (Progress::Traced(share), how) => {
-                let key = if *how == How::Drawn { "photo-drawing" } else { "photo-developing" };
-                (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5, true)
+        let drawn = *how == How::Drawn;
+        let named = |key: &str, path: &Path| language.fill(key, &[("file", file(path).as_str())]);
+        let (text, seconds, share) = match developing.progress() {
+            Progress::Traced(share) => {
+                let key = if drawn { "photo-drawing" } else { "photo-developing" };
+                (language.fill(key, &[("percent", format!("{:.0}", 100.0 * share).as_str())]), 0.5, Some(share))
             }
-            (Progress::Done(path), How::Drawn) => (language.fill("photo-saved", &[("file", file(&path).as_str())]), 6.0, false),
-            (Progress::Done(path), How::Exactly) => (language.fill("photo-developed", &[("file", file(&path).as_str())]), 6.0, false),
-            (Progress::Failed(why), _) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0, false),
-            (Progress::Cancelled, _) => (String::new(), 0.0, false),
+            Progress::Done(path) if drawn => (named("photo-saved", &path), 6.0, None),
+            Progress::Done(path) if whole => (named("photo-developed", &path), 6.0, None),
+            Progress::Done(path) => (named("photo-developed-whole", &path), 8.0, None),
+            Progress::Failed(why) => (language.fill("photo-failed", &[("why", why.as_str())]), 8.0, None),
+            Progress::Cancelled => (String::new(), 0.0, None),
         };
+        let goes_on = share.is_some();
         // How far one is does not hide where another is.
         if !goes_on || now + 0.5 >= notice.until {
-            *notice = Notice { text, until: now + seconds };
+            *notice = Notice { text, until: now + seconds, share };
         }
         if !goes_on {
             _ = std::fs::remove_file(carrier);

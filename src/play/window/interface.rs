@@ -147,7 +147,7 @@ fn keep_choices(mut choices: ResMut<Choices>, real: Res<Time<Real>>, mut notice:
     }
     *last = now;
     if let Some(text) = choices.bypass_change_detection().write() {
-        *notice = Notice { text, until: now + 8.0 };
+        *notice = Notice { text, until: now + 8.0, share: None };
     }
 }
 

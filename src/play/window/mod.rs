@@ -71,7 +71,7 @@ pub fn run(session: Session, options: &Options) -> AppExit {
     let (choices, said) = Choices::load();
     let mut app = app(session, options, Surface::Window, choices);
     if let Some(text) = said {
-        app.insert_resource(Notice { text, until: 15.0 });
+        app.insert_resource(Notice { text, until: 15.0, share: None });
     }
     app.run()
 }

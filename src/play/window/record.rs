@@ -71,7 +71,7 @@ fn tell(news: Res<News>, real: Res<Time<Real>>, mut notice: ResMut<Notice>) {
         } else {
             warn!("{text}")
         }
-        *notice = Notice { text, until: real.elapsed_secs_f64() + SHOWN };
+        *notice = Notice { text, until: real.elapsed_secs_f64() + SHOWN, share: None };
     }
 }
 
@@ -105,7 +105,7 @@ pub fn screenshot(world: &mut World) {
     *notice = Notice::default();
     if let Some(folder) = world.get_resource::<VideoRecording>().and_then(|recording| recording.folder.clone()) {
         let text = format!("every frame is written to {}", folder.join("frames").display());
-        world.insert_resource(Notice { text, until });
+        world.insert_resource(Notice { text, until, share: None });
         return;
     }
     world.insert_resource(Wanted(true));
@@ -175,7 +175,7 @@ mod tests {
     fn the_last_message_is_not_in_the_picture() {
         let mut app = App::new();
         app.add_plugins((MinimalPlugins, RecordPlugin { folder: None, frames: None }));
-        app.insert_resource(Notice { text: "picture written".into(), until: 9.0 });
+        app.insert_resource(Notice { text: "picture written".into(), until: 9.0, share: None });
         screenshot(app.world_mut());
         assert_eq!(app.world().resource::<Notice>().text, "");
         // Where every frame is written, the player is told so instead.

@@ -269,13 +269,16 @@ config! {
         mute: String = "KeyM", Buttons, "", "sound off or on";
         tapped: String = "None", Words(HELD), "", "what a tap switches on and another off, instead of holding";
         invert_x: bool = false, Switch, "", "mouse to the right turns left";
-        stick_dead_zone: f64 = 0.12, number(0.0, 0.9), "", "share of a stick's way that does nothing";
-        stick_curve: f64 = 1.6, number(1.0, 4.0), "", "exponent of a stick's answer: 1 is straight, more is finer about the middle";
+        left_stick_dead_zone: f64 = 0.12, number(0.0, 0.9), "", "share of the left stick's way that does nothing";
+        left_stick_curve: f64 = 1.6, number(1.0, 4.0), "", "exponent of its answer: 1 is straight, more is finer about the middle";
+        right_stick_dead_zone: f64 = 0.12, number(0.0, 0.9), "", "share of the right stick's and the triggers' way that does nothing";
+        right_stick_curve: f64 = 1.6, number(1.0, 4.0), "", "exponent of their answer";
         stick_pitch: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick pitches";
         stick_yaw: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick yaws";
         stick_thrust: f64 = 1.0, number(0.1, 2.0), "", "how strongly the stick thrusts";
         stick_invert_pitch: bool = false, Switch, "", "the stick pitches the other way";
         stick_invert_yaw: bool = false, Switch, "", "the stick yaws the other way";
+        stick_invert_thrust: bool = false, Switch, "", "the stick thrusts the other way";
     }
     /// The window.
     video: Video {

@@ -208,7 +208,13 @@ pub fn template(config: &GameConfig) -> String {
             text.push_str(&format!("\n[{section}]\n"));
         }
         let assignment = format!("{} = {}", setting.key, written(&setting.get(config)));
-        text.push_str(&format!("{assignment:<34}# {} ({})\n", setting.help, setting.allowed_text()));
+        // The names of buttons and actions are long; an error tells them.
+        let allowed = match setting.allowed {
+            Allowed::Buttons => "up to four buttons, or None".into(),
+            Allowed::Words(_) => "some of the actions above, or None".into(),
+            _ => setting.allowed_text(),
+        };
+        text.push_str(&format!("{assignment:<33} # {} ({allowed})\n", setting.help));
     }
     text
 }
