@@ -44,8 +44,10 @@ menu-preset-mouse = Mouse only
 menu-next-card = Next card
 menu-card-before = Card before
 menu-warned = I have read this
-menu-help-keys = ↑ ↓ choose · ← → change · Enter: yes · Esc: back · Del: no button
-menu-help-pad = D-pad: choose, change · Ⓐ: yes · Ⓑ: back · Ⓨ: no button
+menu-help-keys = ↑ ↓ choose · ← → change · Enter: yes · Esc: back
+menu-unbind-keys = Del: no button
+menu-help-pad = D-pad: choose, change · Ⓐ: yes · Ⓑ: back
+menu-unbind-pad = Ⓨ: no button
 
 warning-title = Before you fly
 warning-text = The picture turns, bends and brightens quickly. Some people feel sick from it. Bright flashes can cause seizures in people with photosensitive epilepsy. Stop and rest if you feel unwell. These settings make the picture calmer; they are also under Settings.

@@ -44,8 +44,10 @@ menu-preset-mouse = マウスだけ
 menu-next-card = 次のカード
 menu-card-before = 前のカード
 menu-warned = 読みました
-menu-help-keys = ↑ ↓ 選ぶ · ← → 変える · Enter：決定 · Esc：もどる · Del：割り当てなし
-menu-help-pad = 十字キー：選ぶ・変える · Ⓐ：決定 · Ⓑ：もどる · Ⓨ：割り当てなし
+menu-help-keys = ↑ ↓ 選ぶ · ← → 変える · Enter：決定 · Esc：もどる
+menu-unbind-keys = Del：割り当てなし
+menu-help-pad = 十字キー：選ぶ・変える · Ⓐ：決定 · Ⓑ：もどる
+menu-unbind-pad = Ⓨ：割り当てなし
 
 warning-title = 飛ぶ前に
 warning-text = 画面は速く回り、ゆがみ、急に明るくなります。気分が悪くなる人がいます。強い点滅は、光感受性てんかんの人に発作を起こすことがあります。具合が悪くなったら、やめて休んでください。下の設定で画面を落ち着かせられます。「設定」でも変えられます。

@@ -99,14 +99,14 @@ fn draw(
             } else {
                 rows(ui, menu);
             }
-            footer(ui, prompts);
+            footer(ui, prompts, false);
         }),
         // At the side: the ship is in the middle.
         Screen::Paused => card(context, "pause", WIDE, |ui| {
             heading(ui, &language.say("menu-paused"));
             rows(ui, menu);
             markers(ui, language);
-            footer(ui, prompts);
+            footer(ui, prompts, false);
         }),
         Screen::Result => card(context, "result", NARROW, |ui| {
             outcome::result(ui, &session, chase.as_deref(), &panel, player.flown);
@@ -158,7 +158,7 @@ fn draw_page(context: &egui::Context, page: Page, session: &Session, menu: &mut 
         if page == Page::Controls {
             response::curve(ui, session);
         }
-        footer(ui, prompts);
+        footer(ui, prompts, page == Page::Buttons);
     });
 }
 
@@ -201,11 +201,16 @@ fn paragraph(ui: &mut Ui, words: &str) {
     ui.add_space(4.0);
 }
 
-/// How a menu is used with the device in use.
-fn footer(ui: &mut Ui, prompts: Prompts) {
-    let key = if prompts.device == Device::Pad { "menu-help-pad" } else { "menu-help-keys" };
+/// How a menu is used with the device in use; `unbinds` where buttons are bound.
+fn footer(ui: &mut Ui, prompts: Prompts, unbinds: bool) {
+    let on_pad = prompts.device == Device::Pad;
+    let mut words = prompts.language.say(if on_pad { "menu-help-pad" } else { "menu-help-keys" });
+    if unbinds {
+        words.push_str(" · ");
+        words.push_str(&prompts.language.say(if on_pad { "menu-unbind-pad" } else { "menu-unbind-keys" }));
+    }
     ui.add_space(6.0);
-    ui.label(RichText::new(prompts.language.say(key)).size(12.0).color(Palette::in_use(ui.ctx()).shown(FAINT)));
+    ui.label(RichText::new(words).size(12.0).color(Palette::in_use(ui.ctx()).shown(FAINT)));
 }
 
 /// The names of the HUD's markers, in their colours, and what they mean.
