@@ -16,7 +16,7 @@ mission-01-training-goal-4-hint = [look_at_target] を押し続けるか、船�
 mission-01-training-goal-5 = r = 7 まで下りる
 mission-01-training-goal-5-hint = ブラックホール（赤い矢印）のほうを向いて、[thrust_forward] を押し続けます。r は右上に出ています。手をはなすと、アシストが落下を円軌道に変えます。前より速い円軌道です。
 mission-01-training-goal-6 = ドローンをつかまえる：1.5 r_s 以内にとどまる
-mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。ドローンはそこにいます。見える姿は、おくれています。
+mission-01-training-goal-6-hint = 「現在」の輪へ飛びましょう。ドローンはそこにいます。見える姿は、おくれています。速すぎたら [slower] で、すべてがゆっくりになります。
 
 mission-02-first-pursuit-title = 最初の追跡
 mission-02-first-pursuit-idea = 低い軌道ほど速く回ります。追いつきたければ、下りましょう。

@@ -78,10 +78,12 @@ fn draw(
     lay_in(context, &painter);
     let language = session.language();
     if staged.is_none() {
-        // Beside the menu of the title.
-        let aside = if *screen.get() == Screen::Title { 0.2 } else { 0.0 };
-        let at = rect.center() + vec2(aside * rect.width(), 0.0);
-        text(&painter, at, Align2::CENTER_CENTER, &language.say("hud-loading"), 18.0, TEXT);
+        // Off the menu of the title.
+        let (at, align) = match screen.get() {
+            Screen::Title => (rect.right_bottom() - vec2(MARGIN, MARGIN), Align2::RIGHT_BOTTOM),
+            _ => (rect.center(), Align2::CENTER_CENTER),
+        };
+        text(&painter, at, align, &language.say("hud-loading"), 18.0, TEXT);
     }
     let shown = staged.is_some() && shows(*screen.get(), player.hud_off);
     let mut said = Vec::new();
