@@ -27,6 +27,7 @@ use crate::render::models::{ModelRange, ModelSet, Models};
 use crate::render::passes::{Recording, Shown, colour, depth, draw_thin};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
+use crate::render::post_process::upscale::{Upscale, drawn_size};
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
 use crate::render::sky::{Background, Stars};
 
@@ -79,7 +80,10 @@ pub struct Renderer {
     stars: Stars,
     aurora: Aurora,
     post_process: PostProcess,
+    upscale: Upscale,
     targets: Targets,
+    /// Size of the output in pixels, and the share of its width that is drawn.
+    output: ([u32; 2], f32),
     /// The output has no size.
     hidden: bool,
     /// The frame has bodies whose outlines are to be smooth.
@@ -124,6 +128,7 @@ impl Renderer {
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut post_process = PostProcess::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
+        let upscale = Upscale::new(device, &frame_layout, format);
         post_process.resize(gpu, &targets, &adaptation);
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
@@ -148,7 +153,9 @@ impl Renderer {
             slice: None,
             disk: None,
             has_disk: false,
+            upscale,
             post_process,
+            output: (targets.size, 1.0),
             targets,
             hidden: size.contains(&0),
             smooth: false,
@@ -211,7 +218,7 @@ impl Renderer {
 
     /// The size of the output, in pixels.
     pub fn size(&self) -> [u32; 2] {
-        self.targets.size
+        self.output.0
     }
 
     /// The format of the output.
@@ -227,8 +234,18 @@ impl Renderer {
     /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.hidden = size.contains(&0);
-        if !self.hidden && size != self.targets.size {
-            self.targets = Targets::new(&self.gpu.device, size);
+        if !self.hidden {
+            self.draw_share(size, self.output.1);
+        }
+    }
+
+    /// Makes targets for an output of `size`, of which the share `resolution` of the width and height is drawn.
+    fn draw_share(&mut self, size: [u32; 2], resolution: f32) {
+        self.output = (size, resolution);
+        let drawn = drawn_size(size, resolution);
+        self.upscale.resize(&self.gpu.device, drawn, size);
+        if drawn != self.targets.size {
+            self.targets = Targets::new(&self.gpu.device, drawn);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
@@ -240,6 +257,8 @@ impl Renderer {
             // What the passes kept of the picture before goes with them.
             self.before = Before::Black;
             self.post_process = PostProcess::new(&self.gpu.device, &self.frame_layout, format);
+            self.upscale = Upscale::new(&self.gpu.device, &self.frame_layout, format);
+            self.upscale.resize(&self.gpu.device, self.targets.size, self.output.0);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
@@ -258,6 +277,9 @@ impl Renderer {
         }
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
+        }
+        if input.settings.resolution != self.output.1 {
+            self.draw_share(self.output.0, input.settings.resolution);
         }
         let l = camera.radius();
         // The slices depend on radius and method alone.
@@ -329,7 +351,9 @@ impl Renderer {
         shown.draw_aurora(&mut recording, true);
         shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
         shown.draw_aurora(&mut recording, false);
-        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, output);
+        let drawn = self.upscale.drawn().unwrap_or(output);
+        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, drawn);
+        self.upscale.run(&mut recording, output);
         self.before = if self.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
@@ -340,10 +364,11 @@ impl Renderer {
         self.timing.end(encoder);
     }
 
-    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice.
+    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
+    /// is drawn smaller than the output there is the finished picture alone.
     pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let (texture, view) = crate::render::gpu::targets::target(&self.gpu.device, "output", self.targets.size, format);
+        let (texture, view) = crate::render::gpu::targets::target(&self.gpu.device, "output", self.output.0, format);
         for _ in 0..2 {
             if !self.prepare(input) {
                 return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
@@ -356,6 +381,9 @@ impl Renderer {
             self.gpu.queue.submit([encoder.finish()]);
         }
         let display = readback::texture(&self.gpu, &texture, 4)?;
+        if self.upscale.drawn().is_some() {
+            return Ok(Picture { size: self.output.0, display, ..Picture::default() });
+        }
         let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
         let linear = halves
             .chunks_exact(8)

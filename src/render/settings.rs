@@ -5,7 +5,9 @@ use crate::render::method::Method;
 /// How the picture is made; the numbers come from `game.toml`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Greatest error of any drawn point, in pixels.
+    /// Width of the picture that is drawn, as a share of the output's, in (0, 1]; it is enlarged to the output.
+    pub resolution: f32,
+    /// Greatest error of any drawn point, in pixels of what is drawn.
     pub pixel_error: f32,
     /// Image orders drawn, 1 to 3.
     pub orders: u32,
@@ -90,6 +92,7 @@ impl Settings {
     /// All that can be drawn, at its finest, as it shines: what tests measure. The game draws by [`super::stage::settings`].
     pub fn finest() -> Self {
         Settings {
+            resolution: 1.0,
             pixel_error: 0.25,
             orders: 3,
             method: Method::Table,

@@ -89,7 +89,6 @@ fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> Game
 
 /// Whether the models and the disk of the scene are to be made again.
 fn changes_models(before: &GameConfig, now: &GameConfig) -> bool {
-    let (before, now) = (&before.drawn(), &now.drawn());
     if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
         return true;
     }

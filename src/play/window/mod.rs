@@ -25,6 +25,7 @@ use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
 use crate::play::picture::PicturePlugin;
+use crate::play::picture::quality::Quality;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::{SCENE, Session};
@@ -103,6 +104,8 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
         level: bevy::log::Level::WARN,
         ..default()
     };
+    // Pictures that nobody waits for are drawn at their finest.
+    let governed = matches!(surface, Surface::Window) || options.timings.is_some();
     let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
     match surface {
         Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
@@ -123,6 +126,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
             lost::LostDevicePlugin,
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
+        .insert_resource(Quality::new(governed))
         .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
         .insert_resource(catalogue)
         .insert_resource(choices)

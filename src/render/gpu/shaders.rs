@@ -65,6 +65,8 @@ pub enum Pass {
     ToneMap,
     /// Smooths outlines of bodies.
     Smooth,
+    /// Enlarges a picture that was drawn smaller than the output.
+    Upscale,
     /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices,
     /// Decides how often arcs are halved.
@@ -85,7 +87,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 33] = [
+    pub const ALL: [Pass; 34] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -111,6 +113,7 @@ impl Pass {
         Pass::Flashes,
         Pass::ToneMap,
         Pass::Smooth,
+        Pass::Upscale,
         Pass::DiskVertices,
         Pass::DiskSegments,
         Pass::DiskStrips,
@@ -192,6 +195,7 @@ impl Pass {
             Pass::Flashes => file!("post_process/flashes.wgsl"),
             Pass::ToneMap => file!("post_process/tone_map.wgsl"),
             Pass::Smooth => file!("post_process/smooth.wgsl"),
+            Pass::Upscale => file!("post_process/upscale.wgsl"),
             Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),
             Pass::DiskSegments => file!("disk/arcs/segments.wgsl"),
             Pass::DiskStrips => file!("disk/arcs/strips.wgsl"),

@@ -2,6 +2,7 @@
 
 pub mod coverage;
 pub mod flashes;
+pub mod upscale;
 
 use wgpu::ShaderStages;
 

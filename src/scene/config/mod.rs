@@ -2,7 +2,6 @@
 
 pub mod buttons;
 mod fields;
-mod quality;
 mod setting;
 
 use std::path::{Path, PathBuf};
