@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
+use lensrunner::render::quality::prices::Prices;
 use lensrunner::scene;
+use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
 use lensrunner_lab::{aurora, aurora_race, bvh, chart, frame_times, projection, thin_disk};
@@ -20,6 +22,7 @@ pub enum ChartCommand {
     Aurora(ChartAuroraArgs),
     Bvh(ChartBvhArgs),
     Frame(ChartFrameArgs),
+    Dial(ChartDialArgs),
     Disk(ChartDiskArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
@@ -54,6 +57,26 @@ pub struct ChartQuarryArgs {
     /// T at which a chase ends undecided, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 270.0)]
     limit: f64,
+}
+
+/// What each knob of the picture's quality costs and saves: the price list that the game reads (quality.csv); with --check whether the
+/// predictions from the game's own list hold, and the chart.
+#[derive(Args)]
+pub struct ChartDialArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Moments of each class of scenes; with --check moments in all.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    moments: u32,
+    /// Seed of the moments; with --check another each time unless it is given.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Compares predictions with measurements, at moments and rungs at random.
+    #[arg(long)]
+    check: bool,
 }
 
 /// What a step of the simulation costs, by the number of ships: a table.
@@ -193,10 +216,36 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
+        ChartCommand::Dial(args) => run_chart_dial(args),
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),
         },
+    }
+}
+
+fn run_chart_dial(args: ChartDialArgs) -> ExitCode {
+    let fresh = || std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |since| since.subsec_nanos().into());
+    let seed = args.seed.unwrap_or_else(|| if args.check { fresh() } else { 1 });
+    let request = DialRequest { moments: args.moments as usize, seed, size: args.size };
+    let output = chart::Output::from(args.chart);
+    let said = |words: String| eprintln!("{words}");
+    let done = if args.check {
+        output.sheet("dial-check", || dial::check::measure(&request, said)).and_then(|sheet| {
+            println!("{}", dial::check::verdict(&sheet));
+            dial::draw::draw(Prices::shipped(), &sheet, &output).map(|files| chart::announce(&files))
+        })
+    } else {
+        output.sheet("dial", || dial::prices::measure(&request, said)).and_then(|sheet| {
+            let file = output.csv("quality");
+            std::fs::write(&file, dial::prices::table(&sheet)?).map_err(|error| chart::SheetError::Io(file.clone(), error))?;
+            chart::announce(&[file]);
+            Ok(())
+        })
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
     }
 }
 

@@ -3,6 +3,7 @@
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
+//! - [`dial`]: what each knob of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`steps`]: what a step of the simulation costs.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
@@ -15,6 +16,7 @@ pub mod bvh;
 pub mod chart;
 pub mod compare;
 pub mod contestant;
+pub mod dial;
 pub mod disk;
 pub mod flip;
 pub mod frame_times;
