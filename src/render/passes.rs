@@ -24,7 +24,7 @@ pub struct Recording<'a> {
 impl Recording<'_> {
     /// A compute pass of this name.
     fn compute(&mut self, label: &'static str, run: impl FnOnce(&mut wgpu::ComputePass)) {
-        let timestamp_writes = self.timing.compute(label);
+        let timestamp_writes = self.timing.compute(self.encoder, label);
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
         pass.set_bind_group(0, self.frame, &[]);
         run(&mut pass);
@@ -71,11 +71,12 @@ impl Shown<'_> {
     /// Draws what has depth, and the sky behind it.
     pub fn draw_opaque(&self, recording: &mut Recording) {
         let Recording { encoder, timing, frame, targets } = recording;
+        let timestamp_writes = timing.render(encoder, "draw");
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("draw"),
             color_attachments: &[Some(colour(&targets.picture, true))],
             depth_stencil_attachment: Some(depth(&targets.depth, true)),
-            timestamp_writes: timing.render("draw"),
+            timestamp_writes,
             ..Default::default()
         });
         pass.set_bind_group(0, *frame, &[]);
@@ -106,7 +107,8 @@ impl Shown<'_> {
             self.draw_disk(recording, crossings + 1..=left);
             left = crossings;
             let Recording { encoder, timing, frame, targets } = &mut *recording;
-            draw_thin(geometry, laid_over.then_some(crossings), timing.render("thin"), encoder, frame, targets);
+            let timestamp_writes = timing.render(encoder, "thin");
+            draw_thin(geometry, laid_over.then_some(crossings), timestamp_writes, encoder, frame, targets);
             compose(recording);
         }
         self.draw_disk(recording, 1..=left);
@@ -116,12 +118,13 @@ impl Shown<'_> {
     fn draw_disk(&self, recording: &mut Recording, orders: RangeInclusive<u32>) {
         let Recording { encoder, timing, frame, targets } = recording;
         let Some(disk) = self.disk.filter(|_| !orders.is_empty()) else { return };
+        let timestamp_writes = timing.render(encoder, "disk");
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("disk"),
             color_attachments: &[Some(colour(&targets.picture, false))],
             // Polygons write it.
             depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
-            timestamp_writes: timing.render("disk"),
+            timestamp_writes,
             ..Default::default()
         });
         pass.set_bind_group(0, *frame, &[]);
@@ -134,11 +137,12 @@ impl Shown<'_> {
         let Recording { encoder, timing, frame, targets } = recording;
         for image in aurora.images_behind(behind) {
             let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
+                let timestamp_writes = timing.render(encoder, label);
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some(label),
                     color_attachments: &[Some(colour(target, fresh))],
                     depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
-                    timestamp_writes: timing.render(label),
+                    timestamp_writes,
                     ..Default::default()
                 });
                 pass.set_bind_group(0, *frame, &[]);

@@ -3,6 +3,7 @@
 
 use std::mem::offset_of;
 use std::sync::Arc;
+use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -259,6 +260,8 @@ impl Renderer {
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
+        self.timing.begin_work();
+        let begin = Instant::now();
         let l = camera.radius();
         // The slices depend on radius and method alone.
         let method = input.settings.method;
@@ -279,9 +282,11 @@ impl Renderer {
             self.sky_slice.write(&self.gpu, &self.sky);
             self.slice = Some(slice);
         }
+        let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
+        let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
@@ -297,16 +302,20 @@ impl Renderer {
             Before::Measured => uniform.rise[1] = 1.0,
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let begin = self.timing.worked("lists of bodies", begin);
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, self.targets.size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         self.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.timing.worked("rest of the uploads", begin);
         true
     }
 
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
+        let begin = Instant::now();
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
@@ -338,6 +347,7 @@ impl Renderer {
             }
         }
         self.timing.end(encoder);
+        self.timing.worked("encoding", begin);
     }
 
     /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice.

@@ -150,7 +150,7 @@ impl PostProcess {
             begin(recording, ["bloom", "bloom down"], &[Some(colour(view, true))], &self.down, level).draw(0..3, 0..1);
         }
         {
-            let timestamp_writes = recording.timing.compute("exposure");
+            let timestamp_writes = recording.timing.compute(recording.encoder, "exposure");
             let mut pass = recording.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes });
             pass.set_pipeline(&self.meter);
             pass.set_bind_group(0, recording.frame, &[]);
@@ -192,10 +192,11 @@ fn begin<'r>(
     pipeline: &wgpu::RenderPipeline,
     group: &wgpu::BindGroup,
 ) -> wgpu::RenderPass<'r> {
+    let timestamp_writes = recording.timing.render(recording.encoder, timed);
     let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
         color_attachments: targets,
-        timestamp_writes: recording.timing.render(timed),
+        timestamp_writes,
         ..Default::default()
     });
     pass.set_pipeline(pipeline);
