@@ -63,7 +63,9 @@ pub enum Pass {
     Flashes,
     /// Exposes, blooms, encodes.
     ToneMap,
-    /// Smooths outlines of bodies.
+    /// Finds the tiles with outlines of bodies.
+    Outlines,
+    /// Smooths them.
     Smooth,
     /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices,
@@ -85,7 +87,7 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 33] = [
+    pub const ALL: [Pass; 34] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
@@ -110,6 +112,7 @@ impl Pass {
         Pass::Exposure,
         Pass::Flashes,
         Pass::ToneMap,
+        Pass::Outlines,
         Pass::Smooth,
         Pass::DiskVertices,
         Pass::DiskSegments,
@@ -191,6 +194,7 @@ impl Pass {
             Pass::Exposure => file!("post_process/exposure.wgsl"),
             Pass::Flashes => file!("post_process/flashes.wgsl"),
             Pass::ToneMap => file!("post_process/tone_map.wgsl"),
+            Pass::Outlines => file!("post_process/outlines.wgsl"),
             Pass::Smooth => file!("post_process/smooth.wgsl"),
             Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),
             Pass::DiskSegments => file!("disk/arcs/segments.wgsl"),

@@ -125,6 +125,7 @@ fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
 #[test]
 fn constants_of_passes_have_one_value_in_both_languages() {
     let cases = [
+        (Pass::Outlines, "TILE", f64::from(TILE)),
         (Pass::Smooth, "TILE", f64::from(TILE)),
         (Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)),
         (Pass::AuroraWalk, "DEPTH_TILES", f64::from(DEPTH_TILES)),
