@@ -1,5 +1,7 @@
 // Finds the tiles of the picture with outlines of bodies, which smooth.wgsl draws: one thread per tile.
 
+#import lensrunner::post_process::tiles::{TILE, tile_grid}
+
 @group(2) @binding(0) var depth: texture_depth_2d;
 @group(2) @binding(1) var<storage, read_write> outlines: Outlines;
 
@@ -12,8 +14,6 @@ struct Outlines {
     list: array<u32>,
 }
 
-/// Pixels along the side of a tile; as in smooth.wgsl.
-const TILE: u32 = 16u;
 /// A tile has an outline if its nearest depth is this many times the farthest, or if a part of it shows no body.
 const STEP: f32 = 1.01;
 
@@ -21,7 +21,7 @@ const STEP: f32 = 1.01;
 @compute @workgroup_size(64)
 fn main(@builtin(global_invocation_id) id: vec3<u32>) {
     let size = textureDimensions(depth);
-    let tiles = (size + TILE - 1u) / TILE;
+    let tiles = tile_grid();
     let first = vec2<u32>(id.x % tiles.x, id.x / tiles.x) * TILE;
     let last = vec2<i32>(size) - 1;
     var nearest = 0.0;

@@ -3,6 +3,8 @@
 // themselves. It is drawn over the finished picture in tiles, and only in those with an outline, which outlines.wgsl finds: on a software
 // driver all pixels would take three times as long as tone mapping.
 
+#import lensrunner::post_process::tiles::tile_corner
+
 @group(2) @binding(0) var display: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
 @group(2) @binding(2) var depth: texture_depth_2d;
@@ -11,9 +13,6 @@
 const LEAST_STEP: vec2<f32> = vec2<f32>(0.125, 0.03);
 /// Half the length of the longest blur, in pixels.
 const LONGEST: f32 = 8.0;
-
-/// Pixels along the side of a tile; as in src/render/post_process/mod.rs.
-const TILE: u32 = 16u;
 
 /// As in outlines.wgsl.
 struct Outlines {
@@ -29,13 +28,7 @@ struct Outlines {
 /// The two triangles of a tile with an outline.
 @vertex
 fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) number: u32) -> @builtin(position) vec4<f32> {
-    let size = textureDimensions(depth);
-    let tile = outlines.list[number];
-    let columns = (size.x + TILE - 1u) / TILE;
-    let first = vec2<u32>(tile % columns, tile / columns) * TILE;
-    let corner = vec2<u32>(select(0u, 1u, i == 1u || i == 2u || i == 4u), select(0u, 1u, i == 2u || i == 4u || i == 5u));
-    let place = vec2<f32>(min(first + corner * TILE, size)) / vec2<f32>(size);
-    return vec4<f32>((place * 2.0 - 1.0) * vec2<f32>(1.0, -1.0), 0.0, 1.0);
+    return vec4<f32>(tile_corner(outlines.list[number], i), 0.0, 1.0);
 }
 
 fn colour_at(uv: vec2<f32>) -> vec3<f32> {

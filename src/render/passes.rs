@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::render::aurora::Aurora;
 use crate::render::disk::DiskPasses;
 use crate::render::geometry::Geometry;
+use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::sky::{Background, Stars};
@@ -35,6 +36,8 @@ impl Recording<'_> {
 pub struct Shown<'a> {
     /// Bodies.
     pub geometry: &'a Geometry,
+    /// Those of their triangles that are thin.
+    pub thin: &'a ThinLists,
     /// The Milky Way.
     pub background: &'a Background,
     /// Stars.
@@ -55,6 +58,10 @@ impl Shown<'_> {
             recording.compute("triangles", |pass| geometry.triangles(pass));
             recording.compute("refine", |pass| geometry.refine(pass));
             recording.compute("mesh", |pass| geometry.mesh(pass));
+        }
+        if geometry.has_thin() {
+            self.thin.clear(recording.encoder);
+            recording.compute("thin lists", |pass| self.thin.list(pass, geometry));
         }
         recording.compute("sky", |pass| self.background.cells(pass));
         recording.compute("stars", |pass| self.stars.project(pass));
@@ -108,7 +115,14 @@ impl Shown<'_> {
             left = crossings;
             let Recording { encoder, timing, frame, targets } = &mut *recording;
             let timestamp_writes = timing.render(encoder, "thin");
-            draw_thin(geometry, laid_over.then_some(crossings), timestamp_writes, encoder, frame, targets);
+            let mut pass = begin_thin(false, timestamp_writes, encoder, frame, targets);
+            self.thin.wipe(&mut pass);
+            if laid_over {
+                geometry.draw_thin_across(&mut pass, self.thin, crossings);
+            } else {
+                geometry.draw_thin(&mut pass);
+            }
+            drop(pass);
             compose(recording);
         }
         self.draw_disk(recording, 1..=left);
@@ -157,24 +171,23 @@ impl Shown<'_> {
     }
 }
 
-/// Sums thin images: all, or those whose light crosses the disk's plane so often.
-pub fn draw_thin(
-    geometry: &Geometry,
-    crossings: Option<u32>,
+/// A pass that sums thin images, from nothing if it is `fresh`.
+pub fn begin_thin<'p>(
+    fresh: bool,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
-    encoder: &mut wgpu::CommandEncoder,
+    encoder: &'p mut wgpu::CommandEncoder,
     group: &wgpu::BindGroup,
     targets: &Targets,
-) {
+) -> wgpu::RenderPass<'p> {
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("thin"),
-        color_attachments: &[Some(colour(&targets.thin, true)), Some(colour(&targets.thin_signed, true))],
+        color_attachments: &[Some(colour(&targets.thin, fresh)), Some(colour(&targets.thin_signed, fresh))],
         depth_stencil_attachment: Some(tested_depth(&targets.depth)),
         timestamp_writes,
         ..Default::default()
     });
     pass.set_bind_group(0, group, &[]);
-    geometry.draw_thin(&mut pass, crossings);
+    pass
 }
 
 /// A target of colours, drawn from nothing where it is `fresh`, else onto what is there.

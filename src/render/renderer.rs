@@ -16,6 +16,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::disk::{Disk, DiskPasses};
 use crate::render::frame::{FrameInput, blackbody_table, uniform};
 use crate::render::geometry::Geometry;
+use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::readback::{self, DeferredCopy, Picture, PictureError};
@@ -25,7 +26,7 @@ use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
-use crate::render::passes::{Recording, Shown, colour, depth, draw_thin};
+use crate::render::passes::{Recording, Shown, begin_thin, colour, depth};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
@@ -76,6 +77,7 @@ pub struct Renderer {
     has_disk: bool,
     models: Models,
     geometry: Geometry,
+    thin: ThinLists,
     background: Background,
     stars: Stars,
     aurora: Aurora,
@@ -129,6 +131,7 @@ impl Renderer {
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
+            thin: ThinLists::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),
@@ -289,6 +292,7 @@ impl Renderer {
         let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
+        self.thin.prepare(&self.gpu, &self.geometry, self.targets.size);
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
@@ -323,7 +327,14 @@ impl Renderer {
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, fill + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, fill + 12, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
-        let shown = Shown { geometry: &self.geometry, background: &self.background, stars: &self.stars, aurora: &self.aurora, disk };
+        let shown = Shown {
+            geometry: &self.geometry,
+            thin: &self.thin,
+            background: &self.background,
+            stars: &self.stars,
+            aurora: &self.aurora,
+            disk,
+        };
         let mut recording =
             Recording { encoder: &mut *encoder, timing: &mut self.timing, frame: &self.frame_group, targets: &self.targets };
         shown.compute(&mut recording);
@@ -336,7 +347,7 @@ impl Renderer {
         shown.walk(&mut recording);
         // What is behind the disk is dimmed by it.
         shown.draw_aurora(&mut recording, true);
-        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
+        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording, &self.thin));
         shown.draw_aurora(&mut recording, false);
         self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, output);
         self.before = if self.steady { Before::Measured } else { Before::Unmeasured };
@@ -389,7 +400,7 @@ impl Renderer {
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if self.geometry.has_thin() {
             // The sum of all: among images of the disk they are drawn in parts.
-            draw_thin(&self.geometry, None, None, encoder, &self.frame_group, &self.targets);
+            self.geometry.draw_thin(&mut begin_thin(true, None, encoder, &self.frame_group, &self.targets));
         }
         let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -27,6 +27,8 @@ pub enum Pass {
     Arguments,
     /// The mesh stage.
     Mesh,
+    /// Lists thin triangles and their tiles.
+    ThinLists,
     /// Rasterises.
     Draw,
     /// Works the sky out at the corners of cells.
@@ -87,13 +89,14 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 34] = [
+    pub const ALL: [Pass; 35] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
         Pass::Refine,
         Pass::Arguments,
         Pass::Mesh,
+        Pass::ThinLists,
         Pass::Draw,
         Pass::SkyCells,
         Pass::Background,
@@ -176,6 +179,7 @@ impl Pass {
             Pass::Refine => file!("geometry/refine.wgsl"),
             Pass::Arguments => file!("geometry/arguments.wgsl"),
             Pass::Mesh => file!("geometry/mesh.wgsl"),
+            Pass::ThinLists => file!("geometry/thin_lists.wgsl"),
             Pass::Draw => file!("shading/draw.wgsl"),
             Pass::SkyCells => file!("sky/cells.wgsl"),
             Pass::Background => file!("sky/background.wgsl"),

@@ -6,15 +6,13 @@ pub mod flashes;
 use wgpu::ShaderStages;
 
 use crate::render::Gpu;
+use crate::render::geometry::thin::{ThinLists, tiles_layout};
 use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::targets::Targets;
+use crate::render::gpu::targets::{Targets, tiles};
 use crate::render::passes::{Recording, colour};
 
 use flashes::Flashes;
-
-/// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
-pub const TILE: u32 = 16;
 
 /// The passes after the picture is drawn.
 #[derive(Debug)]
@@ -74,7 +72,12 @@ impl PostProcess {
         let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &slots);
         let outlines_layout = layout(device, "outlines", ShaderStages::COMPUTE, &[Slot::Depth, Slot::Write]);
         PostProcess {
-            compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
+            compose: {
+                let shader = module(device, "compose", Pass::Compose);
+                let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(over))], depth: None };
+                let groups = [Some(frame_layout), Some(&tiles_layout(device)), Some(&thin_layout)];
+                raster(device, "compose", &shader, stage, &groups)
+            },
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
             // The same, and nothing to mix it with.
@@ -144,11 +147,11 @@ impl PostProcess {
         });
     }
 
-    /// Lays the thin triangles over the picture.
-    pub fn compose(&self, recording: &mut Recording) {
+    /// Lays the thin triangles over the picture, in the tiles that have some.
+    pub fn compose(&self, recording: &mut Recording, thin: &ThinLists) {
         let Some(groups) = &self.groups else { return };
         let over = [Some(colour(&recording.targets.picture, false))];
-        begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin).draw(0..3, 0..1);
+        thin.draw_tiles(&mut begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin));
     }
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
@@ -205,11 +208,6 @@ impl PostProcess {
         let onto = &[Some(colour(output, false))];
         begin(recording, ["smooth"; 2], onto, &self.smooth, &groups.smooth).draw_indirect(&groups.outlines, 0);
     }
-}
-
-/// Number of tiles in a picture of `size` pixels.
-fn tiles(size: [u32; 2]) -> u32 {
-    size.map(|side| side.div_ceil(TILE)).iter().product()
 }
 
 /// `Outlines` of outlines.wgsl for a picture of `size` pixels: the arguments of a draw of no tiles, and room for all of them.
