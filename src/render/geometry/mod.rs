@@ -143,7 +143,7 @@ impl Geometry {
             device,
             "geometry",
             ShaderStages::COMPUTE,
-            &[Slot::Words, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
+            &[Slot::Words, Slot::Words, Slot::Words, Slot::Words, Read, Write, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout = layout(
@@ -288,9 +288,6 @@ impl Geometry {
         let device = &gpu.device;
         let compute = std::array::from_fn(|kind| {
             let buffers = [
-                &models.vertex_buffer.buffer,
-                &models.edge_buffer.buffer,
-                &models.triangle_buffer.buffer,
                 &self.chunks[kind].buffer,
                 &self.seen.buffer,
                 &self.emitted.buffer,
@@ -301,8 +298,8 @@ impl Geometry {
                 &self.thin.buffer,
                 &self.counters,
             ];
-            let resources: Vec<_> =
-                std::iter::once(self.instances.binding()).chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
+            let tables = [self.instances.binding(), models.vertices.binding(), models.edges.binding(), models.triangles.binding()];
+            let resources: Vec<_> = tables.into_iter().chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });
         let textures = models
