@@ -155,11 +155,14 @@ pub struct ChartBvhArgs {
     check: bool,
 }
 
-/// Times whole frames of scenes, and each pass of them.
+/// Times whole frames of scenes and of the chase from start to end, and every part of them.
 #[derive(Args)]
 pub struct ChartFrameArgs {
+    /// The folder for the CSVs.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
     /// Scenes: TOML files, or names in assets/scenes.
-    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,disk,chase,aurora-orbit")]
     #[arg(long_help = scene::help("TOML files, or names in assets/scenes."))]
     scene: Vec<String>,
     /// Width and height in pixels.
@@ -174,6 +177,9 @@ pub struct ChartFrameArgs {
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
+    /// Frames of the scene `chase`, flown by its pilots from start to end. 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    flight: u32,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -289,10 +295,20 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    let request =
-        frame_times::FrameTimesRequest { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
+    let request = frame_times::FrameTimesRequest {
+        output: chart::Output { folder: args.output, redraw: false },
+        scenes: args.scene,
+        size: args.size,
+        frames: args.frames,
+        at: args.at,
+        rationed: args.rationed,
+        flight: args.flight,
+    };
     match frame_times::run(&request, &config, &mut io::stdout().lock()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(paths) => {
+            chart::announce(&paths);
+            ExitCode::SUCCESS
+        }
         Err(error) => fail_shot(&error),
     }
 }

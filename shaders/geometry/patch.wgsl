@@ -3,7 +3,7 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
 #import lensrunner::chosen::held::held_momentum
-#import lensrunner::geometry::bindings::model_vertices
+#import lensrunner::geometry::bindings::model_position
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
@@ -225,10 +225,10 @@ const LIMB_SINE: f32 = 0.15;
 /// the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
     let first = instance.vertices.x;
-    let corner = model_vertices[first + edge.x].position.xyz;
-    let along = shaped(instance, model_vertices[first + edge.y].position.xyz - corner);
-    let c = shaped(instance, model_vertices[first + edge.z].position.xyz - corner);
-    let d = shaped(instance, model_vertices[first + edge.w].position.xyz - corner);
+    let corner = model_position(first + edge.x);
+    let along = shaped(instance, model_position(first + edge.y) - corner);
+    let c = shaped(instance, model_position(first + edge.z) - corner);
+    let d = shaped(instance, model_position(first + edge.w) - corner);
     // The normals of both triangles on the same side of the surface.
     let n = at_rest(instance, cross(along, c), offset);
     let m = at_rest(instance, cross(d, along), offset);
@@ -298,9 +298,9 @@ fn slant(a: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
 /// it likes would give the point of an edge other bits in each of its two triangles.
 fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
     let first = instance.vertices.x;
-    let a = model_vertices[first + triangle.vertices.x].position.xyz * corner.x;
-    let b = fma(model_vertices[first + triangle.vertices.y].position.xyz, vec3<f32>(corner.y), a);
-    return fma(model_vertices[first + triangle.vertices.z].position.xyz, vec3<f32>(corner.z), b);
+    let a = model_position(first + triangle.vertices.x) * corner.x;
+    let b = fma(model_position(first + triangle.vertices.y), vec3<f32>(corner.y), a);
+    return fma(model_position(first + triangle.vertices.z), vec3<f32>(corner.z), b);
 }
 
 /// The unit normal that points out of the closed body of a model triangle, in the rest frame of what is at `offset` from the camera. Zero
@@ -330,9 +330,9 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.
 fn plane_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let first = instance.vertices.x;
-    let corner = model_vertices[first + triangle.vertices.x].position.xyz;
-    let a = shaped(instance, model_vertices[first + triangle.vertices.y].position.xyz - corner);
-    let b = shaped(instance, model_vertices[first + triangle.vertices.z].position.xyz - corner);
+    let corner = model_position(first + triangle.vertices.x);
+    let a = shaped(instance, model_position(first + triangle.vertices.y) - corner);
+    let b = shaped(instance, model_position(first + triangle.vertices.z) - corner);
     return at_rest(instance, cross(a, b), offset);
 }
 

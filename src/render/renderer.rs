@@ -3,6 +3,7 @@
 
 use std::mem::offset_of;
 use std::sync::Arc;
+use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -15,6 +16,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::disk::{Disk, DiskPasses};
 use crate::render::frame::{FrameInput, blackbody_table, uniform};
 use crate::render::geometry::Geometry;
+use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::readback::{self, DeferredCopy, Picture, PictureError};
@@ -24,7 +26,7 @@ use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
-use crate::render::passes::{Recording, Shown, colour, depth, draw_thin};
+use crate::render::passes::{Recording, Shown, begin_thin, colour, depth};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
 use crate::render::post_process::upscale::{Upscale, drawn_size};
@@ -76,6 +78,7 @@ pub struct Renderer {
     has_disk: bool,
     models: Models,
     geometry: Geometry,
+    thin: ThinLists,
     background: Background,
     stars: Stars,
     aurora: Aurora,
@@ -133,6 +136,7 @@ impl Renderer {
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
+            thin: ThinLists::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),
@@ -281,6 +285,8 @@ impl Renderer {
         if input.settings.resolution != self.output.1 {
             self.draw_share(self.output.0, input.settings.resolution);
         }
+        self.timing.begin_work();
+        let begin = Instant::now();
         let l = camera.radius();
         // The slices depend on radius and method alone.
         let method = input.settings.method;
@@ -301,11 +307,17 @@ impl Renderer {
             self.sky_slice.write(&self.gpu, &self.sky);
             self.slice = Some(slice);
         }
+        let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
+        let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
+        if self.geometry.has_thin() {
+            let buffers = [self.geometry.thin(), self.geometry.arguments()];
+            self.thin.prepare(&self.gpu, buffers, self.geometry.capacity().thin, self.targets.size);
+        }
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
@@ -319,16 +331,20 @@ impl Renderer {
             Before::Measured => uniform.rise[1] = 1.0,
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let begin = self.timing.worked("lists of bodies", begin);
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, self.targets.size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         self.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.timing.worked("rest of the uploads", begin);
         true
     }
 
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
+        let begin = Instant::now();
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
@@ -336,7 +352,14 @@ impl Renderer {
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, fill + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, fill + 12, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
-        let shown = Shown { geometry: &self.geometry, background: &self.background, stars: &self.stars, aurora: &self.aurora, disk };
+        let shown = Shown {
+            geometry: &self.geometry,
+            thin: &self.thin,
+            background: &self.background,
+            stars: &self.stars,
+            aurora: &self.aurora,
+            disk,
+        };
         let mut recording =
             Recording { encoder: &mut *encoder, timing: &mut self.timing, frame: &self.frame_group, targets: &self.targets };
         shown.compute(&mut recording);
@@ -349,7 +372,7 @@ impl Renderer {
         shown.walk(&mut recording);
         // What is behind the disk is dimmed by it.
         shown.draw_aurora(&mut recording, true);
-        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
+        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording, &self.thin));
         shown.draw_aurora(&mut recording, false);
         let drawn = self.upscale.drawn().unwrap_or(output);
         self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, drawn);
@@ -362,6 +385,7 @@ impl Renderer {
             }
         }
         self.timing.end(encoder);
+        self.timing.worked("encoding", begin);
     }
 
     /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
@@ -407,7 +431,7 @@ impl Renderer {
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if self.geometry.has_thin() {
             // The sum of all: among images of the disk they are drawn in parts.
-            draw_thin(&self.geometry, None, None, encoder, &self.frame_group, &self.targets);
+            self.geometry.draw_thin(&mut begin_thin(true, None, encoder, &self.frame_group, &self.targets));
         }
         let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -8,6 +8,7 @@ use lensrunner::render::stage;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
+use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
 use crate::render::support::surroundings;
@@ -176,4 +177,24 @@ fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
     let place = |k: usize| (k as i64 % i64::from(size[0]), k as i64 / i64::from(size[0]));
     let (x, y) = place(pixel);
     ship.iter().any(|&k| (place(k).0 - x).abs() <= 1 && (place(k).1 - y).abs() <= 1)
+}
+
+/// Thin images are summed in tiles of their own, which are made black before: of the frame before nothing is left. A few pixels to the side
+/// the images come to lie in tiles that they were in, at other places.
+#[test]
+fn thin_images_leave_nothing_behind() {
+    let (size, config, mut renderer, stage, moment) = a_chase();
+    let settings = Settings { stars: false, milky_way: false, ..stage::settings(&config) };
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let turned = |degrees: f64| {
+        let attitude = camera.attitude * glam::DQuat::from_rotation_y(degrees.to_radians());
+        stage.frame(Observer { attitude, ..camera }, size, moment.time(), &moment.histories(), None, &settings)
+    };
+    let (before, after) = (turned(1.0), turned(0.0));
+    let alone = renderer.picture(&after, true).unwrap();
+    assert!(alone.thin.iter().filter(|part| **part > 0.05).count() > 10, "no thin images");
+    renderer.picture(&before, false).unwrap();
+    let later = renderer.picture(&after, false).unwrap();
+    let off = alone.linear.iter().zip(&later.linear).filter(|(a, b)| (0..3).any(|k| (a[k] - b[k]).abs() > 0.02 * a[k].abs() + 1e-4));
+    assert_eq!(off.count(), 0, "pixels that differ");
 }

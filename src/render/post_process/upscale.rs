@@ -6,6 +6,7 @@ use crate::render::gpu::layout::{Raster, Slot, bind, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
 use crate::render::gpu::targets::target;
 use crate::render::passes::{Recording, colour};
+use crate::render::post_process::begin;
 
 /// The passes that enlarge, for an output of one format.
 #[derive(Debug)]
@@ -64,16 +65,7 @@ impl Upscale {
     pub fn run(&self, recording: &mut Recording, output: &wgpu::TextureView) {
         let Some(room) = &self.room else { return };
         for (pipeline, group, to) in [(&self.rows, &room.groups[0], &room.wide), (&self.columns, &room.groups[1], output)] {
-            let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("upscale"),
-                color_attachments: &[Some(colour(to, true))],
-                timestamp_writes: recording.timing.render("upscale"),
-                ..Default::default()
-            });
-            pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, recording.frame, &[]);
-            pass.set_bind_group(2, group, &[]);
-            pass.draw(0..3, 0..1);
+            begin(recording, ["upscale"; 2], &[Some(colour(to, true))], pipeline, group).draw(0..3, 0..1);
         }
     }
 }
