@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use lensrunner::scene;
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, frame_times, projection, thin_disk};
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, thin_disk};
 
 use crate::fail;
 
@@ -21,8 +21,22 @@ pub enum ChartCommand {
     Bvh(ChartBvhArgs),
     Frame(ChartFrameArgs),
     Disk(ChartDiskArgs),
+    Flight(ChartFlightArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
+}
+
+/// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
+#[derive(Args)]
+pub struct ChartFlightArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How often each flight is timed; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The most evaluations of the equations of motion in a flight; what takes more is left out.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1_000..))]
+    evaluations: u64,
 }
 
 /// Where a chart goes.
@@ -192,6 +206,11 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Bvh(args) => run_chart_bvh(args),
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
+        ChartCommand::Flight(args) => finish_chart(flight::run(&flight::FlightRequest {
+            output: args.chart.into(),
+            rounds: args.rounds.into(),
+            evaluations: args.evaluations,
+        })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
@@ -216,7 +235,7 @@ fn run_chart_quarry(args: &ChartQuarryArgs) -> ExitCode {
 
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::Gpu;
-    use lensrunner_lab::disk::{chart::run, request::DiskRequest};
+    use lensrunner_lab::disk::{chart, request::DiskRequest};
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
@@ -229,8 +248,11 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         steps: usize::from(args.steps),
         flight: args.flight as usize,
     };
+    if request.output.redraw {
+        return finish_chart(chart::redraw(&request));
+    }
     match Gpu::headless() {
-        Ok(gpu) => finish_chart(run(&request, &config, gpu)),
+        Ok(gpu) => finish_chart(chart::run(&request, &config, gpu)),
         Err(error) => fail(&error, 1),
     }
 }

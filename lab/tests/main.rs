@@ -7,6 +7,7 @@ mod command_line;
 mod compare;
 mod contestant;
 mod disk;
+mod flight;
 mod plot;
 mod projection;
 mod published;
