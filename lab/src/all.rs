@@ -1,5 +1,6 @@
 //! `all` and `status` on the command line: the products of the documents, made anew and looked over.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -7,7 +8,7 @@ use clap::Args;
 use lensrunner::render::Gpu;
 use lensrunner_lab::products::made::{Record, made};
 use lensrunner_lab::products::make::{MakeRequest, duration, make};
-use lensrunner_lab::products::{DOCUMENTS, PRODUCTS, Standing, standing};
+use lensrunner_lab::products::{DOCUMENTS, Made, PRODUCTS, Standing, standing};
 
 use crate::fail;
 
@@ -67,7 +68,7 @@ pub fn status(args: &StatusArgs) -> ExitCode {
         Ok(record) => record,
         Err(error) => return fail(&error, 2),
     };
-    let (root, mut stale) = (Path::new("."), 0);
+    let (root, mut stale, mut text) = (Path::new("."), 0, String::new());
     for product in PRODUCTS {
         let made = made(root, &args.output, product, &record);
         let stands = made.as_ref().map_or(Standing::Missing, |made| standing(root, &made.on.commit, product.all_sources()));
@@ -75,17 +76,21 @@ pub fn status(args: &StatusArgs) -> ExitCode {
         if args.stale && stands == Standing::Fresh {
             continue;
         }
-        println!("{}: {stands}", product.name);
-        let Some(made) = made else { continue };
-        let on = [&made.on.commit, &made.on.date, &made.on.processor, &made.on.adapter];
-        let on: Vec<&str> = on.into_iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
-        let how = if made.told { "" } else { " (committed; how it was made is not recorded)" };
-        let took = if made.seconds > 0.0 { format!(" · {}", duration(made.seconds)) } else { String::new() };
-        println!("  {}{how}{took}", on.join(" · "));
-        for command in &made.commands {
-            println!("  {command}");
-        }
+        text += &format!("{}: {stands}\n", product.name);
+        text += &made.as_ref().map(told).unwrap_or_default();
     }
-    println!("{} products, {stale} stale or missing", PRODUCTS.len());
+    text += &format!("{} products, {stale} stale or missing\n", PRODUCTS.len());
+    // What nobody reads any more, as behind `| head`, is dropped.
+    let _ = std::io::stdout().write_all(text.as_bytes());
     ExitCode::SUCCESS
+}
+
+/// How a product came to be.
+fn told(made: &Made) -> String {
+    let on = [&made.on.commit, &made.on.date, &made.on.processor, &made.on.adapter];
+    let on: Vec<&str> = on.into_iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
+    let how = if made.told { "" } else { " (committed; how it was made is not recorded)" };
+    let took = if made.seconds > 0.0 { format!(" · {}", duration(made.seconds)) } else { String::new() };
+    let commands: String = made.commands.iter().map(|command| format!("  {command}\n")).collect();
+    format!("  {}{how}{took}\n{commands}", on.join(" · "))
 }

@@ -8,7 +8,7 @@ use clap::{Args, Subcommand};
 use lensrunner::scene;
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, thin_disk};
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk};
 
 use crate::fail;
 
@@ -22,6 +22,7 @@ pub enum ChartCommand {
     Frame(ChartFrameArgs),
     Disk(ChartDiskArgs),
     Flight(ChartFlightArgs),
+    Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
 }
@@ -37,6 +38,25 @@ pub struct ChartFlightArgs {
     /// The most evaluations of the equations of motion in a flight; what takes more is left out.
     #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1_000..))]
     evaluations: u64,
+}
+
+/// Ways to divide triangles: displacement of surface points on the picture against vertices and time.
+#[derive(Args)]
+pub struct ChartTessellationArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,parade,galaxy")]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Bounds in pixels; 0.5, the game's own, is what the others are told against.
+    #[arg(long, value_name = "PX,…", value_delimiter = ',', default_value = "0.125,0.25,0.5,1,2,4,8")]
+    bounds: Vec<f64>,
+    /// Rounds of timing in which all ways take turns; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
 }
 
 /// Where a chart goes.
@@ -210,6 +230,13 @@ pub fn run(chart: ChartCommand) -> ExitCode {
             output: args.chart.into(),
             rounds: args.rounds.into(),
             evaluations: args.evaluations,
+        })),
+        ChartCommand::Tessellation(args) => finish_chart(tessellation::run(&tessellation::TessellationRequest {
+            output: args.chart.into(),
+            scenes: args.scene,
+            size: args.size,
+            bounds: args.bounds,
+            rounds: args.rounds.into(),
         })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {

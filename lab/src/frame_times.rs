@@ -139,7 +139,7 @@ impl Bench<'_> {
             let begin = Instant::now();
             let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &settings(config));
             renderer.timing().set_counting(number < settling);
-            let ready = self.draw(&mut renderer, &frame, &view)?;
+            let ready = draw(gpu, &mut renderer, &frame, &view)?;
             let latest = renderer.timing().latest();
             if request.rationed {
                 stage.ration_aurora(latest);
@@ -168,17 +168,17 @@ impl Bench<'_> {
             strokes: renderer.aurora_strokes()?,
         })
     }
+}
 
-    /// Draws one frame to its end, and says when it was handed to the GPU.
-    fn draw(&self, renderer: &mut Renderer, frame: &FrameInput, view: &wgpu::TextureView) -> Result<Instant, PictureError> {
-        renderer.prepare(frame);
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        renderer.encode(&mut encoder, view);
-        let ready = Instant::now();
-        self.gpu.queue.submit([encoder.finish()]);
-        self.gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
-        Ok(ready)
-    }
+/// Draws one frame to its end, and says when it was handed to the GPU.
+pub fn draw(gpu: &Gpu, renderer: &mut Renderer, frame: &FrameInput, view: &wgpu::TextureView) -> Result<Instant, PictureError> {
+    renderer.prepare(frame);
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    renderer.encode(&mut encoder, view);
+    let ready = Instant::now();
+    gpu.queue.submit([encoder.finish()]);
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+    Ok(ready)
 }
 
 /// Times of frames, in milliseconds.

@@ -1,7 +1,7 @@
 //! The laboratory: it stands above the game and may see all of it; nothing in the game knows the laboratory.
 //!
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
-//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
+//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`steps`]: what a step of the simulation costs.
@@ -28,4 +28,5 @@ mod say;
 pub mod steps;
 mod stopwatch;
 pub mod straight;
+pub mod tessellation;
 pub mod thin_disk;

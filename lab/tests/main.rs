@@ -9,6 +9,7 @@ mod contestant;
 mod disk;
 mod flight;
 mod plot;
+mod products;
 mod projection;
 mod published;
 mod thin_disk;

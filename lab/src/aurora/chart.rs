@@ -173,9 +173,10 @@ impl<'a> Shown<'a> {
         let ([low, high], [least, most]) = (range(FACTORS[0]), range(FACTORS[2]));
         let worse = views.iter().map(|view| self.of(view, "exact", "error") / self.of(view, "particles", "error") - 1.0);
         let worse = 100.0 * worse.filter(|share| share.is_finite()).fold(0.0, f64::max);
+        let error = if worse < 0.05 { "at the same error".to_owned() } else { format!("at an error up to {worse:.1} % greater") };
         format!(
-            "The exact walk takes {low:.0} to {high:.0} times less time than particles, a whole pass {least:.1} to {most:.1} times less; its error \
-             is at most {worse:.1} % greater"
+            "The exact walk takes {low:.0} to {high:.0} times less time than particles, a whole pass with a pyramid {least:.1} to {most:.1} times \
+             less, {error}"
         )
     }
 

@@ -99,8 +99,8 @@ fn verdict(sheet: &Sheet) -> String {
     let own = sheet.rows.iter().filter(|row| sheet.text(row, "own") == "1").map(|row| sheet.number(row, "phase"));
     let others = [Method::Dopri5, Method::Rk4, Method::Split4, Method::Game].map(range).join(", ");
     format!(
-        "For a phase to {} rad DOP853 with error control needs fewest evaluations ({others} times as many); at its own step the game is off \
-         by at most {:.0e} rad",
+        "A phase to {} rad takes so many times the evaluations of DOP853 with error control: {others}; at its own step the game is off by at \
+         most {:.0e} rad",
         tick_text(GOOD),
         own.fold(0.0, f64::max)
     )

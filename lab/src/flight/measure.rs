@@ -83,9 +83,16 @@ pub fn measure(request: &FlightRequest) -> Result<Sheet, FlightError> {
         let truth = case.truth();
         let mut flown: Vec<(Method, Effort, Flown)> = Vec::new();
         for method in Method::ALL {
+            // Each effort takes more than the one before, but for the game's own step, the last.
+            let mut over = false;
             for effort in efforts(method, &case) {
+                let is_own = method == Method::Game && effort == own(&case);
+                if over && !is_own {
+                    continue;
+                }
                 let flight = fly(method, &case, effort);
-                if flight.evaluations <= request.evaluations || (method == Method::Game && effort == own(&case)) {
+                over = flight.evaluations > request.evaluations;
+                if !over || is_own {
                     flown.push((method, effort, flight));
                 }
             }
@@ -137,7 +144,7 @@ pub fn limits(sheet: &Sheet) -> Sheet {
         let rows: Vec<_> = rows.filter(|row| sheet.text(row, "own") == "0").collect();
         // From the finest on: the first that fails.
         let mut from_finest = rows;
-        from_finest.sort_by(|a, b| sheet.number(b, "evaluations").total_cmp(&sheet.number(a, "evaluations")));
+        from_finest.sort_by(|a, b| sheet.number(a, "effort").total_cmp(&sheet.number(b, "effort")));
         let place = from_finest.iter().position(|row| sheet.text(row, "failed") == "1");
         let cells = |row: Option<&&Vec<String>>| match row {
             Some(row) => [sheet.text(row, "step"), sheet.text(row, "effort")].map(str::to_owned),

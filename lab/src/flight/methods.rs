@@ -284,7 +284,7 @@ static DOPRI5: LazyLock<Scheme> = LazyLock::new(|| {
 /// The game's weights, with the two embedded methods of the published code.
 static DOP853: LazyLock<Scheme> = LazyLock::new(|| {
     let mut third: Weights = tableau::WEIGHTS.to_vec();
-    for (stage, weight) in [(0, 0.244_094_488_188_976_38), (8, 0.733_846_688_281_611_9), (11, 0.022_058_823_529_411_766)] {
+    for (stage, weight) in [(0, 0.244_094_488_188_976_4), (8, 0.733_846_688_281_611_9), (11, 0.022_058_823_529_411_766)] {
         third.push((stage, -weight));
     }
     let fifth = vec![

@@ -117,7 +117,7 @@ pub fn made(root: &Path, folder: &Path, product: &Product, record: &Record) -> O
     let told = sheets.filter_map(|file| Provenance::told(&Sheet::load(file).ok()?.notes)).next();
     match (recorded, told) {
         // A sheet of another commit was made by hand since.
-        (Some(recorded), Some(told)) if told.commit != recorded.on.commit => Some(by_hand(told)),
+        (Some(recorded), Some(told)) if clean(&told.commit) != clean(&recorded.on.commit) => Some(by_hand(told)),
         (Some(recorded), _) => Some(recorded),
         (None, Some(told)) => Some(by_hand(told)),
         (None, None) => {
@@ -126,6 +126,11 @@ pub fn made(root: &Path, folder: &Path, product: &Product, record: &Record) -> O
             Some(Made { on: Provenance { commit: commit.into(), date: date.into(), ..Provenance::default() }, ..Made::default() })
         }
     }
+}
+
+/// The commit without the mark of uncommitted files: a record's is of the product's sources alone, a sheet's of all files.
+fn clean(commit: &str) -> &str {
+    commit.trim_end_matches('+')
 }
 
 fn by_hand(told: Provenance) -> Made {

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant, SystemTime};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::made::{Record, RecordError, made};
-use super::{Made, Product, Program, Run, Standing, standing};
+use super::{Made, Product, Program, Run, Standing, git, standing};
 use crate::chart::Provenance;
 use crate::say::say;
 
@@ -124,9 +124,13 @@ fn same(a: &[String], b: &[String]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| sorted(a) == sorted(b))
 }
 
-/// Makes them; says each as it is done, and returns the names of those that failed.
+/// Makes them by the programs that lie beside this one; says each as it is done, and returns the names of those that failed.
 pub fn make(all: &'static [Product], request: &MakeRequest) -> Result<Vec<&'static str>, MakeError> {
-    let programs = std::env::current_exe().map_err(MakeError::Programs)?;
+    make_with(all, request, &std::env::current_exe().map_err(MakeError::Programs)?)
+}
+
+/// The same by the programs that lie beside `programs`.
+pub fn make_with(all: &'static [Product], request: &MakeRequest, programs: &Path) -> Result<Vec<&'static str>, MakeError> {
     let mut record = Record::load(&request.folder)?;
     let mut times = Times::load(&request.times);
     let (done, todo): (Vec<&Product>, Vec<&Product>) =
@@ -152,14 +156,14 @@ pub fn make(all: &'static [Product], request: &MakeRequest) -> Result<Vec<&'stat
             bar.set_position((10.0 * now) as u64);
             bar.set_message(format!("{}/{} {}: {} left", place + 1, todo.len(), product.name, duration(whole - now)));
         };
-        let result = one(product, request, &programs, &tick);
+        let result = one(product, request, programs, &tick);
         let seconds = began.elapsed().as_secs_f64();
         before += expected;
         let left = duration(whole - before);
         match result {
             Ok(()) => {
                 times.put(product, request.quick, seconds);
-                let on = Provenance { command: String::new(), ..Provenance::now(&request.adapter) };
+                let on = Provenance { command: String::new(), commit: commit(&request.root, product), ..Provenance::now(&request.adapter) };
                 record.put(product.name, &Made { commands: product.commands(request.quick), on, seconds, told: true })?;
                 bar.suspend(|| say(format_args!("{}: {}; {left} left", product.name, duration(seconds))));
             }
@@ -171,6 +175,13 @@ pub fn make(all: &'static [Product], request: &MakeRequest) -> Result<Vec<&'stat
     }
     bar.finish_and_clear();
     Ok(failed)
+}
+
+/// The commit checked out, with "+" if sources of the product differ from it.
+fn commit(root: &Path, product: &Product) -> String {
+    let head = git::ask(root, &["rev-parse", "--short=10", "HEAD"]).unwrap_or_default();
+    let mark = if standing(root, &head, product.all_sources()) == Standing::Fresh { "" } else { "+" };
+    format!("{head}{mark}")
 }
 
 /// Makes one product in the workshop and takes its files to the folder.

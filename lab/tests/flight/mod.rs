@@ -27,7 +27,8 @@ fn methods_have_their_orders() {
     ] {
         let (coarse, fine) = (phase(method, steps), phase(method, 2 * steps));
         let found = (coarse / fine).log2();
-        assert!((found - order).abs() < 0.35, "{method:?}: {found:.2} from {coarse:e} to {fine:e}");
+        // Before steps are short terms of higher orders count as well.
+        assert!((order - 0.35..order + 0.8).contains(&found), "{method:?}: {found:.2} from {coarse:e} to {fine:e}");
     }
 }
 
