@@ -10,7 +10,7 @@ use lensrunner::scene;
 use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, frame_times, projection, thin_disk};
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk};
 
 use crate::fail;
 
@@ -24,8 +24,42 @@ pub enum ChartCommand {
     Frame(ChartFrameArgs),
     Dial(ChartDialArgs),
     Disk(ChartDiskArgs),
+    Flight(ChartFlightArgs),
+    Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
+}
+
+/// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
+#[derive(Args)]
+pub struct ChartFlightArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How often each flight is timed; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The most evaluations of the equations of motion in a flight; what takes more is left out.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1_000..))]
+    evaluations: u64,
+}
+
+/// Ways to divide triangles: displacement of surface points on the picture against vertices and time.
+#[derive(Args)]
+pub struct ChartTessellationArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,parade,galaxy")]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Bounds in pixels; 0.5, the game's own, is what the others are told against.
+    #[arg(long, value_name = "PX,…", value_delimiter = ',', default_value = "0.125,0.25,0.5,1,2,4,8")]
+    bounds: Vec<f64>,
+    /// Rounds of timing in which all ways take turns; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
 }
 
 /// Where a chart goes.
@@ -221,6 +255,18 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Bvh(args) => run_chart_bvh(args),
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
+        ChartCommand::Flight(args) => finish_chart(flight::run(&flight::FlightRequest {
+            output: args.chart.into(),
+            rounds: args.rounds.into(),
+            evaluations: args.evaluations,
+        })),
+        ChartCommand::Tessellation(args) => finish_chart(tessellation::run(&tessellation::TessellationRequest {
+            output: args.chart.into(),
+            scenes: args.scene,
+            size: args.size,
+            bounds: args.bounds,
+            rounds: args.rounds.into(),
+        })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
         ChartCommand::Dial(args) => run_chart_dial(args),
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
@@ -271,7 +317,7 @@ fn run_chart_quarry(args: &ChartQuarryArgs) -> ExitCode {
 
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::Gpu;
-    use lensrunner_lab::disk::{chart::run, request::DiskRequest};
+    use lensrunner_lab::disk::{chart, request::DiskRequest};
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
@@ -284,8 +330,11 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         steps: usize::from(args.steps),
         flight: args.flight as usize,
     };
+    if request.output.redraw {
+        return finish_chart(chart::redraw(&request));
+    }
     match Gpu::headless() {
-        Ok(gpu) => finish_chart(run(&request, &config, gpu)),
+        Ok(gpu) => finish_chart(chart::run(&request, &config, gpu)),
         Err(error) => fail(&error, 1),
     }
 }

@@ -17,6 +17,9 @@ pub struct Settings {
     pub light_delay: bool,
     /// How often an edge of a model may be halved.
     pub halvings: u32,
+    /// Edges are divided by the criterion of Yamashita 2025 instead, to be measured beside: the error of the midpoint alone, all edges
+    /// alike.
+    pub midpoint: bool,
     /// Room for the vertices of the mesh stage.
     pub vertex_budget: u32,
     /// Triangles of thin images are drawn at least this wide, in pixels; 0: there are no thin images.
@@ -98,6 +101,7 @@ impl Settings {
             method: Method::Table,
             light_delay: true,
             halvings: 13,
+            midpoint: false,
             vertex_budget: 1_200_000,
             min_width: 1.0,
             thin_below: 1.0,

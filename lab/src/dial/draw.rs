@@ -27,7 +27,7 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
     });
     let figure = Figure {
         title: "One dial: error against time of a frame".into(),
-        subtitle: verdict(checked),
+        verdict: verdict(checked),
         panels: vec![
             Panel::Lines(Lines {
                 title: "rungs of the ladder, from the finest down".into(),
@@ -49,6 +49,7 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
         columns: 2,
         size: [1400, 640],
         footer: Provenance::footer(&checked.notes),
+        ..Figure::default()
     };
     Ok(figure.save(&output.folder, "dial")?)
 }

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 use std::time::Instant;
 
 use glam::DQuat;
-use lensrunner::render::gpu::readback::PictureError;
 use lensrunner::render::gpu::targets::target;
 use lensrunner::render::quality::prices::SceneClass;
 use lensrunner::render::settings::Settings;
@@ -20,6 +19,7 @@ use rand::{Rng, RngExt};
 use super::DialError;
 use crate::flip::flip;
 use crate::frame_times::processor_time;
+use crate::frame_times::whole::draw;
 
 /// Latest time of a moment, in r_s/c.
 const LATEST: f64 = 40.0;
@@ -142,11 +142,7 @@ impl Bench {
         let mut milliseconds = f64::INFINITY;
         for _ in 0..TIMED {
             let begin = clock();
-            self.renderer.prepare(&frame());
-            let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            self.renderer.encode(&mut encoder, &view);
-            gpu.queue.submit([encoder.finish()]);
-            gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| PictureError::Map(error.to_string()))?;
+            draw(&gpu, &mut self.renderer, &frame(), &view)?;
             milliseconds = milliseconds.min(clock() - begin);
         }
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();

@@ -5,6 +5,7 @@
 
 mod bench;
 pub mod parts;
+pub mod whole;
 
 use std::fmt;
 use std::io::Write;

@@ -38,6 +38,8 @@ pub mod flags {
     pub const INSIDE: u32 = 16;
     /// The exposure stays as it is.
     pub const HOLD_EXPOSURE: u32 = 32;
+    /// The error of an edge is that of its midpoint alone.
+    pub const MIDPOINT: u32 = 64;
 }
 
 /// One object seen in one image order; `Instance` in WGSL.

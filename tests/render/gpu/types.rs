@@ -143,6 +143,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::FLAG_BEAMING", whole(flags::BEAMING)),
         ("gpu::types::FLAG_INSIDE", whole(flags::INSIDE)),
         ("gpu::types::FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
+        ("gpu::types::FLAG_MIDPOINT", whole(flags::MIDPOINT)),
         ("gpu::types::INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
         ("gpu::types::INSTANCE_HELD", whole(placed::HELD)),
         ("gpu::types::INSTANCE_THIN", whole(placed::THIN)),
