@@ -55,7 +55,7 @@ pub fn class_of(scene: &Scene) -> SceneClass {
 /// All scenes and missions of a class.
 pub fn scenes(class: SceneClass) -> Result<Vec<Scene>, DialError> {
     let mut found = Vec::new();
-    for name in scene::names() {
+    for name in scene::names().into_iter().chain(scene::mission_names()) {
         let scene = scene::load(&name)?;
         if class_of(&scene) == class {
             found.push(scene);

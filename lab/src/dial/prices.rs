@@ -27,9 +27,8 @@ pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sh
             let case = case(&scenes, &mut rng).ok_or(DialError::Empty(class.name()))?;
             said(format!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at));
             let shown = bench.show(&case)?;
+            let finest = bench.take(&shown, &shown.finest)?;
             for (k, knob) in Knob::ALL.into_iter().enumerate() {
-                // Beside its steps, so that what else the machine does tells on both alike.
-                let finest = bench.take(&shown, &shown.finest)?;
                 for step in 1..knob.steps() {
                     let mut steps = [0; Knob::ALL.len()];
                     steps[k] = step;
