@@ -117,10 +117,10 @@ impl Shown<'_> {
             let timestamp_writes = timing.render(encoder, "thin");
             let mut pass = begin_thin(false, timestamp_writes, encoder, frame, targets);
             self.thin.wipe(&mut pass);
-            if laid_over {
-                geometry.draw_thin_across(&mut pass, self.thin, crossings);
-            } else {
+            if !laid_over {
                 geometry.draw_thin(&mut pass);
+            } else if geometry.begin_thin_across(&mut pass, crossings) {
+                self.thin.draw_across(&mut pass, crossings);
             }
             drop(pass);
             compose(recording);

@@ -12,7 +12,8 @@ use lensrunner::render::{Gpu, Renderer};
 use lensrunner::scene::{GameConfig, Scene};
 
 use super::parts::{Part, Whose};
-use super::{FrameTimes, FrameTimesRequest, processor_time};
+use super::processor::processor_time;
+use super::times::{FrameTimes, FrameTimesRequest};
 
 /// The format of the picture.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;

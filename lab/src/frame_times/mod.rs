@@ -5,9 +5,10 @@
 
 mod bench;
 pub mod parts;
+mod processor;
+mod times;
 pub mod whole;
 
-use std::fmt;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -15,142 +16,18 @@ use lensrunner::scene::{self, GameConfig, Scene};
 use lensrunner::sim::Moment;
 
 use lensrunner::render::Gpu;
-use lensrunner::render::disk::types::DiskCounters;
 use lensrunner::render::gpu::readback::PictureError;
-use lensrunner::render::gpu::types::Counters;
 use lensrunner::render::shot::{ShotError, surroundings};
 
-use crate::chart::{Output, Provenance, Sheet};
+use crate::chart::{Provenance, Sheet};
 use bench::Bench;
-use parts::{Parts, Spread};
-
-/// What to time.
-#[derive(Clone, Debug)]
-pub struct FrameTimesRequest {
-    /// Where the sheets go.
-    pub output: Output,
-    /// Names or files of scenes.
-    pub scenes: Vec<String>,
-    /// Width and height in pixels.
-    pub size: [u32; 2],
-    /// Frames that are timed, after some that are not.
-    pub frames: u32,
-    /// T of the frames, in r_s/c.
-    pub at: f64,
-    /// Whether the aurora is held to its share of a frame, as in the window; it is given some frames more for that.
-    pub rationed: bool,
-    /// Frames that are timed along the chase; 0 for none.
-    pub flight: u32,
-}
+pub use processor::processor_time;
+pub use times::{FrameTimes, FrameTimesRequest};
 
 /// The scene whose chase is flown by its pilots.
 const CHASE: &str = "chase";
 /// T at which a chase ends undecided, in r_s/c.
 const END: f64 = 120.0;
-/// Passes after the picture in linear light is drawn.
-const AFTERWARDS: [&str; 5] = ["bloom", "exposure", "flashes", "tone map", "smooth"];
-
-/// One scene's times, in milliseconds.
-#[derive(Clone, Debug)]
-pub struct FrameTimes {
-    /// The scene.
-    pub scene: String,
-    /// Of the first frame: what depends on a driver's state is compiled.
-    pub first: f64,
-    /// Whole frames and their parts.
-    pub parts: Parts,
-    /// Whole frames of the same moments without bodies and aurora.
-    pub alone: Vec<f64>,
-    /// Processor time of all threads for each frame, where the system tells it: on a software driver it says more than the clock does when
-    /// other programs run.
-    pub processor: Vec<f64>,
-    /// T of each frame of a flight, in r_s/c.
-    pub moments: Vec<f64>,
-    /// Fragments that passes shaded, where the GPU counts them.
-    pub fragments: Vec<(&'static str, u64)>,
-    /// What the stages of the geometry counted in the last frame.
-    pub counters: Counters,
-    /// And those of the disk, where it is one of arcs.
-    pub disk: Option<DiskCounters>,
-    /// Strokes of the aurora in it, by level of the pyramid.
-    pub strokes: Option<Vec<u32>>,
-}
-
-impl FrameTimes {
-    /// No times yet.
-    fn of(scene: &str) -> FrameTimes {
-        FrameTimes {
-            scene: scene.to_owned(),
-            first: 0.0,
-            parts: Parts::default(),
-            alone: Vec::new(),
-            processor: Vec::new(),
-            moments: Vec::new(),
-            fragments: Vec::new(),
-            counters: Counters::default(),
-            disk: None,
-            strokes: None,
-        }
-    }
-
-    /// How many times as long a frame takes as one from the same place without bodies and aurora: the ratio of the medians.
-    pub fn ratio(&self) -> f64 {
-        self.parts.whole().median / Spread::of(&self.alone).median
-    }
-
-    /// Its rows of the sheet.
-    fn write(&self, sheet: &mut Sheet) {
-        let whole = self.parts.whole().mean;
-        let mut row = |kind: &str, part: &str, spread: Spread| {
-            let times = [spread.mean, spread.median, spread.worst].map(|time| format!("{time:.3}"));
-            let cells = [self.scene.clone(), kind.to_owned(), part.to_owned()];
-            sheet.push(cells.into_iter().chain(times).chain([format!("{:.4}", spread.mean / whole)]));
-        };
-        row("whole", "first frame", Spread::of(&[self.first]));
-        row("whole", "frame", self.parts.whole());
-        row("whole", "without bodies and aurora", Spread::of(&self.alone));
-        row("whole", "processor time of all threads", Spread::of(&self.processor));
-        for (whose, name, spread) in self.parts.spreads() {
-            row(&whose.to_string(), name, spread);
-        }
-        let rest = self.parts.in_no_part();
-        row("rest", "in no pass", Spread { mean: rest, median: f64::NAN, worst: f64::NAN });
-    }
-}
-
-impl fmt::Display for FrameTimes {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Spread { mean, median, worst } = self.parts.whole();
-        write!(f, "{}: median {median:.1} ms, mean {mean:.1}, worst {worst:.1} (first {:.0}", self.scene, self.first)?;
-        if !self.processor.is_empty() {
-            write!(f, "; {:.0} of processor time", Spread::of(&self.processor).median)?;
-        }
-        write!(f, "; {:.2} times as long as without bodies and aurora)", self.ratio())?;
-        for (whose, label, Spread { mean, median, worst }) in self.parts.spreads() {
-            write!(f, "\n  {:<10} {label:<20} mean {mean:7.2} ms, median {median:7.2}, worst {worst:7.2}", whose.to_string())?;
-            if let Some((_, count)) = self.fragments.iter().find(|(known, _)| *known == label) {
-                write!(f, ", {count} fragments")?;
-            }
-        }
-        let rest = self.parts.in_no_part();
-        write!(f, "\n  {:<10} {:<20} mean {rest:7.2} ms, {:.1} % of the frame", "rest", "in no pass", 100.0 * rest / mean)?;
-        write!(f, "\n  what comes after the picture is {:.2} of the frame", self.parts.sum(&AFTERWARDS) / mean)?;
-        write!(f, "\n  {}", self.counters)?;
-        if let Some(complaint) = self.counters.complaint() {
-            write!(f, "\n  {complaint}")?;
-        }
-        if let Some(disk) = &self.disk {
-            write!(f, "\n  {disk}")?;
-        }
-        if let Some(strokes) = &self.strokes {
-            let levels: Vec<String> = strokes.iter().map(u32::to_string).collect();
-            write!(f, "\n  the aurora's passes take {:.2} of the frame", self.parts.sum(&["aurora"]) / mean)?;
-            write!(f, "\n  {} strokes of the aurora (each level of half the size: {})", strokes.iter().sum::<u32>(), levels.join(", "))?;
-        }
-        Ok(())
-    }
-}
-
 /// The columns of the sheet `frame`.
 const COLUMNS: [&str; 7] = ["scene", "whose", "part", "mean_ms", "median_ms", "worst_ms", "share_of_frame"];
 
@@ -207,15 +84,4 @@ fn steps_of(scene: &Scene, config: &GameConfig) -> u64 {
         steps += 1;
     }
     steps
-}
-
-/// Milliseconds that all threads of this process that still run have run so far, on Linux.
-pub fn processor_time() -> Option<f64> {
-    let mut sum = 0.0;
-    for task in std::fs::read_dir("/proc/self/task").ok()? {
-        // The first field is the time on a processor, in ns. A thread may end while we read.
-        let Ok(text) = std::fs::read_to_string(task.ok()?.path().join("schedstat")) else { continue };
-        sum += text.split_whitespace().next()?.parse::<f64>().ok()? * 1e-6;
-    }
-    Some(sum)
 }

@@ -12,7 +12,6 @@ use wgpu::{BufferUsages, ShaderStages};
 
 use ground::GroundBuffers;
 use stages::{PipelineCache, PipelineInputs};
-use thin::ThinLists;
 
 use crate::render::Gpu;
 use crate::render::aurora::ground::GroundFrame;
@@ -410,12 +409,10 @@ impl Geometry {
         self.draw_all_thin(pass, &self.draws.thin);
     }
 
-    /// Those of them whose light crosses the disk's plane so often, up to three times.
-    pub fn draw_thin_across(&self, pass: &mut wgpu::RenderPass, lists: &ThinLists, crossings: u32) {
-        let Some(pipeline) = self.draws.thin_across.get(crossings as usize) else { return };
-        if self.begin(pass, pipeline, &self.thin.buffer) {
-            lists.draw_across(pass, crossings);
-        }
+    /// Takes the pipeline and the vertices of those of them whose light crosses the disk's plane so often, up to three times; false if there
+    /// are none. Which they are, [`ThinLists`](thin::ThinLists) knows.
+    pub fn begin_thin_across(&self, pass: &mut wgpu::RenderPass, crossings: u32) -> bool {
+        self.draws.thin_across.get(crossings as usize).is_some_and(|pipeline| self.begin(pass, pipeline, &self.thin.buffer))
     }
 
     /// The layers of both.
