@@ -23,6 +23,7 @@ pub enum ChartCommand {
     Disk(ChartDiskArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
+    Overlay(ChartOverlayArgs),
 }
 
 /// Where a chart goes.
@@ -54,6 +55,14 @@ pub struct ChartQuarryArgs {
     /// T at which a chase ends undecided, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 270.0)]
     limit: f64,
+}
+
+/// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
+#[derive(Args)]
+pub struct ChartOverlayArgs {
+    /// Frames of each page.
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
+    frames: u32,
 }
 
 /// What a step of the simulation costs, by the number of ships: a table.
@@ -193,6 +202,10 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
+        ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, 1),
+        },
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),

@@ -4,7 +4,7 @@
 //! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
-//! - [`steps`]: what a step of the simulation costs.
+//! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
@@ -18,6 +18,7 @@ pub mod contestant;
 pub mod disk;
 pub mod flip;
 pub mod frame_times;
+pub mod overlay_cost;
 pub mod plot;
 pub mod projection;
 pub mod quarry;

@@ -1,7 +1,7 @@
 //! The right window: every setting in groups as in `game.toml`, a search, and what can be done with what was changed. Only rows that are
 //! in view are laid out.
 
-use bevy_egui::egui::{Align, Button, Color32, Layout, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
+use bevy_egui::egui::{Align, Button, Color32, Label, Layout, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 use bevy_egui::egui::{WidgetInfo, WidgetType};
 
 use crate::play::overlay::rows::{CHANGED, ROW, UNSAVED, row};
@@ -59,9 +59,9 @@ pub fn show(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
     let search = TextEdit::singleline(&mut overlay.search).hint_text("search: name, unit or description").desired_width(f32::INFINITY);
     let search = ui.add(search);
     search.widget_info(|| WidgetInfo::labeled(WidgetType::TextEdit, true, "search"));
-    if !overlay.said.is_empty() {
-        ui.add(bevy_egui::egui::Label::new(RichText::new(&overlay.said).small().color(UNSAVED)).wrap());
-    }
+    // One line, whatever it says, so that what is below stays where it is; all of it is under the pointer.
+    let said = if overlay.said.is_empty() { " " } else { &overlay.said };
+    ui.add(Label::new(RichText::new(said).small().color(UNSAVED)).truncate());
     ui.separator();
     let lines = lines(overlay);
     let height: f32 = lines.iter().map(|line| line.height()).sum();
@@ -103,7 +103,7 @@ fn buttons(ui: &mut Ui, seen: &Seen, overlay: &mut Overlay) {
 
 /// The heading of a group: a click opens or closes it.
 fn heading(ui: &mut Ui, rect: Rect, section: &'static str, open: bool, seen: &Seen, overlay: &mut Overlay) {
-    let response = ui.interact(rect, ui.id().with(section), Sense::click());
+    let response = ui.interact(rect, ui.layer_id().id.with(section), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::CollapsingHeader, true, section));
     if response.clicked() && !overlay.open.remove(section) {
         overlay.open.insert(section);

@@ -69,7 +69,7 @@ impl Plugin for OverlayPlugin {
             .init_resource::<Choices>()
             .insert_non_send(clipboard::Clipboard::default())
             .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer))
-            .add_systems(Update, (quality::tell_preset, note).in_set(GameSet::Instruments))
+            .add_systems(Update, (quality::tell_preset.run_if(resource_changed::<Session>), note).in_set(GameSet::Instruments))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay))
             .add_systems(PostUpdate, clipboard::hand_on.after(EguiPostUpdateSet::ProcessOutput))
             .add_systems(Last, moments::keep);

@@ -37,7 +37,9 @@ pub fn row(ui: &mut Ui, rect: Rect, place: usize, seen: &Seen, overlay: &mut Ove
     let value_left = upper.right() - RESET - 4.0 - VALUE;
     let name = Rect::from_min_max(pos2(upper.left() + 10.0, upper.top()), pos2(value_left - 4.0, upper.bottom()));
     let colour = if mark.changed { CHANGED } else { ui.visuals().text_color() };
-    let mut words = ui.new_child(UiBuilder::new().max_rect(name).layout(*ui.layout()));
+    // Of the window and the setting alone: rows above come and go while a slider is dragged.
+    let id = ui.layer_id().id.with(place);
+    let mut words = ui.new_child(UiBuilder::new().id(id.with("name")).max_rect(name).layout(*ui.layout()));
     let label = words.add(Label::new(RichText::new(setting.key).color(colour)).truncate().sense(Sense::hover()));
     label.widget_info(|| WidgetInfo::labeled(WidgetType::Label, true, setting.path()));
     if mark.unsaved {
@@ -47,7 +49,7 @@ pub fn row(ui: &mut Ui, rect: Rect, place: usize, seen: &Seen, overlay: &mut Ove
     let mut value = before.clone();
     let field = Rect::from_min_size(pos2(value_left, upper.top()), vec2(VALUE, upper.height()));
     let edited = ui
-        .scope_builder(UiBuilder::new().max_rect(field).id_salt(place), |ui| edit(ui, setting, &mut value))
+        .scope_builder(UiBuilder::new().max_rect(field).id(id), |ui| edit(ui, setting, &mut value))
         .inner
         .map(|edited| edited.labelled_by(label.id));
     if value != before {
@@ -70,7 +72,7 @@ pub fn row(ui: &mut Ui, rect: Rect, place: usize, seen: &Seen, overlay: &mut Ove
     let lower = Rect::from_min_max(pos2(name.left(), upper.bottom()), rect.max - vec2(4.0, 0.0));
     let painter = ui.painter().with_clip_rect(lower.intersect(ui.clip_rect()));
     painter.text(lower.left_top(), Align2::LEFT_TOP, &about, FontId::proportional(10.5), ui.visuals().weak_text_color());
-    ui.interact(lower, label.id.with("about"), Sense::hover()).on_hover_text(about);
+    ui.interact(lower, id.with("about"), Sense::hover()).on_hover_text(about);
 }
 
 /// The value, to change.
