@@ -51,16 +51,15 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    let open = |tab| Overlay { tab, open: ["render"].into(), ..Overlay::default() };
+    let opened = |tab, groups: &[&'static str], search: &str| {
+        let mut overlay = Overlay::default();
+        (overlay.tab, overlay.open, overlay.search) = (tab, groups.iter().copied().collect(), search.to_owned());
+        Some(overlay)
+    };
     let mut cases = vec![Case { name: "closed", overlay: None }];
-    for (tab, name) in Tab::ALL {
-        cases.push(Case { name, overlay: Some(open(tab)) });
-    }
-    cases.push(Case {
-        name: "Frame, all groups open",
-        overlay: Some(Overlay { open: section_names().into_iter().collect(), ..open(Tab::Frame) }),
-    });
-    cases.push(Case { name: "Frame, a search", overlay: Some(Overlay { search: "budget".into(), ..open(Tab::Frame) }) });
+    cases.extend(Tab::ALL.map(|(tab, name)| Case { name, overlay: opened(tab, &["render"], "") }));
+    cases.push(Case { name: "Frame, all groups open", overlay: opened(Tab::Frame, &section_names(), "") });
+    cases.push(Case { name: "Frame, a search", overlay: opened(Tab::Frame, &[], "budget") });
     cases
 }
 

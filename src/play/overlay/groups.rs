@@ -2,7 +2,7 @@
 //! in view are laid out.
 
 use bevy_egui::egui::{Align, Button, Color32, Label, Layout, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
-use bevy_egui::egui::{WidgetInfo, WidgetType};
+use bevy_egui::egui::{WidgetInfo, WidgetType, collapsing_header::paint_default_icon};
 
 use crate::play::overlay::rows::{CHANGED, ROW, UNSAVED, row};
 use crate::play::overlay::state::{Ask, Overlay, Seen};
@@ -115,7 +115,8 @@ fn heading(ui: &mut Ui, rect: Rect, section: &'static str, open: bool, seen: &Se
         ui.painter().rect_filled(rect, 2.0, Color32::from_white_alpha(10));
     }
     ui.scope_builder(UiBuilder::new().max_rect(rect).layout(Layout::left_to_right(Align::Center)), |ui| {
-        ui.label(if open { "▼" } else { "▶" });
+        let (_, icon) = ui.allocate_exact_size(vec2(14.0, 10.0), Sense::hover());
+        paint_default_icon(ui, f32::from(u8::from(open)), &icon);
         ui.strong(section);
         if changed > 0 {
             ui.colored_label(CHANGED, format!("{changed} changed"));

@@ -20,7 +20,7 @@ mod time;
 use std::time::Instant;
 
 use bevy::prelude::*;
-use bevy_egui::egui::{self, Rect};
+use bevy_egui::egui::{self, Rect, RichText};
 use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass};
 
 use crate::play::choices::Choices;
@@ -158,5 +158,5 @@ pub fn show(context: &egui::Context, [left, right]: [Rect; 2], seen: &Seen, over
 
 /// A window that fills its place.
 fn window(name: &'static str, place: Rect) -> egui::Window<'static> {
-    egui::Window::new(name).fixed_rect(place.shrink(1.0)).constrain_to(place)
+    egui::Window::new(RichText::new(name).size(13.0)).fixed_rect(place.shrink(1.0)).constrain_to(place)
 }

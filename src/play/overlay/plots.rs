@@ -1,7 +1,7 @@
 //! What the last frames took, as plots and numbers, and what the stages counted.
 
 use bevy_egui::egui::{Color32, Grid, RichText, ScrollArea, Ui};
-use egui_plot::{HLine, Line, Plot, PlotPoints};
+use egui_plot::{GridMark, HLine, Line, Plot, PlotPoints};
 
 use crate::play::overlay::frames::{Durations, WINDOW};
 use crate::play::overlay::rows::UNSAVED;
@@ -43,6 +43,7 @@ pub fn show(ui: &mut Ui, seen: &Seen) {
     }
     ScrollArea::vertical().auto_shrink([false, true]).show(ui, |ui| {
         // Two columns of passes.
+        ui.spacing_mut().interact_size.y = 12.0;
         let half = ranking.len().div_ceil(2);
         Grid::new("passes").num_columns(6).spacing([8.0, 0.0]).striped(true).show(ui, |ui| {
             for heading in ["pass", "mean", "worst", "pass", "mean", "worst"] {
@@ -83,6 +84,14 @@ fn line_of<'a>(name: &str, durations: &Durations, colour: Color32) -> Line<'a> {
     Line::new(name, PlotPoints::from_iter(durations.points())).color(colour).width(1.2).allow_hover(false)
 }
 
+/// Two to four marks at round numbers of milliseconds.
+fn marks((least, most): (f64, f64)) -> Vec<GridMark> {
+    let rough = ((most - least) / 3.0).max(1e-6);
+    let power = 10f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|factor| factor * power).find(|step| *step >= rough).unwrap_or(rough);
+    (0..5).map(|k| GridMark { value: f64::from(k) * step, step_size: step }).filter(|mark| mark.value <= most).collect()
+}
+
 /// A plot over the frames, from 0 ms on, that cannot be moved.
 fn plot<'a>(ui: &mut Ui, name: &'static str, height: f32, draw: impl FnOnce(&mut egui_plot::PlotUi<'a>) + 'a) {
     Plot::new(name)
@@ -101,5 +110,7 @@ fn plot<'a>(ui: &mut Ui, name: &'static str, height: f32, draw: impl FnOnce(&mut
         .include_x(1.0 - WINDOW as f64)
         .include_x(0.0)
         .y_axis_min_width(30.0)
+        .y_grid_spacer(|grid| marks(grid.bounds))
+        .grid_spacing(4.0..=12.0)
         .show(ui, draw);
 }
