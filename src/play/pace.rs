@@ -52,7 +52,9 @@ pub struct PacePlugin;
 
 impl Plugin for PacePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Slowing>().init_resource::<Freeze>().add_systems(Update, (slow_down, step_frozen).in_set(GameSet::Answer));
+        app.init_resource::<Slowing>()
+            .init_resource::<Freeze>()
+            .add_systems(Update, (slow_down, step_frozen.after(run_time)).in_set(GameSet::Answer));
     }
 }
 

@@ -56,8 +56,20 @@ fn nodes(app: &mut App) -> Vec<(NodeId, Node)> {
     output.platform_output.accesskit_update.as_ref().map(|update| update.nodes.clone()).unwrap_or_default()
 }
 
-fn find(app: &mut App, name: &str) -> Option<(NodeId, Node)> {
-    nodes(app).into_iter().find(|(_, node)| node.label() == Some(name) || (node.label().is_none() && node.value() == Some(name)))
+/// What a node is called: a word alone is its own name.
+fn name(node: &Node) -> Option<&str> {
+    node.label().or(node.value())
+}
+
+fn find(app: &mut App, wanted: &str) -> Option<(NodeId, Node)> {
+    nodes(app).into_iter().find(|(_, node)| name(node) == Some(wanted))
+}
+
+/// What is there to change a setting with.
+fn knob(app: &mut App, path: &str) -> (NodeId, Node) {
+    let all = nodes(app);
+    let label = all.iter().find(|(_, node)| name(node) == Some(path)).unwrap_or_else(|| panic!("no {path}")).0;
+    all.into_iter().find(|(_, node)| node.labelled_by().contains(&label)).unwrap_or_else(|| panic!("nothing is labelled by {path}"))
 }
 
 fn send(app: &mut App, events: &[Event]) {
@@ -69,11 +81,15 @@ fn send(app: &mut App, events: &[Event]) {
 }
 
 /// Clicks on what has this name, and lets it happen.
-fn click(app: &mut App, name: &str) {
-    let (_, node) = find(app, name).unwrap_or_else(|| {
-        let names: Vec<String> = nodes(app).iter().filter_map(|(_, node)| node.label().or(node.value()).map(String::from)).collect();
-        panic!("no {name:?} among {names:?}")
+fn click(app: &mut App, wanted: &str) {
+    let (_, node) = find(app, wanted).unwrap_or_else(|| {
+        let names: Vec<String> = nodes(app).iter().filter_map(|(_, node)| name(node).map(String::from)).collect();
+        panic!("no {wanted:?} among {names:?}")
     });
+    click_on(app, &node);
+}
+
+fn click_on(app: &mut App, node: &Node) {
     let place = node.bounds().unwrap();
     let middle: Pos2 = pos2((0.5 * (place.x0 + place.x1)) as f32, (0.5 * (place.y0 + place.y1)) as f32);
     let button = |pressed| Event::PointerButton { pos: middle, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
@@ -93,16 +109,7 @@ fn search(app: &mut App, words: &str) {
 
 /// Puts the slider of a setting to a value.
 fn slide(app: &mut App, path: &str, value: f64) {
-    let all = nodes(app);
-    let label = all.iter().find(|(_, node)| node.label() == Some(path)).unwrap_or_else(|| panic!("no {path}")).0;
-    let (target, _) = *all
-        .iter()
-        .map(|(id, node)| (id, node))
-        .filter(|(_, node)| node.labelled_by().contains(&label))
-        .map(|(id, node)| (*id, node))
-        .collect::<Vec<_>>()
-        .first()
-        .unwrap_or_else(|| panic!("nothing is labelled by {path}"));
+    let (target, _) = knob(app, path);
     let request = ActionRequest {
         action: Action::SetValue,
         target_tree: TreeId::ROOT,
@@ -218,16 +225,8 @@ fn a_moment_is_saved_and_drawn_again() {
     let (mut app, _) = opened(&folder, [960, 640]);
     click(&mut app, "Light");
     assert!(config(&app).render.doppler);
-    let all = nodes(&mut app);
-    let label = all.iter().find(|(_, node)| node.label() == Some("render.doppler")).unwrap().0;
-    let (_, checkbox) = all.iter().find(|(_, node)| node.labelled_by().contains(&label)).unwrap();
-    let place = checkbox.bounds().unwrap();
-    let middle = pos2((0.5 * (place.x0 + place.x1)) as f32, (0.5 * (place.y0 + place.y1)) as f32);
-    for pressed in [true, false] {
-        let button = Event::PointerButton { pos: middle, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
-        send(&mut app, &[Event::PointerMoved(middle), button]);
-    }
-    app.update();
+    let (_, checkbox) = knob(&mut app, "render.doppler");
+    click_on(&mut app, &checkbox);
     assert!(!config(&app).render.doppler);
 
     click(&mut app, "Time");

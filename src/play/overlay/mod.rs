@@ -27,7 +27,7 @@ use crate::play::choices::Choices;
 use crate::play::hud::Dials;
 use crate::play::menus::navigate::FileConfig;
 use crate::play::missions::Watched;
-use crate::play::pace::Freeze;
+use crate::play::pace::{Freeze, run_time};
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::{GameSet, PaintSet};
 use crate::play::session::Session;
@@ -68,7 +68,7 @@ impl Plugin for OverlayPlugin {
             .init_resource::<FileConfig>()
             .init_resource::<Choices>()
             .insert_non_send(clipboard::Clipboard::default())
-            .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer))
+            .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer).before(run_time))
             .add_systems(Update, (quality::tell_preset.run_if(resource_changed::<Session>), note).in_set(GameSet::Instruments))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay))
             .add_systems(PostUpdate, clipboard::hand_on.after(EguiPostUpdateSet::ProcessOutput))
@@ -158,5 +158,5 @@ pub fn show(context: &egui::Context, [left, right]: [Rect; 2], seen: &Seen, over
 
 /// A window that fills its place.
 fn window(name: &'static str, place: Rect) -> egui::Window<'static> {
-    egui::Window::new(RichText::new(name).size(13.0)).fixed_rect(place.shrink(1.0)).constrain_to(place)
+    egui::Window::new(RichText::new(name).size(13.0)).id(egui::Id::new(name)).fixed_rect(place.shrink(1.0)).constrain_to(place)
 }
