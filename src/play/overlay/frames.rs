@@ -9,27 +9,38 @@ pub const WINDOW: usize = 240;
 
 /// Durations in the last frames, in milliseconds; the newest is the last.
 #[derive(Clone, Debug, Default)]
-pub struct Durations(VecDeque<f64>);
+pub struct Durations {
+    last: VecDeque<f64>,
+    /// How many there have been.
+    count: usize,
+}
 
 impl Durations {
     /// Adds a frame.
     pub fn push(&mut self, milliseconds: f64) {
-        if self.0.len() == WINDOW {
-            self.0.pop_front();
+        if self.last.len() == WINDOW {
+            self.last.pop_front();
         }
-        self.0.push_back(milliseconds);
+        self.last.push_back(milliseconds);
+        self.count += 1;
     }
 
     /// Mean and worst; None before the first frame.
     pub fn mean_and_worst(&self) -> Option<(f64, f64)> {
-        let count = self.0.len();
-        (count > 0).then(|| (self.0.iter().sum::<f64>() / count as f64, self.0.iter().copied().fold(0.0, f64::max)))
+        let count = self.last.len();
+        (count > 0).then(|| (self.last.iter().sum::<f64>() / count as f64, self.last.iter().copied().fold(0.0, f64::max)))
     }
 
-    /// All of them, from frame −239 to frame 0, which is now.
+    /// All of them, from frame −239 to frame 0, which is now: of each two neighbours the longer, as many as a plot has room for.
     pub fn points(&self) -> impl Iterator<Item = [f64; 2]> {
-        let count = self.0.len() as f64;
-        self.0.iter().enumerate().map(move |(frame, milliseconds)| [frame as f64 + 1.0 - count, *milliseconds])
+        let newest = self.last.len() as f64 - 1.0;
+        // Pairs stay together as they grow older.
+        let odd = (self.count - self.last.len()) % 2;
+        let starts = (0..odd).chain((odd..self.last.len()).step_by(2));
+        starts.map(move |start| {
+            let end = if start < odd { odd } else { (start + 2).min(self.last.len()) };
+            [start as f64 - newest, self.last.range(start..end).copied().fold(0.0, f64::max)]
+        })
     }
 }
 
@@ -87,7 +98,9 @@ mod tests {
         assert_eq!(times.mean_and_worst().map(|(_, worst)| worst), Some(1000.0));
         times.push(20.0);
         assert_eq!(times.mean_and_worst().map(|(_, worst)| worst), Some(20.0));
-        assert_eq!((times.points().next(), times.points().last()), (Some([-239.0, 10.0]), Some([0.0, 20.0])));
+        let points: Vec<[f64; 2]> = times.points().collect();
+        assert_eq!((points[0], points[1], points.len()), ([-239.0, 10.0], [-238.0, 10.0], WINDOW / 2 + 1));
+        assert_eq!(points.last(), Some(&[0.0, 20.0]));
     }
 
     #[test]
