@@ -28,6 +28,7 @@ pub enum ChartCommand {
     Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
+    Overlay(ChartOverlayArgs),
 }
 
 /// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
@@ -111,6 +112,14 @@ pub struct ChartDialArgs {
     /// Compares predictions with measurements, at moments and rungs at random.
     #[arg(long)]
     check: bool,
+}
+
+/// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
+#[derive(Args)]
+pub struct ChartOverlayArgs {
+    /// Frames of each page.
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
+    frames: u32,
 }
 
 /// What a step of the simulation costs, by the number of ships: a table.
@@ -269,6 +278,10 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
         ChartCommand::Dial(args) => run_chart_dial(args),
+        ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, 1),
+        },
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),

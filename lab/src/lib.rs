@@ -5,7 +5,7 @@
 //!   of one of them; [`frame_times`] times whole frames.
 //! - [`dial`]: what each knob of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
-//! - [`steps`]: what a step of the simulation costs.
+//! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
 //! - [`products`]: every chart, table and picture of the documents, and whether it is up to date.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
@@ -22,6 +22,7 @@ pub mod disk;
 pub mod flight;
 pub mod flip;
 pub mod frame_times;
+pub mod overlay_cost;
 pub mod plot;
 pub mod products;
 pub mod projection;

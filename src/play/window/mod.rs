@@ -94,6 +94,7 @@ pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExi
 pub fn app(mut session: Session, options: &Options, surface: Surface, choices: Choices) -> App {
     let file_config = session.config.clone();
     choices.over(&mut session.config);
+    session.put_set();
     let (catalogue, choice) = catalogue(&session, options.at_once);
     // What a program films is nobody's first start.
     let warns = !session.config.interface.warned && options.frames.is_none();

@@ -98,6 +98,12 @@ macro_rules! config {
     };
 }
 
+/// The setting with this dotted path, such as `render.orders`.
+pub fn setting(path: &str) -> Option<&'static Setting<GameConfig>> {
+    let (section, key) = path.split_once('.')?;
+    settings().iter().find(|setting| setting.section == section && setting.key == key)
+}
+
 use Allowed::{Buttons, Choice, Switch, Words};
 
 /// The actions that may be switched with a tap instead of held.
