@@ -83,6 +83,9 @@ pub struct PlayArgs {
     /// Writes the sound of the flight to this file; without --record and --frames the sound alone.
     #[arg(long, value_name = "FILE.wav", requires = "headless")]
     pub sound: Option<PathBuf>,
+    /// Says in the terminal how much of the model is drawn, and why, whenever that changes.
+    #[arg(long)]
+    pub verbose: bool,
     /// Writes when each frame was ready, counted from the start; with --headless the game is played unseen, without files of pictures.
     #[arg(long, value_name = "FILE.csv", requires = "frames", conflicts_with_all = ["record", "sound"])]
     pub timings: Option<PathBuf>,
@@ -206,6 +209,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             replay,
             at_once: args.at_once,
             data: None,
+            verbose: args.verbose,
             timings: args.timings.clone().map(|file| (file, started)),
         };
         let exit = if without_window {

@@ -18,17 +18,17 @@ fn methods_have_their_orders() {
     let orbit = Case { span: ECCENTRIC_PERIOD, ..case("eccentric") };
     let truth = orbit.truth();
     let phase = |method, steps| Errors::of(&fly(method, &orbit, Effort::Steps(steps)), &truth).phase;
-    for (method, steps, order) in [
-        (Method::Rk4, 256, 4.0),
-        (Method::Split2, 256, 2.0),
-        (Method::Split4, 64, 4.0),
-        (Method::Dopri5, 64, 5.0),
-        (Method::Dop853, 16, 8.0),
+    // Before steps are short terms of higher orders count as well; of DOP853 they still do where it meets rounding.
+    for (method, steps, orders) in [
+        (Method::Rk4, 256, 3.65..4.8),
+        (Method::Split2, 256, 1.65..2.8),
+        (Method::Split4, 64, 3.65..4.8),
+        (Method::Dopri5, 64, 4.65..5.8),
+        (Method::Dop853, 4, 7.65..10.0),
     ] {
         let (coarse, fine) = (phase(method, steps), phase(method, 2 * steps));
         let found = (coarse / fine).log2();
-        // Before steps are short terms of higher orders count as well.
-        assert!((order - 0.35..order + 0.8).contains(&found), "{method:?}: {found:.2} from {coarse:e} to {fine:e}");
+        assert!(orders.contains(&found), "{method:?}: {found:.2} from {coarse:e} to {fine:e}");
     }
 }
 

@@ -54,6 +54,8 @@ pub struct Options {
     pub at_once: bool,
     /// Where the best flights are kept; None: in the user's data folder.
     pub data: Option<std::path::PathBuf>,
+    /// Says in the terminal how much is drawn, and why.
+    pub verbose: bool,
     /// Writes the time of each frame here, counted from then.
     pub timings: Option<(std::path::PathBuf, Instant)>,
 }
@@ -101,7 +103,8 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
     let mut app = App::new();
     let log = LogPlugin {
         // What libraries warn of means nothing to a player; RUST_LOG shows it. A device or a window that is lost is said by `lost`.
-        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=info".into(),
+        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=".to_owned()
+            + if options.verbose { "debug" } else { "info" },
         level: bevy::log::Level::WARN,
         ..default()
     };
