@@ -35,6 +35,7 @@ pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sh
         said(format!("{}/{}: {} at T = {}, rung {}", number + 1, request.moments, case.scene, case.at, place + 1));
         let shown = bench.show(&case)?;
         let finest = bench.take(&shown, &shown.finest)?;
+        bench.warm(&shown)?;
         let taken = bench.take(&shown, &turned(&shown.finest, &rung.steps))?;
         sheet.push([
             class.name().to_owned(),
@@ -45,7 +46,7 @@ pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sh
             format!("{:.5}", rung.error),
             format!("{:.5}", bench.error(&finest, &taken)),
             format!("{:.4}", rung.time),
-            format!("{:.4}", taken.milliseconds / finest.milliseconds),
+            format!("{:.4}", taken.milliseconds / bench.time(&shown, &shown.finest)?),
         ]);
     }
     Ok(sheet)

@@ -29,6 +29,8 @@ const TURNED: f64 = 0.5;
 const NEAREST: f64 = 1.2;
 /// Frames of which the quickest is the time of one.
 const TIMED: usize = 4;
+/// Timings before those that count.
+const WARM: usize = 3;
 /// Scenes drawn before a class is given up.
 const TRIES: usize = 200;
 
@@ -133,6 +135,14 @@ impl Bench {
     pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
         let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         let picture = self.renderer.picture(&frame(), false)?;
+        let milliseconds = self.time(shown, settings)?;
+        let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
+        Ok(Taken { light, milliseconds })
+    }
+
+    /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].
+    pub fn time(&mut self, shown: &Shown, settings: &Settings) -> Result<f64, DialError> {
+        let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
         let gpu = self.renderer.gpu().clone();
         let (_, view) = target(&gpu.device, "bench", self.size, wgpu::TextureFormat::Rgba8UnormSrgb);
         // A software driver works on the processor: its time is not disturbed by other programs.
@@ -145,8 +155,12 @@ impl Bench {
             draw(&gpu, &mut self.renderer, &frame(), &view)?;
             milliseconds = milliseconds.min(clock() - begin);
         }
-        let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
-        Ok(Taken { light, milliseconds })
+        Ok(milliseconds)
+    }
+
+    /// Draws it until memory and clocks have settled.
+    pub fn warm(&mut self, shown: &Shown) -> Result<(), DialError> {
+        (0..WARM).try_for_each(|_| self.time(shown, &shown.finest).map(|_| ()))
     }
 
     /// Mean FLIP of a picture from the finest.
