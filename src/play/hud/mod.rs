@@ -66,16 +66,18 @@ pub struct Dials(pub Vec<Rect>);
 /// What is flown: a mission and how far it has come, a replay.
 type Flown<'w> = (Option<Res<'w, ActiveMission>>, Option<Res<'w, Progress>>, Option<Res<'w, Playback>>);
 
+/// What is bound to each action, and the device in use.
+type Buttons<'w> = (Res<'w, Bindings>, Res<'w, Device>);
+
 /// Draws the HUD.
 fn draw(
     mut contexts: EguiContexts,
     (screen, session, player): (Res<State<Screen>>, Res<Session>, Res<PlayerState>),
     (chase, rules, avoiding): (Option<Res<Chase>>, Res<ChaseRules>, Res<Avoiding>),
-    panel: Res<Panel>,
+    (panel, (bindings, device)): (Res<Panel>, Buttons),
     (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
     (mission, progress, playback): Flown,
     (slowing, mut slow, mut painted): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>),
-    (bindings, device): (Res<Bindings>, Res<Device>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
