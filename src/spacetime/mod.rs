@@ -6,6 +6,6 @@ pub mod matter;
 pub mod metric;
 pub mod observer;
 pub mod orbit;
-pub mod tableau;
+mod tableau;
 
 pub use observer::Observer;

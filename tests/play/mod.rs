@@ -2,7 +2,6 @@
 
 mod heard;
 mod interface;
-mod overlay;
 mod samples;
 mod sound;
 mod trailer;

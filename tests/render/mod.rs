@@ -14,4 +14,3 @@ mod post_process;
 mod stars;
 mod support;
 mod trouble;
-mod upscale;

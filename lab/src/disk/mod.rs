@@ -3,7 +3,6 @@
 pub mod bench;
 pub mod chart;
 mod chase;
-mod draw;
 pub mod error;
 pub mod exact;
 pub mod flight;

@@ -155,7 +155,7 @@ impl DeferredCopy {
 }
 
 /// A picture on the processor.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Picture {
     /// Width and height in pixels.
     pub size: [u32; 2],
