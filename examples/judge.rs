@@ -5,6 +5,7 @@ use std::path::Path;
 use lensrunner::judge::case::{DEFAULT_TOLERANCE, TraceError, TraceRequest};
 use lensrunner::judge::picture::DEFAULT_PACKET;
 use lensrunner::judge::to_file::{Output, trace_to_file};
+use lensrunner::scene::config;
 
 fn main() -> Result<(), TraceError> {
     let request = TraceRequest {
@@ -18,7 +19,7 @@ fn main() -> Result<(), TraceError> {
         limit: None,
     };
     let output = Output { file: Path::new("judge.png"), layers: false, text: None, progress: None };
-    let rate = trace_to_file(&request, None, &output)?;
+    let rate = trace_to_file(&request, &config::find(None)?, &output)?;
     println!("judge.png: {rate:.0} rays per second and thread");
     Ok(())
 }

@@ -9,7 +9,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use lensrunner::judge::{case, to_file};
 use lensrunner::lensing::project::{self, ProjectError};
 use lensrunner::lensing::{self, Scheme, methods};
-use lensrunner::picture_file::chunk::read_text;
+use lensrunner::picture_file::moment::{moment_of, read_moment};
+use lensrunner::scene::config::Assignment;
 use lensrunner::scene::crew::Crew;
 use lensrunner::scene::{self, Difficulty};
 use lensrunner::sim::replay::{Replay, ReplayError, record};
@@ -61,12 +62,12 @@ enum Command {
 #[cfg(feature = "game")]
 #[derive(Args)]
 struct ShotArgs {
-    /// The scene: a TOML file, or the name of one in assets/scenes.
+    /// The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved.
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
-    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved."))]
     scene: Option<String>,
     /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
-    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config"])]
+    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config", "set"])]
     from: Option<PathBuf>,
     /// Width and height in pixels [default: 1280x720, with --from that of the picture].
     #[arg(long, value_name = "WxH", value_parser = lensrunner::render::shot::size)]
@@ -80,6 +81,9 @@ struct ShotArgs {
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
+    /// Sets a value over the configuration, as render.orders=3; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<Assignment>,
     /// The picture: .png or .exr.
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
@@ -92,12 +96,12 @@ struct ShotArgs {
 /// (g = ν_observed/ν_emitted).
 #[derive(Args)]
 struct TraceArgs {
-    /// The scene: a TOML file, or the name of one in assets/scenes.
+    /// The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved.
     #[arg(long, value_name = "NAME|FILE", required_unless_present = "from")]
-    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes."))]
+    #[arg(long_help = scene::help("The scene: a TOML file, or the name of one in assets/scenes; or a moment that the dev overlay has saved."))]
     scene: Option<String>,
     /// Instead of a scene, the moment that a PNG of the game carries: its flight, T, camera and settings.
-    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config"])]
+    #[arg(long, value_name = "PICTURE.png", conflicts_with_all = ["scene", "at", "config", "set"])]
     from: Option<PathBuf>,
     /// Width and height in pixels [default: 1280x720, with --from that of the picture].
     #[arg(long, value_name = "WxH", value_parser = scene::picture_size)]
@@ -129,6 +133,9 @@ struct TraceArgs {
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
+    /// Sets a value over the configuration, as render.orders=3; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<Assignment>,
     /// The picture: .png or .exr.
     #[arg(short, value_name = "FILE")]
     output: PathBuf,
@@ -303,7 +310,10 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
     }
     use lensrunner::render::shot::{ShotRequest, shot_again_to_file, shot_to_file};
     let is_light = args.output.extension().is_some_and(|extension| extension == "exr");
-    if let Some(from) = &args.from {
+    if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
+        if let Err(error) = alone(args.at, args.config.as_ref(), &args.set) {
+            return fail(&error, 2);
+        }
         let restored = match restored(from, args.size) {
             Ok(restored) => restored,
             Err(error) => return fail(&error, 2),
@@ -315,7 +325,11 @@ fn run_shot(args: &ShotArgs) -> ExitCode {
     }
     let scene = args.scene.as_deref().unwrap_or_default();
     let request = ShotRequest { scene, size: args.size.unwrap_or(SIZE), at: args.at, layers: args.layers, fill: !is_light };
-    match shot_to_file(&request, args.config.as_deref(), &args.output) {
+    let config = match scene::config::find_with(args.config.as_deref(), &args.set) {
+        Ok(config) => config,
+        Err(error) => return fail(&error, 2),
+    };
+    match shot_to_file(&request, &config, &args.output) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => fail_shot(&error),
     }
@@ -326,10 +340,18 @@ fn fail_shot(error: &lensrunner::render::shot::ShotError) -> ExitCode {
     fail(error, if error.is_input() { 2 } else { 1 })
 }
 
-/// The moment that a picture carries, flown again, to be drawn in `size` pixels or those of the picture.
+/// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
 fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
-    let snapshot = Snapshot::from_text(from, &read_text(from)?)?;
+    let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
     Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
+}
+
+/// A moment has a T and settings of its own.
+fn alone(at: f64, config: Option<&PathBuf>, set: &[Assignment]) -> Result<(), String> {
+    if at == 0.0 && config.is_none() && set.is_empty() {
+        return Ok(());
+    }
+    Err("a moment has its own T and settings: --at, --config and --set do not go with it".into())
 }
 
 /// Says how far the work is; ends the program when nobody listens any more.
@@ -353,10 +375,13 @@ fn run_trace(args: &TraceArgs) -> ExitCode {
     };
     let progress = args.progress.then_some(&tell_progress as &(dyn Fn(f64) + Sync));
     let output = to_file::Output { file: &args.output, layers: args.layers, text: None, progress };
-    let traced = match &args.from {
-        None => to_file::trace_to_file(&request, args.config.as_deref(), &output),
+    let traced = match &moment_of(args.scene.as_deref(), args.from.as_deref()) {
+        None => scene::config::find_with(args.config.as_deref(), &args.set)
+            .map_err(case::TraceError::from)
+            .and_then(|config| to_file::trace_to_file(&request, &config, &output)),
         // A wrong argument is said before the flight is flown.
         Some(from) => to_file::check(&request, &output).and_then(|_| {
+            alone(args.at, args.config.as_ref(), &args.set).map_err(case::TraceError::Input)?;
             let restored = restored(from, args.size).map_err(|error| case::TraceError::Input(error.to_string()))?;
             let (text, request) = (restored.snapshot.to_text(), case::TraceRequest { at: restored.snapshot.time, ..request });
             let case = case::Case::restored(&restored, restored.snapshot.size);

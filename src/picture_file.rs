@@ -1,6 +1,7 @@
 //! Pictures in files: PNG for the eye, EXR for linear light and layers.
 
 pub mod chunk;
+pub mod moment;
 
 use std::path::{Path, PathBuf};
 

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Subcommand};
+use lensrunner::render::quality::prices::Prices;
 use lensrunner::scene;
+use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, frame_times, projection, thin_disk};
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk};
 
 use crate::fail;
 
@@ -20,9 +22,45 @@ pub enum ChartCommand {
     Aurora(ChartAuroraArgs),
     Bvh(ChartBvhArgs),
     Frame(ChartFrameArgs),
+    Dial(ChartDialArgs),
     Disk(ChartDiskArgs),
+    Flight(ChartFlightArgs),
+    Tessellation(ChartTessellationArgs),
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
+    Overlay(ChartOverlayArgs),
+}
+
+/// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
+#[derive(Args)]
+pub struct ChartFlightArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// How often each flight is timed; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
+    /// The most evaluations of the equations of motion in a flight; what takes more is left out.
+    #[arg(long, value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1_000..))]
+    evaluations: u64,
+}
+
+/// Ways to divide triangles: displacement of surface points on the picture against vertices and time.
+#[derive(Args)]
+pub struct ChartTessellationArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Scenes: TOML files, or names in assets/scenes.
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,parade,galaxy")]
+    scene: Vec<String>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Bounds in pixels; 0.5, the game's own, is what the others are told against.
+    #[arg(long, value_name = "PX,…", value_delimiter = ',', default_value = "0.125,0.25,0.5,1,2,4,8")]
+    bounds: Vec<f64>,
+    /// Rounds of timing in which all ways take turns; the median counts.
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u8).range(1..))]
+    rounds: u8,
 }
 
 /// Where a chart goes.
@@ -54,6 +92,34 @@ pub struct ChartQuarryArgs {
     /// T at which a chase ends undecided, in r_s/c.
     #[arg(long, value_name = "T", default_value_t = 270.0)]
     limit: f64,
+}
+
+/// What each knob of the picture's quality costs and saves: the price list that the game reads (quality.csv); with --check whether the
+/// predictions from the game's own list hold, and the chart.
+#[derive(Args)]
+pub struct ChartDialArgs {
+    #[command(flatten)]
+    chart: ChartArgs,
+    /// Moments of each class of scenes; with --check moments in all.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    moments: u32,
+    /// Seed of the moments; with --check another each time unless it is given.
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    /// Width and height in pixels.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    /// Compares predictions with measurements, at moments and rungs at random.
+    #[arg(long)]
+    check: bool,
+}
+
+/// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
+#[derive(Args)]
+pub struct ChartOverlayArgs {
+    /// Frames of each page.
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
+    frames: u32,
 }
 
 /// What a step of the simulation costs, by the number of ships: a table.
@@ -132,11 +198,14 @@ pub struct ChartBvhArgs {
     check: bool,
 }
 
-/// Times whole frames of scenes, and each pass of them.
+/// Times whole frames of scenes and of the chase from start to end, and every part of them.
 #[derive(Args)]
 pub struct ChartFrameArgs {
+    /// The folder for the CSVs.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
     /// Scenes: TOML files, or names in assets/scenes.
-    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,chase")]
+    #[arg(long, value_name = "NAME|FILE", value_delimiter = ',', default_value = "ring,galaxy,parade,disk,chase,aurora-orbit")]
     #[arg(long_help = scene::help("TOML files, or names in assets/scenes."))]
     scene: Vec<String>,
     /// Width and height in pixels.
@@ -151,6 +220,9 @@ pub struct ChartFrameArgs {
     /// The time T, in r_s/c, rounded to a step of the simulation (clock.step in game.toml: 0.03125, 1/32, unless changed).
     #[arg(long, value_name = "T", default_value_t = 0.0, allow_negative_numbers = true)]
     at: f64,
+    /// Frames of the scene `chase`, flown by its pilots from start to end. 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100_000))]
+    flight: u32,
     /// The game's configuration [default: game.toml here, else the one that the game comes with].
     #[arg(long, value_name = "game.toml")]
     config: Option<PathBuf>,
@@ -192,11 +264,53 @@ pub fn run(chart: ChartCommand) -> ExitCode {
         ChartCommand::Bvh(args) => run_chart_bvh(args),
         ChartCommand::Frame(args) => run_chart_frame(args),
         ChartCommand::Disk(args) => run_chart_disk(args),
+        ChartCommand::Flight(args) => finish_chart(flight::run(&flight::FlightRequest {
+            output: args.chart.into(),
+            rounds: args.rounds.into(),
+            evaluations: args.evaluations,
+        })),
+        ChartCommand::Tessellation(args) => finish_chart(tessellation::run(&tessellation::TessellationRequest {
+            output: args.chart.into(),
+            scenes: args.scene,
+            size: args.size,
+            bounds: args.bounds,
+            rounds: args.rounds.into(),
+        })),
         ChartCommand::Quarry(args) => run_chart_quarry(&args),
+        ChartCommand::Dial(args) => run_chart_dial(args),
+        ChartCommand::Overlay(args) => match lensrunner_lab::overlay_cost::run(args.frames as usize, &mut io::stdout().lock()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => fail(&error, 1),
+        },
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),
         },
+    }
+}
+
+fn run_chart_dial(args: ChartDialArgs) -> ExitCode {
+    let fresh = || std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |since| since.subsec_nanos().into());
+    let seed = args.seed.unwrap_or_else(|| if args.check { fresh() } else { 1 });
+    let request = DialRequest { moments: args.moments as usize, seed, size: args.size };
+    let output = chart::Output::from(args.chart);
+    let said = |words: String| eprintln!("{words}");
+    let done = if args.check {
+        output.sheet("dial-check", || dial::check::measure(&request, said)).and_then(|sheet| {
+            println!("{}", dial::check::verdict(&sheet));
+            dial::draw::draw(Prices::shipped(), &sheet, &output).map(|files| chart::announce(&files))
+        })
+    } else {
+        output.sheet("dial", || dial::prices::measure(&request, said)).and_then(|sheet| {
+            let file = output.csv("quality");
+            std::fs::write(&file, dial::prices::table(&sheet)?).map_err(|error| chart::SheetError::Io(file.clone(), error))?;
+            chart::announce(&[file]);
+            Ok(())
+        })
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
     }
 }
 
@@ -216,7 +330,7 @@ fn run_chart_quarry(args: &ChartQuarryArgs) -> ExitCode {
 
 fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
     use lensrunner::render::Gpu;
-    use lensrunner_lab::disk::{chart::run, request::DiskRequest};
+    use lensrunner_lab::disk::{chart, request::DiskRequest};
     let config = match scene::config::find(args.config.as_deref()) {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
@@ -229,8 +343,11 @@ fn run_chart_disk(args: ChartDiskArgs) -> ExitCode {
         steps: usize::from(args.steps),
         flight: args.flight as usize,
     };
+    if request.output.redraw {
+        return finish_chart(chart::redraw(&request));
+    }
     match Gpu::headless() {
-        Ok(gpu) => finish_chart(run(&request, &config, gpu)),
+        Ok(gpu) => finish_chart(chart::run(&request, &config, gpu)),
         Err(error) => fail(&error, 1),
     }
 }
@@ -240,10 +357,20 @@ fn run_chart_frame(args: ChartFrameArgs) -> ExitCode {
         Ok(config) => config,
         Err(error) => return fail(&error, 2),
     };
-    let request =
-        frame_times::FrameTimesRequest { scenes: args.scene, size: args.size, frames: args.frames, at: args.at, rationed: args.rationed };
+    let request = frame_times::FrameTimesRequest {
+        output: chart::Output { folder: args.output, redraw: false },
+        scenes: args.scene,
+        size: args.size,
+        frames: args.frames,
+        at: args.at,
+        rationed: args.rationed,
+        flight: args.flight,
+    };
     match frame_times::run(&request, &config, &mut io::stdout().lock()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(paths) => {
+            chart::announce(&paths);
+            ExitCode::SUCCESS
+        }
         Err(error) => fail_shot(&error),
     }
 }

@@ -14,16 +14,28 @@ use lensrunner::scene::Model;
 
 /// The game's renderer, kept from case to case: its device and its passes are made once.
 #[derive(Default)]
-pub struct Contestant(Mutex<Option<Renderer>>);
+pub struct Contestant {
+    renderer: Mutex<Option<Renderer>>,
+    /// Divides edges by their midpoints alone (`Settings::midpoint`).
+    midpoint: bool,
+}
 
 impl Contestant {
+    /// The same renderer with the criterion of Yamashita 2025, or with its own.
+    pub fn set_midpoint(&mut self, midpoint: bool) {
+        self.midpoint = midpoint;
+    }
+
     /// Draws the case as the game does: with its sky, without, and twice with layers, of models marked finely and coarsely. Auroras have a
     /// judge of their own and are left out.
     pub fn draw(&self, case: &Case) -> Result<Frame, String> {
         self.with_renderer(case, |renderer| {
             let stage = staged(renderer, case, None);
-            let [sky, bare] = [drawn(renderer, case, &stage, false, true)?, drawn(renderer, case, &stage, false, false)?];
-            let [first, second] = MARKS.map(|mark| marked(renderer, case, mark));
+            let [sky, bare] = [
+                drawn(renderer, case, &stage, false, self.with(case, true))?,
+                drawn(renderer, case, &stage, false, self.with(case, false))?,
+            ];
+            let [first, second] = MARKS.map(|mark| marked(renderer, case, mark, self.with(case, false)));
             let (first, second) = (first?, second?);
             let rgb = |light: &[[f32; 4]]| light.iter().map(|p| [p[0], p[1], p[2]]).collect();
             let shown = (0..first.layers.len()).map(|i| shown(&first, &second, i));
@@ -34,18 +46,24 @@ impl Contestant {
     /// What its pixels show, and nothing of its light: a quarter of the work.
     pub fn show(&self, case: &Case) -> Result<Vec<Shown>, String> {
         self.with_renderer(case, |renderer| {
-            let layers = marked(renderer, case, MARKS[0])?;
+            let layers = marked(renderer, case, MARKS[0], self.with(case, false))?;
             Ok((0..layers.layers.len()).map(|i| shown(&layers, &layers, i)).collect())
         })
     }
 
+    /// The settings of a case, with its sky or without.
+    fn with(&self, case: &Case, sky: bool) -> Settings {
+        let settings = Settings { midpoint: self.midpoint, ..settings(&case.config) };
+        if sky { settings } else { Settings { stars: false, milky_way: false, ..settings } }
+    }
+
     fn with_renderer<T>(&self, case: &Case, draw: impl FnOnce(&mut Renderer) -> Result<T, DrawError>) -> Result<T, String> {
         // After a panic, or an error of the device, the next case gets a renderer of its own.
-        let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let kept = self.renderer.lock().unwrap_or_else(PoisonError::into_inner).take();
         let mut renderer = kept.map_or_else(|| renderer(case.camera.size), Ok).map_err(|error| error.to_string())?;
         let drawn = draw(&mut renderer);
         if matches!(drawn, Ok(_) | Err(DrawError::Outside(_))) {
-            *self.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
+            *self.renderer.lock().unwrap_or_else(PoisonError::into_inner) = Some(renderer);
         }
         drawn.map_err(|error| error.to_string())
     }
@@ -66,9 +84,9 @@ fn renderer(size: [u32; 2]) -> Result<Renderer, DeviceError> {
 }
 
 /// The picture with layers, without the sky, of models marked so.
-fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model) -> Result<Picture, DrawError> {
+fn marked(renderer: &mut Renderer, case: &Case, mark: fn(&Model) -> Model, settings: Settings) -> Result<Picture, DrawError> {
     let stage = staged(renderer, case, Some(mark));
-    drawn(renderer, case, &stage, true, false)
+    drawn(renderer, case, &stage, true, settings)
 }
 
 fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model>) -> Stage {
@@ -78,9 +96,7 @@ fn staged(renderer: &mut Renderer, case: &Case, mark: Option<fn(&Model) -> Model
     Stage::of(renderer, &case.scene, case.assembly.clone(), &config, mark)
 }
 
-fn drawn(renderer: &mut Renderer, case: &Case, stage: &Stage, layers: bool, sky: bool) -> Result<Picture, DrawError> {
-    let with = settings(&case.config);
-    let settings = if sky { with } else { Settings { stars: false, milky_way: false, ..with } };
+fn drawn(renderer: &mut Renderer, case: &Case, stage: &Stage, layers: bool, settings: Settings) -> Result<Picture, DrawError> {
     let histories: Vec<_> = case.histories.iter().collect();
     let frame = stage.frame(case.camera.observer, case.camera.size, case.time, &histories, case.hidden, &settings);
     let picture = renderer.picture(&frame, layers)?;

@@ -1,11 +1,13 @@
 //! The laboratory: it stands above the game and may see all of it; nothing in the game knows the laboratory.
 //!
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
-//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
+//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
 //!   of one of them; [`frame_times`] times whole frames.
+//! - [`dial`]: what each knob of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
-//! - [`steps`]: what a step of the simulation costs.
+//! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
 //! - [`straight`]: straight rays through trees of boxes (Sei 2008), which `bvh` measures.
+//! - [`products`]: every chart, table and picture of the documents, and whether it is up to date.
 //! - [`chart`], [`plot`]: CSV files with their provenance, and how they are drawn.
 //! - [`flip`]: the difference of two pictures as an eye sees it.
 
@@ -15,14 +17,19 @@ pub mod bvh;
 pub mod chart;
 pub mod compare;
 pub mod contestant;
+pub mod dial;
 pub mod disk;
+pub mod flight;
 pub mod flip;
 pub mod frame_times;
+pub mod overlay_cost;
 pub mod plot;
+pub mod products;
 pub mod projection;
 pub mod quarry;
 mod say;
 pub mod steps;
 mod stopwatch;
 pub mod straight;
+pub mod tessellation;
 pub mod thin_disk;

@@ -1,5 +1,6 @@
 //! The laboratory's command line.
 
+mod all;
 mod charts;
 mod verdict;
 
@@ -20,12 +21,16 @@ enum Command {
     Compare(Box<verdict::CompareArgs>),
     #[command(subcommand)]
     Chart(charts::ChartCommand),
+    All(all::AllArgs),
+    Status(all::StatusArgs),
 }
 
 fn main() -> ExitCode {
     match Cli::parse().command {
         Command::Compare(args) => verdict::run(&args),
         Command::Chart(chart) => charts::run(chart),
+        Command::All(args) => all::all(args),
+        Command::Status(args) => all::status(&args),
     }
 }
 

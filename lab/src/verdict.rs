@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::Args;
 use lensrunner::judge::case::{self, Case};
 use lensrunner::judge::picture::DEFAULT_PACKET;
-use lensrunner::picture_file::chunk::read_text;
+use lensrunner::picture_file::moment::{moment_of, read_moment};
 use lensrunner::scene;
 use lensrunner::sim::restored::Restored;
 use lensrunner::sim::snapshot::Snapshot;
@@ -23,9 +23,10 @@ use crate::fail;
 /// images are narrower than a pixel: their area to the judge and as shown.
 #[derive(Args)]
 pub struct CompareArgs {
-    /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times.
+    /// The scene: a TOML file, the name of one in assets/scenes, or `all`: each of those, at T = 0 and some later times. Or the file of a
+    /// moment that the dev overlay has saved.
     #[arg(long, value_name = "NAME|FILE|all")]
-    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times."))]
+    #[arg(long_help = scene::help("The scene: a TOML file, the name of one in assets/scenes, or `all`: each, at T = 0 and some later times. Or a moment."))]
     #[arg(required_unless_present_any = ["random", "case", "flight", "from"], conflicts_with_all = ["random", "case", "flight", "from"])]
     scene: Option<String>,
     /// Judges the moment that a PNG of the game carries: its flight, T, camera and settings.
@@ -122,7 +123,10 @@ pub fn run(args: &CompareArgs) -> ExitCode {
         let (seeds, first, moments, at) = (args.seeds, args.first, args.moments, args.at);
         let request = flight::command::FlightRequest { scene, seeds, first, moments, at, size, terms, config, output, reduce, collected };
         flight::command::run(&request, &draw, &|case: &Case| contestant.show(case)).map(failed)
-    } else if let Some(from) = &args.from {
+    } else if let Some(from) = &moment_of(args.scene.as_deref(), args.from.as_deref()) {
+        if args.at.is_some() || args.config.is_some() || args.table.is_some() {
+            return fail(&"a moment has its own T and settings: --at, --config and --table do not go with it", 2);
+        }
         let (output, restored) = (
             args.output.clone().unwrap_or_default(),
             match restored(from, args.size) {
@@ -158,8 +162,8 @@ fn trace_request(args: &CompareArgs, scene: String, size: [u32; 2], at: f64) -> 
     case::TraceRequest { scene, size, at, samples: args.samples, threads: 0, tolerance, packet: DEFAULT_PACKET, limit: args.limit }
 }
 
-/// The moment that a picture carries, flown again, to be drawn in `size` pixels or those of the picture.
+/// The moment in a file, flown again, to be drawn in `size` pixels or those of the picture.
 fn restored(from: &Path, size: Option<[u32; 2]>) -> Result<Restored, Box<dyn std::error::Error>> {
-    let snapshot = Snapshot::from_text(from, &read_text(from)?)?;
+    let snapshot = Snapshot::from_text(from, &read_moment(from)?)?;
     Ok(Restored::of(from, &snapshot.resized(size.unwrap_or(snapshot.size)))?)
 }

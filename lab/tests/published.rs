@@ -184,3 +184,98 @@ fn the_tables_of_straight_rays_are_those_of_their_csv() {
     }
     stands("docs/lab/bvh.md", &lines);
 }
+
+/// Fails with the sentences that a document does not say, however its lines are broken.
+fn say(sentences: &[(&str, String)]) {
+    let plain = |text: String| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let missing = sentences.iter().filter(|(document, sentence)| !plain(read(document)).contains(&plain(sentence.clone())));
+    let missing: Vec<_> = missing.map(|(document, sentence)| format!("{document}: {sentence}")).collect();
+    assert!(missing.is_empty(), "these should be said:\n{}\n", missing.join("\n"));
+}
+
+#[test]
+fn the_limits_of_the_integrators_are_those_of_their_csv() {
+    const FLIGHTS: [&str; 5] = ["circle", "eccentric", "zoom-whirl", "fall", "powered"];
+    let limits = rows("docs/flight-limits.csv");
+    let mut lines = String::new();
+    for method in ["RK4", "splitting; order 2", "splitting; order 4", "DOPRI5", "DOP853", "the game"] {
+        let cell = |flight: &str| {
+            let row = limits.iter().find(|row| row["flight"] == flight && row["method"] == method).expect("a row");
+            let text = |column: &str| match row[column].as_str() {
+                "none" => "–".to_owned(),
+                tolerance if tolerance.contains('e') => tolerance.replacen("1e-", "10^−", 1),
+                step => short(step.parse().expect("a step"), 2),
+            };
+            format!("{} / {}", text("holds_effort"), text("fails_effort"))
+        };
+        writeln!(lines, "| {} | {} |", method.replace(';', ","), FLIGHTS.map(cell).join(" | ")).unwrap();
+    }
+    stands("docs/lab/flight.md", &lines);
+}
+
+#[test]
+fn the_sentences_about_the_integrators_are_those_of_their_csv() {
+    let rows = rows("docs/flight.csv");
+    let of = |flight: &str, method: &str, column: &str| {
+        let good = rows.iter().filter(|row| row["flight"] == flight && row["method"] == method && number(row, "phase") <= 1e-6);
+        good.map(|row| number(row, column)).fold(f64::NAN, f64::min)
+    };
+    let range = |method: &str, column: &str| {
+        let all = ["circle", "eccentric", "zoom-whirl", "fall", "powered"].map(|flight| of(flight, method, column));
+        let ends = all.iter().filter(|v| v.is_finite()).fold([f64::INFINITY, 0.0], |[a, b]: [f64; 2], v| [a.min(*v), b.max(*v)]);
+        ends.map(|end| short(end, 1))
+    };
+    let own = rows.iter().filter(|row| row["own"] == "1").map(|row| number(row, "phase")).fold(0.0, f64::max);
+    let [least, most] = range("DOP853", "time_over_game");
+    let [rk4, rk4s] = range("RK4", "time_over_game");
+    say(&[
+        ("docs/lab/flight.md", format!("off by at most {own:.0e} rad")),
+        ("docs/lab/flight.md", format!("DOP853 with error control takes {least} to {most} of its time")),
+        ("docs/lab/flight.md", format!("RK4 {rk4} to {rk4s} times")),
+    ]);
+}
+
+#[test]
+fn the_table_of_the_tessellation_is_that_of_its_csv() {
+    let rows = rows("docs/tessellation.csv");
+    let mut lines = String::new();
+    for row in rows.iter().filter(|row| ["0.5", "NaN"].contains(&row["bound_px"].as_str())) {
+        let px = |column: &str| if row[column] == "NaN" { "–".to_owned() } else { short(number(row, column), 2) };
+        writeln!(
+            lines,
+            "| `{}` | {} | {} | {} | {} | {} | {} |",
+            row["scene"],
+            row["way"],
+            row["vertices"],
+            short(number(row, "time_over_ours"), 2),
+            px("p99_px"),
+            px("max_px"),
+            px("differ_percent")
+        )
+        .unwrap();
+    }
+    stands("docs/lab/tessellation.md", &lines);
+}
+
+#[test]
+fn the_table_of_steps_is_as_it_was_printed() {
+    stands("docs/missions.md", &read("docs/tables/steps.md"));
+}
+
+/// The mean times of quarries, in the order of the table: the game's pilot, straight away, random, and what the first is of the better.
+#[test]
+fn the_table_of_quarries_is_as_it_was_printed() {
+    let mut lines = String::new();
+    for scene in ["02-first-pursuit", "03-through-the-disk", "04-the-ghost"] {
+        let text = read(&format!("docs/tables/quarry-{scene}.md"));
+        let cells: Vec<Vec<&str>> = text.lines().skip(2).map(|line| line.trim_matches('|').split('|').map(str::trim).collect()).collect();
+        for (place, of_it) in cells.chunks(3).enumerate() {
+            let times: Vec<f64> = of_it.iter().map(|row| row[2].split(' ').next().unwrap().parse().unwrap()).collect();
+            let name = if place == 0 { format!("| `{scene}`") } else { "|".into() };
+            let [pilot, straight, random] = [times[0], times[1], times[2]];
+            writeln!(lines, "{name} | {} | {pilot:.1} | {straight:.1} | {random:.1} | {:.2} |", of_it[0][0], pilot / straight.max(random))
+                .unwrap();
+        }
+    }
+    stands("docs/missions.md", &lines);
+}

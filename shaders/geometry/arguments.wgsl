@@ -14,8 +14,8 @@ struct Arguments {
     opaque_rest: vec4<u32>,
     thin: vec4<u32>,
     mesh_vertices: vec4<u32>,
+    thin_lists: vec4<u32>,
 }
-
 
 /// Before each pass of splitting: switches to the queue that was filled, and empties the other.
 @compute @workgroup_size(1)
@@ -43,5 +43,8 @@ fn finish() {
 @compute @workgroup_size(1)
 fn finish_thin() {
     arguments.opaque_rest = vec4<u32>(0u, 0u, 0u, 0u);
-    arguments.thin = vec4<u32>(min(atomicLoad(&counters.thin), frame.capacity.w), 1u, 0u, 0u);
+    let thin = min(atomicLoad(&counters.thin), frame.capacity.w);
+    arguments.thin = vec4<u32>(thin, 1u, 0u, 0u);
+    let groups = (thin / 3u + 63u) / 64u;
+    arguments.thin_lists = vec4<u32>(min(groups, 32768u), (groups + 32767u) / 32768u, 1u, 0u);
 }

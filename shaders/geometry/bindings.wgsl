@@ -1,11 +1,12 @@
 #define_import_path lensrunner::geometry::bindings
 
+#import lensrunner::gpu::bindings::TABLE_ROW
 #import lensrunner::gpu::types::{Chunk, ModelTriangle, ModelVertex, Piece, SeenVertex, ThinVertex, WorkItem}
 
-@group(1) @binding(1) var<storage, read> model_vertices: array<ModelVertex>;
-/// The two vertices of an edge, and those opposite to it in its two triangles, or `ALONE`.
-@group(1) @binding(2) var<storage, read> model_edges: array<vec4<u32>>;
-@group(1) @binding(3) var<storage, read> model_triangles: array<ModelTriangle>;
+// Models are in tables, three texels for a vertex, one for an edge, two for a triangle, bits of f32 or u32.
+@group(1) @binding(1) var vertex_table: texture_2d<u32>;
+@group(1) @binding(2) var edge_table: texture_2d<u32>;
+@group(1) @binding(3) var triangle_table: texture_2d<u32>;
 /// Chunks of 64 threads of one instance, filled up to the size of the dispatch with NO_INSTANCE.
 @group(1) @binding(4) var<storage, read> chunks: array<Chunk>;
 @group(1) @binding(5) var<storage, read_write> seen: array<SeenVertex>;
@@ -19,6 +20,32 @@
 @group(1) @binding(10) var<storage, read_write> indices: array<u32>;
 @group(1) @binding(11) var<storage, read_write> thin: array<ThinVertex>;
 @group(1) @binding(12) var<storage, read_write> counters: Counters;
+
+/// Where a texel of a table is.
+fn table_place(texel: u32) -> vec2<u32> {
+    return vec2<u32>(texel % TABLE_ROW, texel / TABLE_ROW);
+}
+
+fn model_vertex(number: u32) -> ModelVertex {
+    let normal = textureLoad(vertex_table, table_place(3u * number + 1u), 0);
+    let position = textureLoad(vertex_table, table_place(3u * number), 0);
+    return ModelVertex(bitcast<vec4<f32>>(position), bitcast<vec4<f32>>(normal),
+        textureLoad(vertex_table, table_place(3u * number + 2u), 0));
+}
+
+fn model_position(number: u32) -> vec3<f32> {
+    return bitcast<vec3<f32>>(textureLoad(vertex_table, table_place(3u * number), 0).xyz);
+}
+
+/// The two vertices of an edge, and those opposite to it in its two triangles, or `ALONE`.
+fn model_edge(number: u32) -> vec4<u32> {
+    return textureLoad(edge_table, table_place(number), 0);
+}
+
+fn model_triangle(number: u32) -> ModelTriangle {
+    return ModelTriangle(textureLoad(triangle_table, table_place(2u * number), 0),
+        textureLoad(triangle_table, table_place(2u * number + 1u), 0));
+}
 
 struct Counters {
     vertices: atomic<u32>,

@@ -2,7 +2,7 @@
 
 #import lensrunner::chosen::worldlines::{is_rim, MAY_FOLD}
 #import lensrunner::geometry::bindings::{
-    ALONE, chunks, EDGE_CUT, EDGE_LIMB, edge_states, EDGE_UNSEEN, emitted, model_edges, model_vertices, NO_INSTANCE, seen, VERTEX_ON_AXIS,
+    ALONE, chunks, EDGE_CUT, EDGE_LIMB, edge_states, EDGE_UNSEEN, emitted, model_edge, model_position, NO_INSTANCE, seen, VERTEX_ON_AXIS,
     VERTEX_PLAIN, VERTEX_UNSEEN,
 }
 #import lensrunner::geometry::clip::pixel_fineness
@@ -27,7 +27,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if local >= instance.vertices.w {
         return;
     }
-    let edge = model_edges[instance.vertices.z + local];
+    let edge = model_edge(instance.vertices.z + local);
     let a = emitted[instance.ids.z + edge.x];
     let b = emitted[instance.ids.z + edge.y];
     let slot = instance.ids.w + local;
@@ -45,8 +45,8 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     var ends: Ends;
     ends.a = a;
     ends.b = b;
-    ends.body_a = model_vertices[instance.vertices.x + edge.x].position.xyz;
-    ends.body_b = model_vertices[instance.vertices.x + edge.y].position.xyz;
+    ends.body_a = model_position(instance.vertices.x + edge.x);
+    ends.body_b = model_position(instance.vertices.x + edge.y);
     ends.apparent_a = from_seen.apparent.xyz;
     ends.apparent_b = to_seen.apparent.xyz;
     ends.radius = from_seen.leaving.w;

@@ -2,7 +2,7 @@
 
 // How a stage hands pieces on: to the rasteriser, to the mesh stage, or back to the queue of pieces. Every index is kept inside its buffer.
 
-#import lensrunner::geometry::bindings::{counters, indices, model_triangles, pieces, seen, thin, work}
+#import lensrunner::geometry::bindings::{counters, indices, model_triangle, pieces, seen, thin, work}
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::patch::{BLOCK, Facing, facing_of}
 #import lensrunner::gpu::bindings::frame
@@ -279,7 +279,7 @@ fn hand_over(queue: u32) {
         }
         if !done {
             let instance = instance_at(piece.what.x);
-            let triangle = model_triangles[piece.what.y];
+            let triangle = model_triangle(piece.what.y);
             let corners = triangle.vertices.xyz + vec3<u32>(instance.ids.z);
             emit_triangle(corners.x, corners.y, corners.z, instance, facing_of(instance, triangle, instance.offset.xyz), triangle.edges.w);
         }

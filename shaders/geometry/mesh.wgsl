@@ -1,6 +1,6 @@
 // Stage 5, the mesh stage: evaluates the projection for each vertex of the work items, then writes their triangles.
 
-#import lensrunner::geometry::bindings::{counters, indices, model_triangles, model_vertices, seen, work}
+#import lensrunner::geometry::bindings::{counters, indices, model_triangle, model_vertex, seen, work}
 #import lensrunner::geometry::clip::{finite_vector, pixel_fineness}
 #import lensrunner::geometry::emit::emit_thin
 #import lensrunner::geometry::patch::{ARC_SHARE, BLOCK, body_point, comes_first, facing_of, query_fan, seen_vertex}
@@ -56,7 +56,7 @@ fn vertices(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) gr
     // Written by the stage that made the item.
     let item = work[bitcast<u32>(seen[index].surface.x)];
     let instance = instance_at(item.piece.what.x);
-    let triangle = model_triangles[item.piece.what.y];
+    let triangle = model_triangle(item.piece.what.y);
     let k = index - item.place.x;
     var corner: vec3<f32>;
     var s = 1.0;
@@ -91,8 +91,8 @@ fn triangles(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) g
     let what = work[index].piece.what;
     let grid = work[index].grid;
     let instance = instance_at(what.x);
-    let facing = facing_of(instance, model_triangles[what.y], instance.offset.xyz);
-    let seen_from = model_triangles[what.y].edges.w;
+    let facing = facing_of(instance, model_triangle(what.y), instance.offset.xyz);
+    let seen_from = model_triangle(what.y).edges.w;
     let w = min(BLOCK, grid.y - grid.w);
     let first = place.x;
     for (var k = lane; k < place.w; k += 32u) {
@@ -216,9 +216,9 @@ fn strip_point(item: WorkItem, row: u32, column: u32) -> vec3<f32> {
 /// Texture coordinates of barycentric coordinates in a model triangle.
 fn texture_coordinates(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec2<f32> {
     let first = instance.vertices.x;
-    let v0 = model_vertices[first + triangle.vertices.x];
-    let v1 = model_vertices[first + triangle.vertices.y];
-    let v2 = model_vertices[first + triangle.vertices.z];
+    let v0 = model_vertex(first + triangle.vertices.x);
+    let v1 = model_vertex(first + triangle.vertices.y);
+    let v2 = model_vertex(first + triangle.vertices.z);
     return vec2<f32>(v0.position.w, v0.normal.w) * corner.x + vec2<f32>(v1.position.w, v1.normal.w) * corner.y
         + vec2<f32>(v2.position.w, v2.normal.w) * corner.z;
 }
@@ -265,9 +265,9 @@ fn vertex_at(item: WorkItem, instance: Instance, triangle: ModelTriangle, point:
     }
     let corner = mix(item.piece.corner_a.xyz, point, vec3<f32>(s));
     let first = instance.vertices.x;
-    let v0 = model_vertices[first + triangle.vertices.x];
-    let v1 = model_vertices[first + triangle.vertices.y];
-    let v2 = model_vertices[first + triangle.vertices.z];
+    let v0 = model_vertex(first + triangle.vertices.x);
+    let v1 = model_vertex(first + triangle.vertices.y);
+    let v2 = model_vertex(first + triangle.vertices.z);
     let normal = v0.normal * corner.x + v1.normal * corner.y + v2.normal * corner.z;
     var vertex = seen_vertex(instance, item.piece.what.x, found, normal_of(instance, normal.xyz),
         texture_coordinates(instance, triangle, point), v0.info.x + instance.triangles.z);

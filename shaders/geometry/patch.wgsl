@@ -3,13 +3,13 @@
 // What the stages after the vertices share: the axis, the error of an edge, points of a patch.
 
 #import lensrunner::chosen::held::held_momentum
-#import lensrunner::geometry::bindings::model_vertices
+#import lensrunner::geometry::bindings::model_position
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::project::{Answer, frequency_ratio, leaving_direction, Query, side_towards, Sight}
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{
-    Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE, SIDE_OPEN,
-    two_sided,
+    FLAG_MIDPOINT, Instance, INSTANCE_HELD, INSTANCE_NARROW, INSTANCE_THIN, is_thin, ModelTriangle, SeenVertex, SIDE_AGAINST, SIDE_LONE,
+    SIDE_OPEN, two_sided,
 }
 #import lensrunner::instances::instance::shaped
 
@@ -166,7 +166,7 @@ const ARC_SHARE: f32 = 0.015625;
 /// number. A whole edge of the model may be halved `switches.y` times; `part` is the share of it that the chord spans, so that both of its
 /// sides agree.
 fn level_for(error: f32, part: f32) -> u32 {
-    let n = ceil(sqrt(error / (CHORD_SHARE * frame.size.w)));
+    let n = ceil(sqrt(error / (select(CHORD_SHARE, 1.0, by_midpoint()) * frame.size.w)));
     // Not-a-number compares false.
     if n > 1.0 {
         return u32(clamp(n, 1.0, max(part * f32(1u << frame.switches.y), 1.0)));
@@ -180,9 +180,14 @@ fn part_between(a: vec3<f32>, b: vec3<f32>) -> f32 {
     return max(d.x, max(d.y, d.z));
 }
 
+/// Whether edges are divided by their midpoints alone, all alike: the criterion of Yamashita 2025.
+fn by_midpoint() -> bool {
+    return (frame.switches.x & FLAG_MIDPOINT) != 0u;
+}
+
 /// Factor by which the error of all chords of an image counts more, from its width and the fineness of its model.
 fn strictness(instance: Instance) -> f32 {
-    return instance.axis.w;
+    return select(instance.axis.w, 1.0, by_midpoint());
 }
 
 /// The same for slim images that are not thin: all their edges are near an outline and would bulge over it.
@@ -204,7 +209,7 @@ fn limb_strictness(instance: Instance) -> f32 {
         return THIN_LIMB_STRICTNESS;
     }
     let outline = select(LIMB_STRICTNESS, NARROW_LIMB_STRICTNESS, (instance.triangles.w & INSTANCE_NARROW) != 0u);
-    return max(outline / slimness(instance), 1.0);
+    return select(max(outline / slimness(instance), 1.0), 1.0, by_midpoint());
 }
 
 /// Factor for edges beside the axis: there the image of the order ends, and a chord that bulges farther than its distance from the ring
@@ -213,7 +218,7 @@ fn limb_strictness(instance: Instance) -> f32 {
 fn ring_strictness(instance: Instance, nearest: f32, pixel: f32, along: f32) -> f32 {
     let pixels_away = nearest / pixel;
     let closer = clamp(1.0 / max(pixels_away, 1e-6), 1.0, LIMB_STRICTNESS);
-    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.ids.x));
+    return select(1.0, max(closer / slimness(instance), 1.0), axis_matters(along, instance.ids.x) && !by_midpoint());
 }
 
 /// If light leaves a triangle under a sine below this, it may be seen edge on somewhere: so far a ship may turn while light crosses it.
@@ -225,10 +230,10 @@ const LIMB_SINE: f32 = 0.15;
 /// the two opposite to it.
 fn on_limb(instance: Instance, edge: vec4<u32>, leaving_a: vec3<f32>, leaving_b: vec3<f32>, offset: vec3<f32>) -> bool {
     let first = instance.vertices.x;
-    let corner = model_vertices[first + edge.x].position.xyz;
-    let along = shaped(instance, model_vertices[first + edge.y].position.xyz - corner);
-    let c = shaped(instance, model_vertices[first + edge.z].position.xyz - corner);
-    let d = shaped(instance, model_vertices[first + edge.w].position.xyz - corner);
+    let corner = model_position(first + edge.x);
+    let along = shaped(instance, model_position(first + edge.y) - corner);
+    let c = shaped(instance, model_position(first + edge.z) - corner);
+    let d = shaped(instance, model_position(first + edge.w) - corner);
     // The normals of both triangles on the same side of the surface.
     let n = at_rest(instance, cross(along, c), offset);
     let m = at_rest(instance, cross(d, along), offset);
@@ -246,7 +251,8 @@ fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarte
     let whole = max(slant(middle, a + b, slack), max(slant(quarter, a * 3.0 + b, slack), slant(three_quarters, a + b * 3.0, slack)));
     let part = max(slant(middle, quarter + three_quarters, slack),
         max(slant(quarter, a + middle, slack), slant(three_quarters, middle + b, slack)));
-    return atan(max(sqrt(whole), 4.0 * sqrt(part)));
+    let midpoint = slant(middle, normalize(a) + normalize(b), exact());
+    return atan(select(max(sqrt(whole), 4.0 * sqrt(part)), sqrt(midpoint), by_midpoint()));
 }
 
 /// How far rounding may displace a point along its ring: a point beside the axis is seen at an azimuth that has the error of its place over
@@ -298,9 +304,9 @@ fn slant(a: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
 /// it likes would give the point of an edge other bits in each of its two triangles.
 fn body_point(instance: Instance, triangle: ModelTriangle, corner: vec3<f32>) -> vec3<f32> {
     let first = instance.vertices.x;
-    let a = model_vertices[first + triangle.vertices.x].position.xyz * corner.x;
-    let b = fma(model_vertices[first + triangle.vertices.y].position.xyz, vec3<f32>(corner.y), a);
-    return fma(model_vertices[first + triangle.vertices.z].position.xyz, vec3<f32>(corner.z), b);
+    let a = model_position(first + triangle.vertices.x) * corner.x;
+    let b = fma(model_position(first + triangle.vertices.y), vec3<f32>(corner.y), a);
+    return fma(model_position(first + triangle.vertices.z), vec3<f32>(corner.z), b);
 }
 
 /// The unit normal that points out of the closed body of a model triangle, in the rest frame of what is at `offset` from the camera. Zero
@@ -330,9 +336,9 @@ fn turned_away(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>, l
 /// A unit normal of a model triangle in the rest frame of what is at `offset` from the camera.
 fn plane_normal(instance: Instance, triangle: ModelTriangle, offset: vec3<f32>) -> vec3<f32> {
     let first = instance.vertices.x;
-    let corner = model_vertices[first + triangle.vertices.x].position.xyz;
-    let a = shaped(instance, model_vertices[first + triangle.vertices.y].position.xyz - corner);
-    let b = shaped(instance, model_vertices[first + triangle.vertices.z].position.xyz - corner);
+    let corner = model_position(first + triangle.vertices.x);
+    let a = shaped(instance, model_position(first + triangle.vertices.y) - corner);
+    let b = shaped(instance, model_position(first + triangle.vertices.z) - corner);
     return at_rest(instance, cross(a, b), offset);
 }
 

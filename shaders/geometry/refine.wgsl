@@ -2,7 +2,7 @@
 // An edge is judged by its end points alone, so both its sides split it alike.
 
 #import lensrunner::chosen::worldlines::KEEPS_SLIVERS
-#import lensrunner::geometry::bindings::{counters, EDGE_LIMB, edge_states, model_triangles, pieces}
+#import lensrunner::geometry::bindings::{counters, EDGE_LIMB, edge_states, model_triangle, pieces}
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
@@ -25,7 +25,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     }
     let piece = pieces[queue * frame.capacity.z + index];
     let instance = instance_at(piece.what.x);
-    let triangle = model_triangles[piece.what.y];
+    let triangle = model_triangle(piece.what.y);
     strict = strictness(instance);
     limb_strict = limb_strictness(instance);
     measure(piece, instance, triangle);

@@ -3,7 +3,7 @@
 
 #import lensrunner::chosen::method::METHOD_FILTERS
 #import lensrunner::geometry::bindings::{
-    chunks, counters, EDGE_CUT, edge_states, emitted, model_triangles, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_UNSEEN,
+    chunks, counters, EDGE_CUT, edge_states, emitted, model_triangle, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_UNSEEN,
 }
 #import lensrunner::geometry::clip::clip_position
 #import lensrunner::geometry::emit::{emit_piece, emit_whole, emit_work, hand_over, off_screen, pixels}
@@ -28,15 +28,12 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
 fn decide(chunk: Chunk, lane: u32) {
     let instance = instance_at(chunk.instance);
     let number = instance.triangles.x + chunk.first + lane;
-    let triangle = model_triangles[number];
+    let triangle = model_triangle(number);
     let base = instance.ids.z;
     let slots = vec3<u32>(base) + triangle.vertices.xyz;
     let o0 = emitted[slots.x];
     let o1 = emitted[slots.y];
     let o2 = emitted[slots.z];
-    let e0 = edge_states[instance.ids.w + triangle.edges.x];
-    let e1 = edge_states[instance.ids.w + triangle.edges.y];
-    let e2 = edge_states[instance.ids.w + triangle.edges.z];
     if o0.w == VERTEX_UNSEEN || o1.w == VERTEX_UNSEEN || o2.w == VERTEX_UNSEEN {
         return;
     }
@@ -49,6 +46,9 @@ fn decide(chunk: Chunk, lane: u32) {
     if turned_away(instance, triangle, offset_of(o0.xyz), seen[slots.x].leaving, seen[slots.y].leaving, seen[slots.z].leaving) {
         return;
     }
+    let e0 = edge_states[instance.ids.w + triangle.edges.x];
+    let e1 = edge_states[instance.ids.w + triangle.edges.y];
+    let e2 = edge_states[instance.ids.w + triangle.edges.z];
     let corner_a = vec3<f32>(1.0, 0.0, 0.0);
     let corner_b = vec3<f32>(0.0, 1.0, 0.0);
     let corner_c = vec3<f32>(0.0, 0.0, 1.0);

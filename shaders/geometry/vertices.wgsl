@@ -1,6 +1,6 @@
 // Stage 1: one thread per model vertex and order. Solves the emission time, projects, writes what the rasteriser may draw as it is.
 
-#import lensrunner::geometry::bindings::{chunks, counters, emitted, model_vertices, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_PLAIN, VERTEX_UNSEEN}
+#import lensrunner::geometry::bindings::{chunks, counters, emitted, model_vertex, NO_INSTANCE, seen, VERTEX_ON_AXIS, VERTEX_PLAIN, VERTEX_UNSEEN}
 #import lensrunner::geometry::clip::finite_vector
 #import lensrunner::geometry::patch::{axis_core, axis_matters, seen_vertex}
 #import lensrunner::geometry::project::{answer, query_body}
@@ -18,7 +18,7 @@ fn main(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups
     if local >= instance.vertices.y {
         return;
     }
-    let vertex = model_vertices[instance.vertices.x + local];
+    let vertex = model_vertex(instance.vertices.x + local);
     let order = instance.ids.x;
     let slot = instance.ids.z + local;
     let found = answer(instance, query_body(vertex.position.xyz), order);

@@ -51,6 +51,7 @@ const FLAG_DOPPLER: u32 = 1u;
 const FLAG_BEAMING: u32 = 2u;
 const FLAG_INSIDE: u32 = 16u;
 const FLAG_HOLD_EXPOSURE: u32 = 32u;
+const FLAG_MIDPOINT: u32 = 64u;
 
 /// One object seen in one image order.
 struct Instance {

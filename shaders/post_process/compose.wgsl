@@ -1,14 +1,30 @@
-// Lays the sum of the thin triangles over the picture, once: their mean colour, as far as they cover the pixel.
+// Lays the sum of the thin triangles over the picture, once: their mean colour, as far as they cover the pixel. In tiles, and only in those
+// that have some.
 
 #import lensrunner::post_process::coverage::{before_later, covered}
+#import lensrunner::post_process::tiles::{tile_corner, tile_grid}
 
+/// Those of geometry/thin_lists.wgsl.
+@group(1) @binding(0) var<storage, read> tiles: array<u32>;
 @group(2) @binding(0) var source: texture_2d<f32>;
 @group(2) @binding(1) var signed_source: texture_2d<f32>;
 
+/// A tile with thin triangles, before everything.
 @vertex
-fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
-    let corner = vec2<f32>(f32((i << 1u) & 2u), f32(i & 2u));
-    return vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0);
+fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) number: u32) -> @builtin(position) vec4<f32> {
+    let grid = tile_grid();
+    return vec4<f32>(tile_corner(tiles[grid.x * grid.y + number], i), 1.0, 1.0);
+}
+
+struct Nothing {
+    @location(0) light: vec4<f32>,
+    @location(1) coverages: vec2<f32>,
+}
+
+/// Before they are summed: nothing.
+@fragment
+fn wipe() -> Nothing {
+    return Nothing(vec4<f32>(0.0), vec2<f32>(0.0));
 }
 
 @fragment

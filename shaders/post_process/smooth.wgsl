@@ -1,7 +1,9 @@
 // Smooths the outlines of bodies. The tone-mapped picture is blurred along its edges, as FXAA does it (Lottes 2009); in linear light an
 // edge beside a bright one would stay a step. Pixels without a body within a pixel do not change: stars and thin lines are smooth by
-// themselves. It is drawn over the finished picture in tiles, and only in those with an outline: on a software driver all pixels would take
-// three times as long as tone mapping.
+// themselves. It is drawn over the finished picture in tiles, and only in those with an outline, which outlines.wgsl finds: on a software
+// driver all pixels would take three times as long as tone mapping.
+
+#import lensrunner::post_process::tiles::tile_corner
 
 @group(2) @binding(0) var display: texture_2d<f32>;
 @group(2) @binding(1) var linear_sampler: sampler;
@@ -12,31 +14,21 @@ const LEAST_STEP: vec2<f32> = vec2<f32>(0.125, 0.03);
 /// Half the length of the longest blur, in pixels.
 const LONGEST: f32 = 8.0;
 
-/// Pixels along the side of a tile; as in src/render/post_process/mod.rs.
-const TILE: u32 = 16u;
-/// A tile has an outline if its nearest depth is this many times the farthest, or if a part of it shows no body.
-const STEP: f32 = 1.01;
+/// As in outlines.wgsl.
+struct Outlines {
+    vertices: u32,
+    tiles: u32,
+    first_vertex: u32,
+    first_instance: u32,
+    list: array<u32>,
+}
 
-/// The two triangles of the tile `tile`, or nothing if it has no outline. Every other pixel is tested, and those beside the tile, since
-/// outlines extend beyond it.
+@group(2) @binding(3) var<storage, read> outlines: Outlines;
+
+/// The two triangles of a tile with an outline.
 @vertex
-fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) tile: u32) -> @builtin(position) vec4<f32> {
-    let size = textureDimensions(depth);
-    let columns = (size.x + TILE - 1u) / TILE;
-    let first = vec2<u32>(tile % columns, tile / columns) * TILE;
-    let last = vec2<i32>(size) - 1;
-    var nearest = 0.0;
-    var farthest = 1e30;
-    for (var k = 0u; k < 100u; k++) {
-        let place = vec2<i32>(first) + 2 * vec2<i32>(vec2<u32>(k % 10u, k / 10u)) - 1;
-        let here = textureLoad(depth, clamp(place, vec2<i32>(0), last), 0);
-        nearest = max(nearest, here);
-        farthest = min(farthest, here);
-    }
-    let corner = vec2<u32>(select(0u, 1u, i == 1u || i == 2u || i == 4u), select(0u, 1u, i == 2u || i == 4u || i == 5u));
-    let place = vec2<f32>(min(first + corner * TILE, size)) / vec2<f32>(size);
-    let shown = select(0.0, 1.0, nearest > STEP * farthest);
-    return vec4<f32>((place * 2.0 - 1.0) * vec2<f32>(1.0, -1.0) * shown, 0.0, 1.0);
+fn vertex(@builtin(vertex_index) i: u32, @builtin(instance_index) number: u32) -> @builtin(position) vec4<f32> {
+    return vec4<f32>(tile_corner(outlines.list[number], i), 0.0, 1.0);
 }
 
 fn colour_at(uv: vec2<f32>) -> vec3<f32> {

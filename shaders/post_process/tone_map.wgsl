@@ -20,24 +20,8 @@ fn vertex(@builtin(vertex_index) i: u32) -> Screen {
     return Screen(vec4<f32>(corner * 2.0 - 1.0, 0.0, 1.0), vec2<f32>(corner.x, 1.0 - corner.y));
 }
 
-/// The picture, and once more for what smooths its outlines.
-struct Twice {
-    @location(0) shown: vec4<f32>,
-    @location(1) kept: vec4<f32>,
-}
-
-@fragment
-fn twice(in: Screen) -> Twice {
-    let colour = fragment_colour(in);
-    return Twice(colour, colour);
-}
-
 @fragment
 fn fragment(in: Screen) -> @location(0) vec4<f32> {
-    return fragment_colour(in);
-}
-
-fn fragment_colour(in: Screen) -> vec4<f32> {
     let glow = textureSampleLevel(bloom, linear_sampler, in.uv, 0.0).rgb;
     let light = display_light(textureLoad(picture, vec2<i32>(in.position.xy), 0).rgb, glow, adapted.x) * adapted.w;
     // Half a step of 8-bit noise against banding in the dark.

@@ -18,9 +18,9 @@ struct GroundLight {
     planet: vec4<u32>,
 }
 
-@group(2) @binding(6) var<uniform> ground: GroundLight;
+@group(2) @binding(5) var<uniform> ground: GroundLight;
 /// Brightness of white ground over that of a curtain, by the newest row of the history (x) and by the one before (y).
-@group(2) @binding(7) var ground_map: texture_2d<f32>;
+@group(2) @binding(6) var ground_map: texture_2d<f32>;
 
 /// Position on the map of the ground with the normal n (rain axes). z: above 0 on a side that has an aurora, below 0 for everything but the
 /// planet. Round the pole opposite to the map's middle positions lie in all directions and cannot be interpolated: there z is below 0.

@@ -4,7 +4,7 @@
 #import lensrunner::gpu::bindings::frame
 #import lensrunner::gpu::types::{FLAG_INSIDE, SeenVertex}
 #import lensrunner::post_process::coverage::coverage_sign
-#import lensrunner::shading::bindings::{seen, thin}
+#import lensrunner::shading::bindings::seen
 #import lensrunner::shading::shade::{shaded, Surface, surface_of, texture_place}
 
 /// `SeenVertex` from the vertex buffer; `surface` as bits, since two of its numbers are integers.
@@ -46,50 +46,46 @@ fn layers_fragment(in: Surface) -> Layers {
     return Layers(vec4<f32>(f32(in.which.x), f32(in.which.y), in.uv.z, in.normal.w), vec4<f32>(texture_place(in), in.coverage.x, 0.0));
 }
 
-@vertex
-fn thin_vertex(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_surface(index, vec2<f32>(1.0, 0.0));
+/// `ThinVertex` from the vertex buffer; `data` as bits, since its first number is an integer.
+struct ThinInput {
+    @location(0) position: vec4<f32>,
+    @location(1) data: vec4<u32>,
 }
 
-fn thin_surface(index: u32, shares: vec2<f32>) -> Surface {
-    let corner = thin[index];
-    return surface_of(seen[bitcast<u32>(corner.data.x)], corner.position, corner.data.y * shares);
+@vertex
+fn thin_vertex(in: ThinInput) -> Surface {
+    return thin_surface(in, vec2<f32>(1.0, 0.0));
+}
+
+fn thin_surface(in: ThinInput, shares: vec2<f32>) -> Surface {
+    return surface_of(seen[in.data.x], in.position, bitcast<f32>(in.data.y) * shares);
 }
 
 /// The coverage of those parts of the triangle whose light crosses the disk's plane `crossings` times; and that of the parts of the same
-/// image whose light crosses it once less.
-fn thin_across(index: u32, crossings: f32) -> Surface {
-    let data = thin[index].data;
-    var shares = vec2<f32>(0.0);
-    if crossings == data.z { shares = vec2<f32>(data.w, 1.0 - data.w); }
-    if crossings == data.z - 1.0 { shares.x = 1.0 - data.w; }
-    if all(shares == vec2<f32>(0.0)) {
-        // All three corners at one point, in front of the nearest depth.
-        var nothing: Surface;
-        nothing.position = vec4<f32>(0.0, 0.0, 2.0, 1.0);
-        return nothing;
-    }
-    return thin_surface(index, shares);
+/// image whose light crosses it once less. Triangles of both have been listed (geometry/thin_lists.wgsl).
+fn thin_across(in: ThinInput, crossings: f32) -> Surface {
+    let data = bitcast<vec4<f32>>(in.data);
+    return thin_surface(in, select(vec2<f32>(1.0 - data.w, 0.0), vec2<f32>(data.w, 1.0 - data.w), crossings == data.z));
 }
 
 @vertex
-fn thin_vertex_0(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_across(index, 0.0);
+fn thin_vertex_0(in: ThinInput) -> Surface {
+    return thin_across(in, 0.0);
 }
 
 @vertex
-fn thin_vertex_1(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_across(index, 1.0);
+fn thin_vertex_1(in: ThinInput) -> Surface {
+    return thin_across(in, 1.0);
 }
 
 @vertex
-fn thin_vertex_2(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_across(index, 2.0);
+fn thin_vertex_2(in: ThinInput) -> Surface {
+    return thin_across(in, 2.0);
 }
 
 @vertex
-fn thin_vertex_3(@builtin(vertex_index) index: u32) -> Surface {
-    return thin_across(index, 3.0);
+fn thin_vertex_3(in: ThinInput) -> Surface {
+    return thin_across(in, 3.0);
 }
 
 struct Thin {

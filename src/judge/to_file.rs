@@ -9,7 +9,7 @@ use super::case::{Case, TraceError, TraceRequest};
 use crate::judge::picture::post_process::post_process;
 use crate::judge::picture::{Layer, Picture, Quality};
 use crate::picture_file::{Channel, PictureFileError, check_writable, write_exr, write_png, write_png_with_text};
-use crate::scene;
+use crate::scene::{self, GameConfig};
 
 /// Where the picture goes.
 #[derive(Clone, Copy)]
@@ -25,16 +25,15 @@ pub struct Output<'a> {
 }
 
 /// Traces the picture into a file, with a progress bar; gives the rays per second and thread.
-pub fn trace_to_file(request: &TraceRequest, config: Option<&Path>, output: &Output) -> Result<f64, TraceError> {
+pub fn trace_to_file(request: &TraceRequest, config: &GameConfig, output: &Output) -> Result<f64, TraceError> {
     check(request, output)?;
-    let config = scene::config::find(config)?;
     let scene = scene::load(&request.scene)?;
     // A place that cannot be written to is said before the work too.
     check_writable(output.file)?;
     if request.at > 100.0 {
         eprintln!("playing to T = {}", request.at);
     }
-    trace_case(&Case::new(scene, config, request.at, request.size), request, output)
+    trace_case(&Case::new(scene, config.clone(), request.at, request.size), request, output)
 }
 
 /// Whether request and output go together; gives the samples along each side of a pixel. A wrong name is said before the work.

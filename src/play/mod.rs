@@ -35,7 +35,7 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use crate::render::Gpu;
-use crate::scene::Difficulty;
+use crate::scene::{Difficulty, config};
 use crate::sim::replay::Replay;
 use demonstration::DemonstrationRequest;
 use session::Session;
@@ -46,6 +46,9 @@ pub struct PlayArgs {
     /// The game's configuration [default: game.toml where there is one].
     #[arg(long, value_name = "game.toml")]
     pub config: Option<PathBuf>,
+    /// Sets a value over the configuration and the player's choices, as render.orders=3; may be repeated.
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<crate::scene::config::Assignment>,
     /// The scene or mission: a TOML file, or the name of one in assets/scenes or assets/missions [default: chase].
     #[arg(long, alias = "mission", value_name = "NAME|FILE")]
     #[arg(long_help = crate::scene::help("The scene: a TOML file, or the name of one in assets/scenes [default: chase]."))]
@@ -80,6 +83,9 @@ pub struct PlayArgs {
     /// Writes the sound of the flight to this file; without --record and --frames the sound alone.
     #[arg(long, value_name = "FILE.wav", requires = "headless")]
     pub sound: Option<PathBuf>,
+    /// Says in the terminal how much of the model is drawn, and why, whenever that changes.
+    #[arg(long)]
+    pub verbose: bool,
     /// Writes when each frame was ready, counted from the start; with --headless the game is played unseen, without files of pictures.
     #[arg(long, value_name = "FILE.csv", requires = "frames", conflicts_with_all = ["record", "sound"])]
     pub timings: Option<PathBuf>,
@@ -161,11 +167,20 @@ pub fn run(args: &PlayArgs) -> ExitCode {
     // Who opens the game begins easily; a flight that is named is as elsewhere.
     let first = if args.scene.is_none() && !args.headless { Difficulty::Easy } else { Difficulty::default() };
     session.difficulty = args.difficulty.unwrap_or(first);
+    session.set.clone_from(&args.set);
+    // Clashes are said before anything is opened.
+    let mut asked = session.config.clone();
+    if let Err(error) = config::assign(&mut asked, &args.set) {
+        return fail(&error, 2);
+    }
+    let without_window = args.headless || !has_display();
+    if without_window && args.timings.is_none() {
+        session.put_set();
+    }
     if let Some(replay) = &replay {
         session.config = replay.config(&session.config);
         (session.difficulty, session.seed) = (replay.difficulty, replay.seed);
     }
-    let without_window = args.headless || !has_display();
     if without_window && !args.headless && args.timings.is_none() {
         say("There is no display that a window can be opened on: the demonstration flight is drawn to files instead.");
     }
@@ -194,6 +209,7 @@ pub fn run(args: &PlayArgs) -> ExitCode {
             replay,
             at_once: args.at_once,
             data: None,
+            verbose: args.verbose,
             timings: args.timings.clone().map(|file| (file, started)),
         };
         let exit = if without_window {

@@ -23,6 +23,15 @@ impl Default for Slowing {
     }
 }
 
+/// Time stands still, but for single steps: for the dev overlay.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Freeze {
+    /// It does.
+    pub on: bool,
+    /// Steps that are to pass.
+    pub steps: u32,
+}
+
 /// The least share of the pace.
 const SLOWEST: f64 = 0.4;
 /// The game slows when danger is less far ahead than this, in r_s/c of T, and is slowest at [`HERE`].
@@ -43,7 +52,9 @@ pub struct PacePlugin;
 
 impl Plugin for PacePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<Slowing>().add_systems(Update, slow_down.in_set(GameSet::Answer));
+        app.init_resource::<Slowing>()
+            .init_resource::<Freeze>()
+            .add_systems(Update, (slow_down, step_frozen.after(run_time)).in_set(GameSet::Answer));
     }
 }
 
@@ -68,11 +79,20 @@ fn slow_down(
     slowing.0 += (wanted - slowing.0) * (1.0 - (-real.delta_secs_f64() / LAG).exp());
 }
 
+/// Lets the steps pass that were asked for while time stands still.
+fn step_frozen(world: &mut World) {
+    let Freeze { on: true, steps: 1.. } = *world.resource::<Freeze>() else { return };
+    let steps = std::mem::take(&mut world.resource_mut::<Freeze>().steps);
+    if world.resource::<State<Screen>>().get().runs() {
+        (0..steps).for_each(|_| world.run_schedule(FixedUpdate));
+    }
+}
+
 /// Game time: its pace, its step, and whether it passes.
 pub(in crate::play) fn run_time(
     screen: Res<State<Screen>>,
     next: Res<NextState<Screen>>,
-    (session, slowing, loading): (Res<Session>, Res<Slowing>, Option<Res<Loading>>),
+    (session, slowing, loading, freeze): (Res<Session>, Res<Slowing>, Option<Res<Loading>>, Res<Freeze>),
     mut time: ResMut<Time<Virtual>>,
     mut fixed: ResMut<Time<Fixed>>,
 ) {
@@ -81,7 +101,8 @@ pub(in crate::play) fn run_time(
     fixed.set_timestep_seconds(step);
     time.set_max_delta(Duration::from_secs_f64((step * f64::from(clock.max_steps)).clamp(0.01, 0.5)));
     let leaving = matches!(*next, NextState::Pending(next) if !next.runs());
-    if screen.get().runs() && !leaving && loading.is_none() { time.unpause() } else { time.pause() }
+    let flows = screen.get().runs() && !leaving && loading.is_none() && !freeze.on;
+    if flows { time.unpause() } else { time.pause() }
 }
 
 /// The share of the pace with danger `ahead`, in r_s/c of T.

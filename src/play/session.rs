@@ -6,6 +6,7 @@ use bevy::prelude::Resource;
 use thiserror::Error;
 
 use crate::play::words::Language;
+use crate::scene::config::Assignment;
 use crate::scene::ship::Ai;
 use crate::scene::{self, ConfigError, Difficulty, GameConfig, Scene, SceneError};
 
@@ -41,6 +42,8 @@ pub struct Session {
     pub seed_stays: bool,
     /// Of a mission.
     pub difficulty: Difficulty,
+    /// What the command line sets: it goes before the player's choices and the file.
+    pub set: Vec<Assignment>,
 }
 
 impl Session {
@@ -52,7 +55,20 @@ impl Session {
         if scene.ships.is_empty() {
             return Err(SessionError::NoShip(scene.name));
         }
-        Ok(Session { scene, config, config_file, seed: seed.unwrap_or(0), seed_stays: seed.is_some(), difficulty: Difficulty::default() })
+        Ok(Session {
+            scene,
+            config,
+            config_file,
+            seed: seed.unwrap_or(0),
+            seed_stays: seed.is_some(),
+            difficulty: Difficulty::default(),
+            set: Vec::new(),
+        })
+    }
+
+    /// Puts what the command line sets over the configuration.
+    pub fn put_set(&mut self) {
+        self.set.iter().for_each(|one| one.apply(&mut self.config));
     }
 
     /// The language of all words.

@@ -43,6 +43,7 @@ pub fn uniform(input: &FrameInput, size: [u32; 2], capacity: Capacity) -> types:
         (settings.beaming, flags::BEAMING),
         (radius < 1.0, flags::INSIDE),
         (settings.hold_exposure, flags::HOLD_EXPOSURE),
+        (settings.midpoint, flags::MIDPOINT),
     ] {
         if on {
             switches |= bit;

@@ -15,6 +15,7 @@ pub mod models;
 mod passes;
 pub mod plugin;
 pub mod post_process;
+pub mod quality;
 pub mod renderer;
 pub mod settings;
 pub mod shot;

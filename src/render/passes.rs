@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::render::aurora::Aurora;
 use crate::render::disk::DiskPasses;
 use crate::render::geometry::Geometry;
+use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::targets::Targets;
 use crate::render::gpu::timing::Timing;
 use crate::render::sky::{Background, Stars};
@@ -24,7 +25,7 @@ pub struct Recording<'a> {
 impl Recording<'_> {
     /// A compute pass of this name.
     fn compute(&mut self, label: &'static str, run: impl FnOnce(&mut wgpu::ComputePass)) {
-        let timestamp_writes = self.timing.compute(label);
+        let timestamp_writes = self.timing.compute(self.encoder, label);
         let mut pass = self.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some(label), timestamp_writes });
         pass.set_bind_group(0, self.frame, &[]);
         run(&mut pass);
@@ -35,6 +36,8 @@ impl Recording<'_> {
 pub struct Shown<'a> {
     /// Bodies.
     pub geometry: &'a Geometry,
+    /// Those of their triangles that are thin.
+    pub thin: &'a ThinLists,
     /// The Milky Way.
     pub background: &'a Background,
     /// Stars.
@@ -56,6 +59,10 @@ impl Shown<'_> {
             recording.compute("refine", |pass| geometry.refine(pass));
             recording.compute("mesh", |pass| geometry.mesh(pass));
         }
+        if geometry.has_thin() {
+            self.thin.clear(recording.encoder);
+            recording.compute("thin lists", |pass| self.thin.list(pass, geometry.arguments()));
+        }
         recording.compute("sky", |pass| self.background.cells(pass));
         recording.compute("stars", |pass| self.stars.project(pass));
         if self.aurora.images() > 0 {
@@ -71,11 +78,12 @@ impl Shown<'_> {
     /// Draws what has depth, and the sky behind it.
     pub fn draw_opaque(&self, recording: &mut Recording) {
         let Recording { encoder, timing, frame, targets } = recording;
+        let timestamp_writes = timing.render(encoder, "draw");
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("draw"),
             color_attachments: &[Some(colour(&targets.picture, true))],
             depth_stencil_attachment: Some(depth(&targets.depth, true)),
-            timestamp_writes: timing.render("draw"),
+            timestamp_writes,
             ..Default::default()
         });
         pass.set_bind_group(0, *frame, &[]);
@@ -106,7 +114,15 @@ impl Shown<'_> {
             self.draw_disk(recording, crossings + 1..=left);
             left = crossings;
             let Recording { encoder, timing, frame, targets } = &mut *recording;
-            draw_thin(geometry, laid_over.then_some(crossings), timing.render("thin"), encoder, frame, targets);
+            let timestamp_writes = timing.render(encoder, "thin");
+            let mut pass = begin_thin(false, timestamp_writes, encoder, frame, targets);
+            self.thin.wipe(&mut pass);
+            if !laid_over {
+                geometry.draw_thin(&mut pass);
+            } else if geometry.begin_thin_across(&mut pass, crossings) {
+                self.thin.draw_across(&mut pass, crossings);
+            }
+            drop(pass);
             compose(recording);
         }
         self.draw_disk(recording, 1..=left);
@@ -116,12 +132,13 @@ impl Shown<'_> {
     fn draw_disk(&self, recording: &mut Recording, orders: RangeInclusive<u32>) {
         let Recording { encoder, timing, frame, targets } = recording;
         let Some(disk) = self.disk.filter(|_| !orders.is_empty()) else { return };
+        let timestamp_writes = timing.render(encoder, "disk");
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("disk"),
             color_attachments: &[Some(colour(&targets.picture, false))],
             // Polygons write it.
             depth_stencil_attachment: Some(if disk.is_laid_over() { tested_depth(&targets.depth) } else { depth(&targets.depth, false) }),
-            timestamp_writes: timing.render("disk"),
+            timestamp_writes,
             ..Default::default()
         });
         pass.set_bind_group(0, *frame, &[]);
@@ -134,11 +151,12 @@ impl Shown<'_> {
         let Recording { encoder, timing, frame, targets } = recording;
         for image in aurora.images_behind(behind) {
             let mut draw = |label, target, fresh, tested: bool, run: &dyn Fn(&mut wgpu::RenderPass)| {
+                let timestamp_writes = timing.render(encoder, label);
                 let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                     label: Some(label),
                     color_attachments: &[Some(colour(target, fresh))],
                     depth_stencil_attachment: tested.then(|| tested_depth(&targets.depth)),
-                    timestamp_writes: timing.render(label),
+                    timestamp_writes,
                     ..Default::default()
                 });
                 pass.set_bind_group(0, *frame, &[]);
@@ -153,24 +171,23 @@ impl Shown<'_> {
     }
 }
 
-/// Sums thin images: all, or those whose light crosses the disk's plane so often.
-pub fn draw_thin(
-    geometry: &Geometry,
-    crossings: Option<u32>,
+/// A pass that sums thin images, from nothing if it is `fresh`.
+pub fn begin_thin<'p>(
+    fresh: bool,
     timestamp_writes: Option<wgpu::RenderPassTimestampWrites>,
-    encoder: &mut wgpu::CommandEncoder,
+    encoder: &'p mut wgpu::CommandEncoder,
     group: &wgpu::BindGroup,
     targets: &Targets,
-) {
+) -> wgpu::RenderPass<'p> {
     let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("thin"),
-        color_attachments: &[Some(colour(&targets.thin, true)), Some(colour(&targets.thin_signed, true))],
+        color_attachments: &[Some(colour(&targets.thin, fresh)), Some(colour(&targets.thin_signed, fresh))],
         depth_stencil_attachment: Some(tested_depth(&targets.depth)),
         timestamp_writes,
         ..Default::default()
     });
     pass.set_bind_group(0, group, &[]);
-    geometry.draw_thin(&mut pass, crossings);
+    pass
 }
 
 /// A target of colours, drawn from nothing where it is `fresh`, else onto what is there.

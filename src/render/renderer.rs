@@ -3,6 +3,7 @@
 
 use std::mem::offset_of;
 use std::sync::Arc;
+use std::time::Instant;
 
 use wgpu::{BufferUsages, ShaderStages};
 
@@ -15,6 +16,7 @@ use crate::render::disk::types::DiskCounters;
 use crate::render::disk::{Disk, DiskPasses};
 use crate::render::frame::{FrameInput, blackbody_table, uniform};
 use crate::render::geometry::Geometry;
+use crate::render::geometry::thin::ThinLists;
 use crate::render::gpu::layout::{Slot, TableTexture, bind, buffer, layout, storage};
 use crate::render::gpu::library::Worldlines;
 use crate::render::gpu::readback::{self, DeferredCopy, Picture, PictureError};
@@ -24,9 +26,10 @@ use crate::render::gpu::types::{self, Counters, Star};
 use crate::render::method::Method;
 use crate::render::method::tables::Tables;
 use crate::render::models::{ModelRange, ModelSet, Models};
-use crate::render::passes::{Recording, Shown, colour, depth, draw_thin};
+use crate::render::passes::{Recording, Shown, begin_thin, colour, depth};
 use crate::render::post_process::PostProcess;
 use crate::render::post_process::coverage::covered;
+use crate::render::post_process::upscale::{Upscale, drawn_size};
 use crate::render::sky::table::{NODES, sky_table, straight_sky_table};
 use crate::render::sky::{Background, Stars};
 
@@ -75,11 +78,15 @@ pub struct Renderer {
     has_disk: bool,
     models: Models,
     geometry: Geometry,
+    thin: ThinLists,
     background: Background,
     stars: Stars,
     aurora: Aurora,
     post_process: PostProcess,
+    upscale: Upscale,
     targets: Targets,
+    /// Size of the output in pixels, and the share of its width that is drawn.
+    output: ([u32; 2], f32),
     /// The output has no size.
     hidden: bool,
     /// The frame has bodies whose outlines are to be smooth.
@@ -124,10 +131,12 @@ impl Renderer {
         let adaptation = storage(gpu, "adaptation", &[[1.0f32, 0.0, 0.0, 0.0]]);
         let mut post_process = PostProcess::new(device, &frame_layout, format);
         let targets = Targets::new(device, size.map(|side| side.max(1)));
+        let upscale = Upscale::new(device, &frame_layout, format);
         post_process.resize(gpu, &targets, &adaptation);
         let frame_group = frame_bindings(device, &frame_layout, &frame, [&lens_slice, &sky_slice, &blackbody]);
         Renderer {
             geometry: Geometry::new(device, &frame_layout, Worldlines::Bodies),
+            thin: ThinLists::new(device, &frame_layout),
             background: Background::new(gpu, &frame_layout, &surroundings.milky_way),
             stars: Stars::new(gpu, &frame_layout, &surroundings.stars, &table),
             aurora: Aurora::new(gpu, &frame_layout),
@@ -148,7 +157,9 @@ impl Renderer {
             slice: None,
             disk: None,
             has_disk: false,
+            upscale,
             post_process,
+            output: (targets.size, 1.0),
             targets,
             hidden: size.contains(&0),
             smooth: false,
@@ -211,7 +222,7 @@ impl Renderer {
 
     /// The size of the output, in pixels.
     pub fn size(&self) -> [u32; 2] {
-        self.targets.size
+        self.output.0
     }
 
     /// The format of the output.
@@ -227,8 +238,18 @@ impl Renderer {
     /// Makes targets of another size. Without a size, as a minimised window is, nothing is prepared until there is one again.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.hidden = size.contains(&0);
-        if !self.hidden && size != self.targets.size {
-            self.targets = Targets::new(&self.gpu.device, size);
+        if !self.hidden {
+            self.draw_share(size, self.output.1);
+        }
+    }
+
+    /// Makes targets for an output of `size`, of which the share `resolution` of the width and height is drawn.
+    fn draw_share(&mut self, size: [u32; 2], resolution: f32) {
+        self.output = (size, resolution);
+        let drawn = drawn_size(size, resolution);
+        self.upscale.resize(&self.gpu.device, drawn, size);
+        if drawn != self.targets.size {
+            self.targets = Targets::new(&self.gpu.device, drawn);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
@@ -240,6 +261,8 @@ impl Renderer {
             // What the passes kept of the picture before goes with them.
             self.before = Before::Black;
             self.post_process = PostProcess::new(&self.gpu.device, &self.frame_layout, format);
+            self.upscale = Upscale::new(&self.gpu.device, &self.frame_layout, format);
+            self.upscale.resize(&self.gpu.device, self.targets.size, self.output.0);
             self.post_process.resize(&self.gpu, &self.targets, &self.adaptation);
         }
     }
@@ -259,6 +282,11 @@ impl Renderer {
         if !(camera.position.is_finite() && camera.momentum.is_finite() && camera.attitude.is_finite() && camera.radius() > 1e-3) {
             return false;
         }
+        if input.settings.resolution != self.output.1 {
+            self.draw_share(self.output.0, input.settings.resolution);
+        }
+        self.timing.begin_work();
+        let begin = Instant::now();
         let l = camera.radius();
         // The slices depend on radius and method alone.
         let method = input.settings.method;
@@ -279,11 +307,17 @@ impl Renderer {
             self.sky_slice.write(&self.gpu, &self.sky);
             self.slice = Some(slice);
         }
+        let begin = self.timing.worked("slice of the table", begin);
         if let (Some(disk), Some(slice), true) = (&mut self.disk, &self.slice, self.has_disk) {
             disk.prepare(&self.gpu, &self.frame_layout, input, slice, self.targets.size[0]);
         }
+        let begin = self.timing.worked("view of the disk", begin);
         let ground = input.aurora.as_ref().and_then(|aurora| aurora.ground.as_ref());
         self.geometry.prepare(&self.gpu, &self.models, &input.placed, input.settings.vertex_budget, ground);
+        if self.geometry.has_thin() {
+            let buffers = [self.geometry.thin(), self.geometry.arguments()];
+            self.thin.prepare(&self.gpu, buffers, self.geometry.capacity().thin, self.targets.size);
+        }
         let mut uniform = uniform(input, self.targets.size, self.geometry.capacity());
         if let Some(disk) = self.disk() {
             uniform.sky_x[3] = disk.disk().config.exposure_key as f32;
@@ -297,16 +331,20 @@ impl Renderer {
             Before::Measured => uniform.rise[1] = 1.0,
         }
         self.gpu.queue.write_buffer(&self.frame, 0, bytemuck::bytes_of(&uniform));
+        let begin = self.timing.worked("lists of bodies", begin);
         let edge = f64::from(uniform.exposure[3]);
         self.stars.prepare(&self.gpu, camera, if input.settings.stars { &self.sky } else { &[] }, edge, self.targets.size);
+        let begin = self.timing.worked("lists of stars", begin);
         self.background.prepare(&self.gpu, self.targets.size);
         self.aurora.prepare(&self.gpu, input.aurora.as_ref(), &self.targets);
         self.smooth = input.settings.smooth && !input.placed.is_empty();
+        self.timing.worked("rest of the uploads", begin);
         true
     }
 
     /// Records all passes of a prepared frame.
     pub fn encode(&mut self, encoder: &mut wgpu::CommandEncoder, output: &wgpu::TextureView) {
+        let begin = Instant::now();
         self.timing.begin();
         self.counted.iter_mut().for_each(DeferredCopy::begin);
         // The own ship is lit by the exposure of the frame before, and stars that would not have been visible then are left out.
@@ -314,7 +352,14 @@ impl Renderer {
         encoder.copy_buffer_to_buffer(&self.adaptation, 0, &self.frame, fill + 8, 4);
         encoder.copy_buffer_to_buffer(&self.adaptation, 8, &self.frame, fill + 12, 4);
         let disk = self.disk.as_ref().filter(|_| self.has_disk);
-        let shown = Shown { geometry: &self.geometry, background: &self.background, stars: &self.stars, aurora: &self.aurora, disk };
+        let shown = Shown {
+            geometry: &self.geometry,
+            thin: &self.thin,
+            background: &self.background,
+            stars: &self.stars,
+            aurora: &self.aurora,
+            disk,
+        };
         let mut recording =
             Recording { encoder: &mut *encoder, timing: &mut self.timing, frame: &self.frame_group, targets: &self.targets };
         shown.compute(&mut recording);
@@ -327,9 +372,11 @@ impl Renderer {
         shown.walk(&mut recording);
         // What is behind the disk is dimmed by it.
         shown.draw_aurora(&mut recording, true);
-        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording));
+        shown.lay_over(&mut recording, |recording| self.post_process.compose(recording, &self.thin));
         shown.draw_aurora(&mut recording, false);
-        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, output);
+        let drawn = self.upscale.drawn().unwrap_or(output);
+        self.post_process.run(&mut recording, &self.adaptation, self.smooth, self.steady, drawn);
+        self.upscale.run(&mut recording, output);
         self.before = if self.steady { Before::Measured } else { Before::Unmeasured };
         if self.counting {
             self.counted[0].record(&self.gpu.device, encoder, self.geometry.counters());
@@ -338,12 +385,14 @@ impl Renderer {
             }
         }
         self.timing.end(encoder);
+        self.timing.worked("encoding", begin);
     }
 
-    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice.
+    /// Draws one frame into a texture of its own and brings it back. The exposure settles first: the frame is drawn twice. Of a frame that
+    /// is drawn smaller than the output there is the finished picture alone.
     pub fn picture(&mut self, input: &FrameInput, layers: bool) -> Result<Picture, PictureError> {
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let (texture, view) = crate::render::gpu::targets::target(&self.gpu.device, "output", self.targets.size, format);
+        let (texture, view) = crate::render::gpu::targets::target(&self.gpu.device, "output", self.output.0, format);
         for _ in 0..2 {
             if !self.prepare(input) {
                 return Err(self.gpu.watch.complaint().map_or(PictureError::Nothing, PictureError::Device));
@@ -356,6 +405,9 @@ impl Renderer {
             self.gpu.queue.submit([encoder.finish()]);
         }
         let display = readback::texture(&self.gpu, &texture, 4)?;
+        if self.upscale.drawn().is_some() {
+            return Ok(Picture { size: self.output.0, display, ..Picture::default() });
+        }
         let halves = readback::texture(&self.gpu, &self.targets.picture_texture, 8)?;
         let linear = halves
             .chunks_exact(8)
@@ -379,7 +431,7 @@ impl Renderer {
     fn encode_layers(&mut self, encoder: &mut wgpu::CommandEncoder) {
         if self.geometry.has_thin() {
             // The sum of all: among images of the disk they are drawn in parts.
-            draw_thin(&self.geometry, None, None, encoder, &self.frame_group, &self.targets);
+            self.geometry.draw_thin(&mut begin_thin(true, None, encoder, &self.frame_group, &self.targets));
         }
         let targets = self.targets.layers(&self.gpu.device);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -5,7 +5,9 @@ use crate::render::method::Method;
 /// How the picture is made; the numbers come from `game.toml`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Greatest error of any drawn point, in pixels.
+    /// Width of the picture that is drawn, as a share of the output's, in (0, 1]; it is enlarged to the output.
+    pub resolution: f32,
+    /// Greatest error of any drawn point, in pixels of what is drawn.
     pub pixel_error: f32,
     /// Image orders drawn, 1 to 3.
     pub orders: u32,
@@ -15,6 +17,9 @@ pub struct Settings {
     pub light_delay: bool,
     /// How often an edge of a model may be halved.
     pub halvings: u32,
+    /// Edges are divided by the criterion of Yamashita 2025 instead, to be measured beside: the error of the midpoint alone, all edges
+    /// alike.
+    pub midpoint: bool,
     /// Room for the vertices of the mesh stage.
     pub vertex_budget: u32,
     /// Triangles of thin images are drawn at least this wide, in pixels; 0: there are no thin images.
@@ -90,11 +95,13 @@ impl Settings {
     /// All that can be drawn, at its finest, as it shines: what tests measure. The game draws by [`super::stage::settings`].
     pub fn finest() -> Self {
         Settings {
+            resolution: 1.0,
             pixel_error: 0.25,
             orders: 3,
             method: Method::Table,
             light_delay: true,
             halvings: 13,
+            midpoint: false,
             vertex_budget: 1_200_000,
             min_width: 1.0,
             thin_below: 1.0,

@@ -131,14 +131,13 @@ fn complete(renderer: &mut Renderer, frame: &FrameInput, layers: bool) -> Result
     Ok(picture)
 }
 
-/// Draws the picture into a file, with the configuration of `config`.
-pub fn shot_to_file(request: &ShotRequest, config: Option<&Path>, output: &Path) -> Result<(), ShotError> {
-    let config = scene::config::find(config)?;
+/// Draws the picture into a file.
+pub fn shot_to_file(request: &ShotRequest, config: &GameConfig, output: &Path) -> Result<(), ShotError> {
     // A wrong name is said before the work.
     if !matches!(output.extension().and_then(|extension| extension.to_str()), Some("png" | "exr")) {
         return Err(PictureError::Format(output.display().to_string()).into());
     }
-    shot(request, &config)?.write(output)?;
+    shot(request, config)?.write(output)?;
     Ok(())
 }
 

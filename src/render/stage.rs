@@ -25,6 +25,8 @@ use crate::render::instances::{DrawnObject, Motion, Placed, View, instances_of};
 use crate::render::method::Method;
 use crate::render::models::coarse::coarse;
 use crate::render::models::{ModelRange, ModelSet};
+use crate::render::post_process::upscale::drawn_size;
+use crate::render::quality::prices::SceneClass;
 use crate::render::renderer::SceneUpload;
 use crate::render::settings::Settings;
 
@@ -144,6 +146,12 @@ impl Stage {
         }
     }
 
+    /// What of it takes time.
+    pub fn class(&self) -> SceneClass {
+        let has_aurora = self.animation.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        SceneClass::of(!self.objects.is_empty(), self.disk.is_some(), has_aurora)
+    }
+
     /// The scene's own camera at T = `time`; `ships` are the states of the ships then, by name.
     pub fn camera(&self, time: f64, ships: &[(&str, ShipState)]) -> Observer {
         self.camera.viewpoint(time, ships)
@@ -169,6 +177,7 @@ impl Stage {
         settings: &Settings,
     ) -> FrameInput {
         let slice = Slice::new(&self.table, camera.radius());
+        let size = drawn_size(size, settings.resolution);
         let pixel = 2.0 * (0.5 * camera.field_of_view).tan() / f64::from(size[0].max(1));
         let aspect = Some(f64::from(size[1].max(1)) / f64::from(size[0].max(1)));
         let view = View { camera: &camera, slice: &slice, pixel, aspect, settings };

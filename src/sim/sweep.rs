@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::check::outcome_name;
 use super::run::{FlightReport, RunRequest, run_levelled};
-use crate::scene::config::{self, Allowed, Value};
+use crate::scene::config::{self, Value};
 use crate::scene::{GameConfig, Scene};
 
 /// The most flights of a sweep.
@@ -30,16 +30,7 @@ impl std::str::FromStr for Axis {
         let (path, values) = text.split_once('=').ok_or_else(|| format!("{text:?} must be {usage}"))?;
         let setting = config::setting(path).ok_or_else(|| format!("{path:?} is no setting of game.toml"))?;
         let number = |word: &str| word.trim().parse::<f64>().map_err(|_| format!("{path}: {word:?} is no number; {usage}"));
-        let one = |word: &str| -> Result<Value, String> {
-            let word = word.trim();
-            let value = match setting.allowed {
-                Allowed::Number { .. } => Value::Number(number(word)?),
-                Allowed::Integer { .. } => Value::Integer(word.parse().map_err(|_| format!("{path}: {word:?} is no whole number"))?),
-                Allowed::Switch => Value::Switch(word.parse().map_err(|_| format!("{path}: {word:?} must be true or false"))?),
-                Allowed::Choice(_) | Allowed::Buttons | Allowed::Words(_) => Value::Word(word.into()),
-            };
-            setting.check(value).map_err(|wrong| format!("{path} = {wrong}"))
-        };
+        let one = |word: &str| setting.read(word);
         let values = match values.split(':').collect::<Vec<_>>()[..] {
             [from, to, count] => {
                 let count: usize = count

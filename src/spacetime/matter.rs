@@ -63,7 +63,8 @@ impl ShipState {
         self.position.is_finite() && self.momentum.is_finite() && self.attitude.is_finite() && self.proper_time.is_finite()
     }
 
-    fn plus(&self, h: f64, rate: &ShipRate) -> ShipState {
+    /// The state a span `h` of T on at this rate: what every Runge–Kutta method is made of.
+    pub fn plus(&self, h: f64, rate: &ShipRate) -> ShipState {
         ShipState {
             position: self.position + rate.position * h,
             momentum: self.momentum + rate.momentum * h,
@@ -74,10 +75,12 @@ impl ShipState {
 }
 
 impl ShipRate {
-    const ZERO: ShipRate =
+    /// Nothing changes.
+    pub const ZERO: ShipRate =
         ShipRate { position: DVec3::ZERO, momentum: DVec3::ZERO, attitude: DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0), proper_time: 0.0 };
 
-    fn plus(&self, weight: f64, other: &ShipRate) -> ShipRate {
+    /// This and `weight` times `other`.
+    pub fn plus(&self, weight: f64, other: &ShipRate) -> ShipRate {
         ShipRate {
             position: self.position + other.position * weight,
             momentum: self.momentum + other.momentum * weight,

@@ -6,6 +6,6 @@ pub mod matter;
 pub mod metric;
 pub mod observer;
 pub mod orbit;
-mod tableau;
+pub mod tableau;
 
 pub use observer::Observer;

@@ -23,10 +23,10 @@ use lensrunner::sim::replay::Playback;
 use lensrunner::sim::{Chase, Clock};
 
 /// A folder that is gone in the end.
-struct Folder(PathBuf);
+pub(super) struct Folder(pub(super) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Folder {
+    pub(super) fn new(name: &str) -> Folder {
         let folder = std::env::temp_dir().join(format!("lensrunner-interface-{name}-{}", std::process::id()));
         _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).unwrap();
@@ -42,14 +42,18 @@ impl Drop for Folder {
 
 /// The game at its first start.
 fn game(folder: &Folder) -> App {
-    let mut session = Session::load(None, None, Some(3)).unwrap();
+    game_of(folder, Session::load(None, None, Some(3)).unwrap(), [160, 90])
+}
+
+/// The same of a session, on a picture of this size.
+pub(super) fn game_of(folder: &Folder, mut session: Session, size: [u32; 2]) -> App {
     session.difficulty = Difficulty::Easy;
     // English, whatever the machine speaks.
     session.config.interface.language = "en".into();
     let options = Options { data: Some(folder.0.clone()), ..Options::default() };
     let (choices, said) = Choices::load_from(&folder.0.join("settings.toml"));
     assert_eq!(said, None);
-    let mut app = app(session, &options, Surface::Picture([160, 90]), choices);
+    let mut app = app(session, &options, Surface::Picture(size), choices);
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(100)));
     app.finish();
     app.cleanup();
@@ -58,11 +62,11 @@ fn game(folder: &Folder) -> App {
     app
 }
 
-fn screen(app: &App) -> Screen {
+pub(super) fn screen(app: &App) -> Screen {
     *app.world().resource::<State<Screen>>().get()
 }
 
-fn send(app: &mut App, key: KeyCode, state: ButtonState) {
+pub(super) fn send(app: &mut App, key: KeyCode, state: ButtonState) {
     let logical_key = Key::Unidentified(NativeKey::Unidentified);
     app.world_mut().write_message(KeyboardInput {
         key_code: key,
@@ -75,7 +79,7 @@ fn send(app: &mut App, key: KeyCode, state: ButtonState) {
 }
 
 /// Presses a key and lets it go; afterwards the next screen is there.
-fn push(app: &mut App, key: KeyCode) {
+pub(super) fn push(app: &mut App, key: KeyCode) {
     send(app, key, ButtonState::Pressed);
     app.update();
     send(app, key, ButtonState::Released);
@@ -100,13 +104,13 @@ fn go(app: &mut App, id: &str, down: &mut impl FnMut(&mut App)) {
 }
 
 /// Chooses an entry of the menu by the arrow keys and Enter.
-fn choose(app: &mut App, id: &str) {
+pub(super) fn choose(app: &mut App, id: &str) {
     go(app, id, &mut |app| push(app, KeyCode::ArrowDown));
     push(app, KeyCode::Enter);
 }
 
 /// Lets the simulation go on until the flight is decided.
-fn fly_on(app: &mut App) {
+pub(super) fn fly_on(app: &mut App) {
     for _ in 0..40_000 {
         if app.world().resource::<Chase>().outcome.is_some() {
             break;

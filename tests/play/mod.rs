@@ -2,6 +2,7 @@
 
 mod heard;
 mod interface;
+mod overlay;
 mod samples;
 mod sound;
 mod trailer;

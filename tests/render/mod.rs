@@ -14,3 +14,4 @@ mod post_process;
 mod stars;
 mod support;
 mod trouble;
+mod upscale;

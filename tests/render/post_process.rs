@@ -8,6 +8,7 @@ use lensrunner::render::stage;
 use lensrunner::render::stage::Stage;
 use lensrunner::scene::{self, GameConfig};
 use lensrunner::sim::Moment;
+use lensrunner::spacetime::Observer;
 
 use crate::gpu::GPU;
 use crate::render::support::surroundings;
@@ -95,7 +96,11 @@ fn outlines_of_bodies_are_smooth() {
 
 /// The chase at its start, ready to be drawn 160 × 90 pixels large.
 fn a_chase() -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
-    let size = [160, 90];
+    a_chase_of([160, 90])
+}
+
+/// The same in any size.
+fn a_chase_of(size: [u32; 2]) -> ([u32; 2], GameConfig, Renderer, Stage, Moment) {
     let mut config = GameConfig::default();
     // Its strokes are added in any order, which rounding tells.
     config.aurora.enabled = false;
@@ -176,4 +181,27 @@ fn lit_ship(ship: &[usize], pixel: usize, size: [u32; 2]) -> bool {
     let place = |k: usize| (k as i64 % i64::from(size[0]), k as i64 / i64::from(size[0]));
     let (x, y) = place(pixel);
     ship.iter().any(|&k| (place(k).0 - x).abs() <= 1 && (place(k).1 - y).abs() <= 1)
+}
+
+/// Thin images are summed in tiles of their own, which are made black before: of the frame before nothing is left. A few pixels to the side
+/// the images come to lie in tiles that they were in, at other places.
+#[test]
+fn thin_images_leave_nothing_behind() {
+    let (size, config, mut renderer, stage, moment) = a_chase_of([480, 270]);
+    let settings = Settings { stars: false, milky_way: false, ..stage::settings(&config) };
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let turned = |degrees: f64| {
+        let attitude = camera.attitude * glam::DQuat::from_rotation_y(degrees.to_radians());
+        stage.frame(Observer { attitude, ..camera }, size, moment.time(), &moment.histories(), None, &settings)
+    };
+    let (before, after) = (turned(1.0), turned(0.0));
+    let alone = renderer.picture(&after, true).unwrap();
+    let thin = alone.thin.iter().filter(|part| **part > 0.0).count();
+    assert!(thin > 10, "{thin} pixels of thin images");
+    renderer.picture(&before, false).unwrap();
+    let later = renderer.picture(&after, false).unwrap();
+    // Sums are rounded in any order.
+    let differs = |a: f32, b: f32| (a - b).abs() > 0.02 * a.abs() + 1e-6;
+    let off = alone.linear.iter().zip(&later.linear).filter(|(a, b)| (0..3).any(|k| differs(a[k], b[k]))).count();
+    assert_eq!(off, 0, "pixels that differ, of {thin} of thin images");
 }

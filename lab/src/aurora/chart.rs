@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::experiment::{self, ExperimentRequest, Row, Runner, View};
 use crate::chart::{Output, Provenance, Sheet, SheetError};
-use crate::plot::{Axis, Figure, Line, Lines, Panel, PlotError, Point, Scatter};
+use crate::plot::{Axis, Bars, Figure, Guide, Line, Lines, Panel, PlotError, Point, Scatter, Series};
 
 /// Why there is no chart.
 #[derive(Debug, thiserror::Error)]
@@ -95,40 +95,44 @@ fn distinct(sheet: &Sheet, column: &str) -> Vec<String> {
     found
 }
 
-/// What the names of rows end with that are drawn by all threads, and by a graphics adapter.
-const THREADS: &str = "-threads";
-const ADAPTER: &str = "-gpu";
+/// What is drawn: the name in the table, and what it is called.
+const SHOWN: [(&str, &str); 6] = [
+    ("particles-no-table", "particles, the paper's baseline"),
+    ("particles", "particles"),
+    ("particles-pyramid", "particles, pyramid"),
+    ("linear", "linear walk"),
+    ("exact", "exact walk"),
+    ("exact-pyramid", "exact walk, pyramid"),
+];
 
-/// The colour of a row: that of the same way on one thread, as there are more rows than colours that can be told apart.
-fn family(methods: &[String], method: &str) -> usize {
-    let own = method.trim_end_matches(THREADS).trim_end_matches(ADAPTER);
-    methods.iter().filter(|method| !method.ends_with(THREADS) && !method.ends_with(ADAPTER)).position(|method| method == own).unwrap_or(0)
-}
+/// Pairs of rows that are set against each other, and a column: particles, walk.
+const FACTORS: [(&str, &str, &str, &str); 5] = [
+    ("the walk\nalone", "particles", "exact", "walk_ms"),
+    ("pass,\ntable", "particles", "exact", "total_ms"),
+    ("pass,\npyramid", "particles-pyramid", "exact-pyramid", "total_ms"),
+    ("the same,\nall threads", "particles-pyramid-threads", "exact-pyramid-threads", "total_ms"),
+    ("pass on the\nadapter", "particles-gpu", "exact-gpu", "total_ms"),
+];
 
 /// Differences are drawn no lower: those of rounding.
 const LEAST_DIFFERENCE: f64 = 1e-7;
 
-/// Three rows of panels, a column for each view: time against electrons at the middle radius, error against time for all, and against time
-/// the difference from the particle method with the same random numbers.
+/// A row of panels for each view: time against electrons at the middle radius, error against time, the difference from the particle method
+/// with the same random numbers, and how many times as fast the exact walk is.
 pub fn draw(sheet: &Sheet) -> Figure {
     let shown = Shown::new(sheet);
     let measured = distinct(sheet, "view");
     let views: Vec<&str> = View::ALL.iter().map(|(_, name)| *name).filter(|name| measured.iter().any(|view| view == name)).collect();
-    let mut panels: Vec<Panel> = views.iter().map(|view| shown.times(view)).collect();
-    panels.extend(views.iter().map(|view| shown.errors(view)));
-    // A sheet of before has no such column.
-    let known = sheet.column("difference").is_ok();
-    if known {
-        panels.extend(views.iter().map(|view| shown.differences(view)));
-    }
+    let panels = views.iter().flat_map(|view| [shown.times(view), shown.errors(view), shown.differences(view), shown.factors(view)]);
     Figure {
+        verdict: shown.verdict(&views),
         title: "Aurora: walks on the screen against particles in space".into(),
-        subtitle:
-            "Means over the auroras; the same electrons and random numbers in every method. Dashed: all threads, or the graphics adapter (-gpu). “bent” is seen through the lensing of a hole."
-                .into(),
-        panels,
-        columns: views.len().max(1),
-        size: [1900, if known { 1600 } else { 1100 }],
+        subtitle: "Means over the auroras; the same electrons and random numbers in every method. One thread unless said. “bent” is seen \
+                   through the lensing of a hole. Left of and below the others is better."
+            .into(),
+        panels: panels.collect(),
+        columns: 4,
+        size: [1900, 150 + 400 * views.len() as u32],
         footer: Provenance::footer(&sheet.notes),
     }
 }
@@ -136,7 +140,6 @@ pub fn draw(sheet: &Sheet) -> Figure {
 /// What the panels show of the table.
 struct Shown<'a> {
     sheet: &'a Sheet,
-    methods: Vec<String>,
     /// The middle one of the radii.
     radius: String,
     /// The greatest number of electrons.
@@ -146,12 +149,7 @@ struct Shown<'a> {
 impl<'a> Shown<'a> {
     fn new(sheet: &'a Sheet) -> Shown<'a> {
         let (radii, counts) = (distinct(sheet, "radius_km"), distinct(sheet, "electrons"));
-        Shown {
-            sheet,
-            methods: distinct(sheet, "method"),
-            radius: radii.get(radii.len() / 2).cloned().unwrap_or_default(),
-            most: counts.last().cloned().unwrap_or_default(),
-        }
+        Shown { sheet, radius: radii.get(radii.len() / 2).cloned().unwrap_or_default(), most: counts.last().cloned().unwrap_or_default() }
     }
 
     /// The rows of a view at the radius shown.
@@ -160,18 +158,39 @@ impl<'a> Shown<'a> {
         sheet.rows.iter().filter(move |row| sheet.text(row, "view") == view && sheet.text(row, "radius_km") == self.radius)
     }
 
+    /// A column of a method in a view with the most electrons; NaN where it was not measured.
+    fn of(&self, view: &str, method: &str, column: &str) -> f64 {
+        let found = self.rows(view).find(|row| self.sheet.text(row, "method") == method && self.sheet.text(row, "electrons") == self.most);
+        found.map_or(f64::NAN, |row| self.sheet.number(row, column))
+    }
+
+    /// How many times less the exact walk alone takes, over the views.
+    fn verdict(&self, views: &[&str]) -> String {
+        let range = |(_, slow, fast, column): (&str, &str, &str, &str)| {
+            let factors = views.iter().map(|view| self.of(view, slow, column) / self.of(view, fast, column)).filter(|f| f.is_finite());
+            factors.fold([f64::INFINITY, 0.0], |[least, most], f| [least.min(f), most.max(f)])
+        };
+        let ([low, high], [least, most]) = (range(FACTORS[0]), range(FACTORS[2]));
+        let worse = views.iter().map(|view| self.of(view, "exact", "error") / self.of(view, "particles", "error") - 1.0);
+        let worse = 100.0 * worse.filter(|share| share.is_finite()).fold(0.0, f64::max);
+        let error = if worse < 0.05 { "at the same error".to_owned() } else { format!("at an error up to {worse:.1} % greater") };
+        format!(
+            "The exact walk takes {low:.0} to {high:.0} times less time than particles, a whole pass with a pyramid {least:.1} to {most:.1} times \
+             less, {error}"
+        )
+    }
+
     /// Time against electrons, a line for each method.
     fn times(&self, view: &str) -> Panel {
-        let lines = self.methods.iter().map(|method| Line {
-            name: method.clone(),
+        let lines = SHOWN.iter().map(|(method, name)| Line {
+            name: (*name).into(),
             points: self
                 .rows(view)
-                .filter(|row| self.sheet.text(row, "method") == method)
+                .filter(|row| self.sheet.text(row, "method") == *method)
                 .map(|row| [self.sheet.number(row, "electrons"), self.sheet.number(row, "total_ms")])
                 .collect(),
-            dashed: method.ends_with(THREADS) || method.ends_with(ADAPTER),
             dots: true,
-            color: Some(family(&self.methods, method)),
+            ..Line::default()
         });
         Panel::Lines(Lines {
             title: format!("{view}: splats of {} km", self.radius),
@@ -184,15 +203,15 @@ impl<'a> Shown<'a> {
 
     /// A column against time, a point for each method with the most electrons.
     fn points(&self, view: &str, column: &str) -> Vec<Point> {
-        let point = |row: &Vec<String>| Point {
-            x: self.sheet.number(row, "total_ms"),
-            y: self.sheet.number(row, column),
-            label: self.sheet.text(row, "method").to_owned(),
-            family: family(&self.methods, self.sheet.text(row, "method")),
+        let point = |(family, (method, name)): (usize, &(&str, &str))| Point {
+            x: self.of(view, method, "total_ms"),
+            y: self.of(view, method, column),
+            label: (*name).into(),
+            family,
             failed: false,
             chosen: false,
         };
-        self.rows(view).filter(|row| self.sheet.text(row, "electrons") == self.most).map(point).collect()
+        SHOWN.iter().enumerate().map(point).filter(|point| point.x > 0.0).collect()
     }
 
     fn errors(&self, view: &str) -> Panel {
@@ -208,16 +227,28 @@ impl<'a> Shown<'a> {
     }
 
     fn differences(&self, view: &str) -> Panel {
-        // The particle method itself, on one thread, is no point: it differs by nothing.
+        // The particle method itself is no point: it differs by nothing.
         let mut points = self.points(view, "difference");
         points.retain(|point| point.y > 0.0);
         points.iter_mut().for_each(|point| point.y = point.y.max(LEAST_DIFFERENCE));
         Panel::Scatter(Scatter {
             title: format!("{view}: the same random numbers"),
             x: Axis::log("time of a frame, ms"),
-            y: Axis::log("difference from the particle method"),
+            y: Axis::log("difference from particles"),
             points,
             ..Scatter::default()
+        })
+    }
+
+    fn factors(&self, view: &str) -> Panel {
+        let factor = |(_, slow, fast, column): (&str, &str, &str, &str)| self.of(view, slow, column) / self.of(view, fast, column);
+        Panel::Bars(Bars {
+            title: format!("{view}: particles over exact walk"),
+            y: Axis::linear("times as fast"),
+            groups: FACTORS.iter().map(|(name, ..)| (*name).to_owned()).collect(),
+            series: vec![Series { name: String::new(), values: FACTORS.map(|f| Some(factor(f))).to_vec() }],
+            values: true,
+            guides: vec![Guide { at: 1.0, label: String::new() }],
         })
     }
 }
@@ -225,18 +256,12 @@ impl<'a> Shown<'a> {
 /// The ratios that the experiment is about, a line for each view at the greatest number of electrons and the middle radius, as a Markdown
 /// table: milliseconds of the particle method and of the exact walk, and how many times less the walk takes.
 pub fn ratios(sheet: &Sheet) -> String {
-    let Shown { radius, most, .. } = Shown::new(sheet);
+    let shown = Shown::new(sheet);
     let mut text = String::from(
         "| view | walk | walk, the fall tabulated for both | whole pass, table | whole pass, pyramid | the same on all threads | the paper's baseline → exact, pyramid | walk on the adapter | whole pass on the adapter | error: exact, with pyramid, linear | difference from the particle method: exact, with pyramid, linear |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     for view in distinct(sheet, "view") {
-        let of = |method: &str, column: &str| {
-            let found = sheet.rows.iter().find(|row| {
-                let is = |column: &str, text: &str| sheet.text(row, column) == text;
-                is("view", &view) && is("method", method) && is("radius_km", &radius) && is("electrons", &most)
-            });
-            found.map_or(f64::NAN, |row| sheet.number(row, column))
-        };
+        let of = |method: &str, column: &str| shown.of(&view, method, column);
         let pair = |slow: &str, fast: &str, column: &str| {
             let (slow, fast) = (of(slow, column), of(fast, column));
             if slow.is_nan() { "–".to_owned() } else { format!("{slow:.1} → {fast:.2} ({:.1} ×)", slow / fast) }

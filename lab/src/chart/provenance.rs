@@ -28,6 +28,14 @@ impl Provenance {
         Provenance { processor: processor(), adapter: adapter.to_owned(), date: today(), commit: commit(), command }
     }
 
+    /// What the notes of a sheet say; None if they name no commit.
+    pub fn told(notes: &[(String, String)]) -> Option<Provenance> {
+        let text = |name: &str| notes.iter().find(|(n, _)| n == name).map(|(_, text)| text.clone());
+        let [processor, adapter, date, commit, command] = NOTES.map(text);
+        let all = |text: Option<String>| text.unwrap_or_default();
+        Some(Provenance { processor: all(processor), adapter: all(adapter), date: all(date), commit: commit?, command: all(command) })
+    }
+
     /// As the notes of a sheet.
     pub fn notes(&self) -> Vec<(String, String)> {
         let texts = [&self.processor, &self.adapter, &self.date, &self.commit, &self.command];
@@ -70,13 +78,16 @@ pub fn civil(days: i64) -> [i64; 3] {
     [era * 400 + year_of_era + i64::from(month <= 2), month, day]
 }
 
-/// The commit checked out, shortened, with "+" if files differ from it.
+/// The commit checked out, shortened, with "+" if files differ from it. Documents do not count: what has just been measured lies there.
 fn commit() -> String {
     let git = |args: &[&str]| {
         let output = std::process::Command::new("git").args(args).output().ok()?;
         output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
     };
-    match (git(&["rev-parse", "--short=10", "HEAD"]), git(&["status", "--porcelain", "--untracked-files=no"])) {
+    match (
+        git(&["rev-parse", "--short=10", "HEAD"]),
+        git(&["status", "--porcelain", "--untracked-files=no", "--", ":/", ":(top,exclude)docs"]),
+    ) {
         (Some(commit), Some(changes)) => format!("{commit}{}", if changes.is_empty() { "" } else { "+" }),
         _ => String::new(),
     }

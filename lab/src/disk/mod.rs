@@ -3,6 +3,7 @@
 pub mod bench;
 pub mod chart;
 mod chase;
+mod draw;
 pub mod error;
 pub mod exact;
 pub mod flight;

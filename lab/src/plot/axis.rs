@@ -219,10 +219,16 @@ pub fn frame(area: Area, titles: &Titles, [x, y]: [Scale; 2], ticks_x: bool, sha
 /// A rectangle that is taken: left, top, right, bottom.
 pub type Bounds = [f64; 4];
 
-/// Dashed lines across the plane at values of the axis upward (`upward` false: of the axis across), with their words; returns
-/// where the words are.
-pub fn guides(plane: &Plane, guides: &[Guide], upward: bool, shapes: &mut Vec<Shape>) -> Vec<Bounds> {
-    let mut taken = Vec::new();
+/// How much of `b` lies on `a`, in square pixels.
+pub fn overlap(a: Bounds, b: Bounds) -> f64 {
+    let across = (a[2].min(b[2]) - a[0].max(b[0])).max(0.0);
+    let down = (a[3].min(b[3]) - a[1].max(b[1])).max(0.0);
+    across * down
+}
+
+/// Dashed lines across the plane at values of the axis upward (`upward` false: of the axis across). Their words go to the end of the line
+/// where they cover least of what is `taken` and of the points to `avoid`; where they are is added to `taken`.
+pub fn guides(plane: &Plane, guides: &[Guide], upward: bool, avoid: &[[f64; 2]], taken: &mut Vec<Bounds>, shapes: &mut Vec<Shape>) {
     let Area { x: [left, right], y: [top, bottom] } = plane.inner;
     for guide in guides {
         let scale = if upward { plane.y } else { plane.x };
@@ -230,13 +236,27 @@ pub fn guides(plane: &Plane, guides: &[Guide], upward: bool, shapes: &mut Vec<Sh
             continue;
         }
         let [px, py] = plane.place(guide.at, guide.at);
-        let (from, to, words) =
-            if upward { ([left, py], [right, py], [right - 6.0, py - 8.0]) } else { ([px, top], [px, bottom], [px - 4.0, top + 10.0]) };
+        let (from, to) = if upward { ([left, py], [right, py]) } else { ([px, top], [px, bottom]) };
         shapes.push(Shape::Path { points: vec![from, to], color: GREY, width: 1.0, dash: 6.0 });
-        taken.push([words[0] - width(&guide.label, SMALL), words[1] - 7.0, words[0], words[1] + 7.0]);
-        shapes.push(Shape::text(words, guide.label.clone(), SMALL, GREY, Anchor::End));
+        if guide.label.is_empty() {
+            continue;
+        }
+        let wide = width(&guide.label, SMALL);
+        let at = |x: f64, y: f64| [x, y - 7.0, x + wide, y + 7.0];
+        let places: Vec<Bounds> = if upward {
+            [py - 8.0, py + 9.0].into_iter().flat_map(|y| [right - 6.0 - wide, left + 6.0].map(|x| at(x, y))).collect()
+        } else {
+            (0..4).map(|row| top + 10.0 + 15.0 * f64::from(row)).flat_map(|y| [px - 4.0 - wide, px + 4.0].map(|x| at(x, y))).collect()
+        };
+        let inside = |b: &&Bounds| b[0] >= left && b[2] <= right && b[1] >= top && b[3] <= bottom;
+        let cost = |b: &Bounds| {
+            let points = avoid.iter().filter(|p| p[0] > b[0] && p[0] < b[2] && p[1] > b[1] && p[1] < b[3]).count();
+            taken.iter().map(|other| overlap(*b, *other)).sum::<f64>() * 10.0 + points as f64
+        };
+        let Some(place) = places.iter().filter(inside).min_by(|a, b| cost(a).total_cmp(&cost(b))).copied() else { continue };
+        taken.push(place);
+        shapes.push(Shape::text([place[0], 0.5 * (place[1] + place[3])], guide.label.clone(), SMALL, GREY, Anchor::Start));
     }
-    taken
 }
 
 /// Names with their colours in a row, from `at`, wrapped at `right`; returns the height used.

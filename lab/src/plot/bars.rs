@@ -2,8 +2,8 @@
 
 use super::Guide;
 use super::axis::{self, Area, Axis, Titles, tick_text};
-use super::paint::{Anchor, Shape, width};
-use super::style::{FAILED, INK, SMALL, color};
+use super::paint::{Anchor, Shape, cross, width};
+use super::style::{INK, SMALL, color};
 
 /// A panel of bars: groups beside each other, in each one bar for every series.
 #[derive(Clone, Debug, Default)]
@@ -60,9 +60,7 @@ pub(super) fn draw(panel: &Bars, mut area: Area, shapes: &mut Vec<Shape>) {
                 Some(_) => {}
                 None if group < series.values.len() => {
                     let at = [plane.place(side(0.5), y.low())[0], bottom - 10.0];
-                    for turn in [1.0, -1.0] {
-                        shapes.push(Shape::line([at[0] - 5.0, at[1] - 5.0 * turn], [at[0] + 5.0, at[1] + 5.0 * turn], FAILED, 2.0));
-                    }
+                    cross(at, 5.0, shapes);
                 }
                 None => {}
             }
@@ -72,7 +70,7 @@ pub(super) fn draw(panel: &Bars, mut area: Area, shapes: &mut Vec<Shape>) {
             shapes.push(Shape::text([middle, bottom + 13.0 + 15.0 * i as f64], line, SMALL, INK, Anchor::Middle));
         }
     }
-    axis::guides(&plane, &panel.guides, true, shapes);
+    axis::guides(&plane, &panel.guides, true, &[], &mut Vec::new(), shapes);
 }
 
 /// Three significant digits.

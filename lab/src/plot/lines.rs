@@ -2,7 +2,7 @@
 
 use super::Guide;
 use super::axis::{self, Area, Axis, Titles};
-use super::paint::Shape;
+use super::paint::{Shape, cross};
 use super::style::color;
 
 /// A panel of curves.
@@ -35,6 +35,8 @@ pub struct Line {
     pub dots: bool,
     /// The colour's index; None takes the place in the list.
     pub color: Option<usize>,
+    /// Where it fails: red crosses.
+    pub failed: Vec<[f64; 2]>,
 }
 
 pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
@@ -44,12 +46,13 @@ pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
         area.y[1] -= axis::legend(&entries, [0.0, 0.0], area.x[1] - area.x[0] - 60.0, &mut Vec::new());
         axis::legend(&entries, [area.x[0] + 40.0, area.y[1] + 8.0], area.x[1] - 20.0, shapes);
     }
-    let all = || panel.lines.iter().flat_map(|line| &line.points);
+    let all = || panel.lines.iter().flat_map(|line| line.points.iter().chain(&line.failed));
     let x = panel.x.fitted(all().map(|p| p[0]).chain(panel.guides_x.iter().map(|g| g.at)));
     let y = panel.y.fitted(all().map(|p| p[1]).chain(panel.guides.iter().map(|g| g.at)));
     let plane = axis::frame(area, &Titles { title: &panel.title, x: &panel.x.label, y: &panel.y.label }, [x, y], true, shapes);
-    axis::guides(&plane, &panel.guides, true, shapes);
-    axis::guides(&plane, &panel.guides_x, false, shapes);
+    let (curves, mut taken) = (curves(panel, &plane), Vec::new());
+    axis::guides(&plane, &panel.guides, true, &curves, &mut taken, shapes);
+    axis::guides(&plane, &panel.guides_x, false, &curves, &mut taken, shapes);
     for (i, line) in panel.lines.iter().enumerate() {
         for piece in line.points.split(|p| !p.iter().all(|v| v.is_finite())).filter(|piece| !piece.is_empty()) {
             let points: Vec<_> = piece.iter().map(|p| plane.clamped(p[0], p[1])).collect();
@@ -59,4 +62,21 @@ pub(super) fn draw(panel: &Lines, mut area: Area, shapes: &mut Vec<Shape>) {
             shapes.push(Shape::Path { points, color: ink(i), width: 2.0, dash: if line.dashed { 6.0 } else { 0.0 } });
         }
     }
+    for at in panel.lines.iter().flat_map(|line| &line.failed).map(|p| plane.clamped(p[0], p[1])) {
+        cross(at, 5.0, shapes);
+    }
+}
+
+/// Points along the curves, a few pixels apart: where words should not be.
+fn curves(panel: &Lines, plane: &axis::Plane) -> Vec<[f64; 2]> {
+    const STEPS: u32 = 24;
+    let mut all = Vec::new();
+    for pair in panel.lines.iter().flat_map(|line| line.points.windows(2)) {
+        if !pair.iter().flatten().all(|v| v.is_finite()) {
+            continue;
+        }
+        let [a, b] = [pair[0], pair[1]].map(|p| plane.clamped(p[0], p[1]));
+        all.extend((0..=STEPS).map(|k| f64::from(k) / f64::from(STEPS)).map(|t| [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]));
+    }
+    all
 }

@@ -2,7 +2,7 @@
 
 use super::Guide;
 use super::axis::{self, Area, Axis, Plane, Scale, Titles, tick_text};
-use super::paint::{Anchor, Shape};
+use super::paint::{Anchor, Shape, width};
 use super::style::{Color, FAILED, INK, SMALL, WHITE, scale};
 
 /// A panel of coloured cells.
@@ -84,7 +84,13 @@ fn guides_across(panel: &Map, plane: &Plane, shapes: &mut Vec<Shape>) {
         // White under ink: seen on every colour.
         shapes.push(Shape::line([at, top], [at, bottom], WHITE, 3.0));
         shapes.push(Shape::Path { points: vec![[at, top], [at, bottom]], color: INK, width: 1.0, dash: 4.0 });
-        shapes.push(Shape::text([at, top - 6.0], guide.label.clone(), SMALL, INK, Anchor::Middle));
+        if guide.label.is_empty() {
+            continue;
+        }
+        // Under the upper edge, on paper.
+        let half = 0.5 * width(&guide.label, SMALL) + 3.0;
+        shapes.push(Shape::Rect { from: [at - half, top + 3.0], to: [at + half, top + 19.0], color: WHITE });
+        shapes.push(Shape::text([at, top + 11.0], guide.label.clone(), SMALL, INK, Anchor::Middle));
     }
 }
 

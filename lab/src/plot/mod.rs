@@ -27,7 +27,9 @@ pub use style::{Color, color, fade};
 /// One picture: panels in a grid, a title above, footer lines below.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
-    /// What it shows, in large letters.
+    /// One sentence that says what comes of it, from its numbers, in large letters on top.
+    pub verdict: String,
+    /// What it shows.
     pub title: String,
     /// A sentence or two under the title that says what to see; lines split at `\n`.
     pub subtitle: String,
@@ -64,8 +66,16 @@ pub struct Guide {
 }
 
 impl Figure {
+    /// What a stranger would stumble over: no verdict, too many series, words on words.
+    pub fn faults(&self) -> Vec<String> {
+        page::faults(self)
+    }
+
     /// Writes `<folder>/<name>.svg` and `<folder>/<name>.png`; makes the folder. Returns the two paths.
     pub fn save(&self, folder: &Path, name: &str) -> Result<[PathBuf; 2], PlotError> {
+        for fault in self.faults() {
+            eprintln!("{name}: hard to read: {fault}");
+        }
         let shapes = page::lay_out(self);
         std::fs::create_dir_all(folder).map_err(|error| PlotError::Io(folder.to_path_buf(), error))?;
         let [svg, png] = ["svg", "png"].map(|extension| folder.join(format!("{name}.{extension}")));

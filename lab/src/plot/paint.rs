@@ -11,7 +11,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontDesc, FontFamily, FontStyle, FontTransform, IntoTextStyle, RGBColor, ShapeStyle, register_font};
 
-use super::style::{Color, WHITE};
+use super::style::{Color, FAILED, WHITE};
 
 /// PNGs are drawn this many times larger and averaged down: thin lines and letters come out smooth.
 const OVERSAMPLING: u32 = 2;
@@ -65,6 +65,30 @@ impl Shape {
     /// Text that is not turned.
     pub fn text(at: [f64; 2], text: impl Into<String>, size: f64, color: Color, anchor: Anchor) -> Shape {
         Shape::Text { at, text: text.into(), size, color, anchor, upward: false }
+    }
+}
+
+impl Shape {
+    /// The words of a text and where they are: left, top, right, bottom.
+    pub fn bounds(&self) -> Option<(&str, [f64; 4])> {
+        let Shape::Text { at: [x, y], text, size, anchor, upward, .. } = self else { return None };
+        let (wide, half) = (width(text, *size), 0.45 * size);
+        let before = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => 0.5 * wide,
+            Anchor::End => wide,
+        };
+        let bounds =
+            if *upward { [x - half, y - wide + before, x + half, y + before] } else { [x - before, y - half, x - before + wide, y + half] };
+        Some((text, bounds))
+    }
+}
+
+/// A red cross: what failed.
+pub fn cross(at: [f64; 2], radius: f64, shapes: &mut Vec<Shape>) {
+    for turn in [1.0, -1.0] {
+        let (from, to) = ([at[0] - radius, at[1] - turn * radius], [at[0] + radius, at[1] + turn * radius]);
+        shapes.push(Shape::line(from, to, FAILED, 2.0));
     }
 }
 

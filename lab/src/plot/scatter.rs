@@ -1,7 +1,7 @@
 //! Labelled points over two axes, with the line of those that nothing beats.
 
-use super::axis::{self, Area, Axis, Bounds, Plane, Titles};
-use super::paint::{Anchor, Shape, width};
+use super::axis::{self, Area, Axis, Bounds, Plane, Titles, overlap};
+use super::paint::{Anchor, Shape, cross, width};
 use super::style::{FAILED, GOOD, GREY, HEADING, INK, SMALL, color, fade};
 use super::{Guide, pareto};
 
@@ -70,8 +70,11 @@ pub(super) fn draw(panel: &Scatter, area: Area, shapes: &mut Vec<Shape>) {
         // Under the grid.
         shapes.insert(under, Shape::Rect { from: [left, plane.clamped(plane.x.low(), limit)[1]], to: [right, bottom], color: GOOD });
     }
-    let mut taken = axis::guides(&plane, &panel.guides, true, shapes);
-    taken.extend(axis::guides(&plane, &panel.guides_x, false, shapes));
+    let places: Vec<_> = panel.points.iter().filter(|p| p.y.is_finite()).map(|p| plane.clamped(p.x, p.y)).collect();
+    let mut taken = Vec::new();
+    axis::guides(&plane, &panel.guides, true, &places, &mut taken, shapes);
+    axis::guides(&plane, &panel.guides_x, false, &places, &mut taken, shapes);
+    let guides = taken.len();
 
     let pairs: Vec<[f64; 2]> = panel.points.iter().map(|p| if p.failed { [f64::NAN; 2] } else { [p.x, p.y] }).collect();
     let best = if panel.pareto { pareto(&pairs) } else { (0..pairs.len()).collect() };
@@ -95,15 +98,12 @@ pub(super) fn draw(panel: &Scatter, area: Area, shapes: &mut Vec<Shape>) {
         marks.push((at, i));
         mark(point, at, best.contains(&i), shapes);
     }
-    labels(panel, &plane, &marks, &best, taken, shapes);
+    labels(panel, &plane, &marks, &best, (taken, guides), shapes);
 }
 
 fn mark(point: &Point, at: [f64; 2], best: bool, shapes: &mut Vec<Shape>) {
     if point.failed {
-        for turn in [1.0, -1.0] {
-            let (from, to) = ([at[0] - RADIUS, at[1] - turn * RADIUS], [at[0] + RADIUS, at[1] + turn * RADIUS]);
-            shapes.push(Shape::line(from, to, FAILED, 2.0));
-        }
+        cross(at, RADIUS, shapes);
         return;
     }
     let ink = color(point.family);
@@ -113,15 +113,18 @@ fn mark(point: &Point, at: [f64; 2], best: bool, shapes: &mut Vec<Shape>) {
     }
 }
 
-fn overlap(a: Bounds, b: Bounds) -> f64 {
-    let across = (a[2].min(b[2]) - a[0].max(b[0])).max(0.0);
-    let down = (a[3].min(b[3]) - a[1].max(b[1])).max(0.0);
-    across * down
-}
-
 /// Writes the names where they cover neither points nor each other, the best first, as near their points as there is room; a thin
-/// line leads to those that had to move away.
-fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[usize], mut taken: Vec<Bounds>, shapes: &mut Vec<Shape>) {
+/// line leads to those that had to move away. What finds no room is not named. The first `guides` of what is `taken` are words.
+fn labels(
+    panel: &Scatter,
+    plane: &Plane,
+    marks: &[([f64; 2], usize)],
+    best: &[usize],
+    (mut taken, guides): (Vec<Bounds>, usize),
+    shapes: &mut Vec<Shape>,
+) {
+    let mut written = taken[..guides].to_vec();
+    let words = |place: &Bounds, written: &[Bounds]| written.iter().map(|b| overlap(*place, *b)).sum::<f64>();
     taken.extend(marks.iter().map(|(at, _)| [at[0] - 5.0, at[1] - 5.0, at[0] + 5.0, at[1] + 5.0]));
     let mut order: Vec<&([f64; 2], usize)> = marks.iter().filter(|(_, i)| !panel.points[*i].label.is_empty()).collect();
     order.sort_by_key(|(_, i)| (!panel.points[*i].chosen, !best.contains(i)));
@@ -147,7 +150,8 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
                 if !inside(&place) {
                     continue;
                 }
-                let covered: f64 = taken.iter().map(|b| overlap(place, *b)).sum();
+                // Words on words cannot be read; words on a line can.
+                let covered: f64 = taken.iter().map(|b| overlap(place, *b)).sum::<f64>() + 100.0 * words(&place, &written);
                 if found.is_none_or(|(least, ..)| covered < least - 1e-9) {
                     found = Some((covered, place, reach));
                 }
@@ -157,6 +161,10 @@ fn labels(panel: &Scatter, plane: &Plane, marks: &[([f64; 2], usize)], best: &[u
             }
         }
         let Some((_, place, reach)) = found else { continue };
+        if words(&place, &written) > 0.0 {
+            continue;
+        }
+        written.push(place);
         if reach > 15.0 + around {
             let end = [at[0].clamp(place[0], place[2]), at[1].clamp(place[1], place[3])];
             shapes.push(Shape::line(*at, end, fade(GREY, 0.3), 1.0));

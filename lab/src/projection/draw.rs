@@ -139,7 +139,7 @@ fn footer(sheet: &Sheet) -> Vec<String> {
     lines
 }
 
-/// What to use and why, from the numbers themselves: the title and the lines under it; None where the methods that they speak of did not
+/// What to use and why, from the numbers themselves: the verdict and what stands under it; None where the methods that they speak of did not
 /// take part.
 fn verdict(entries: &[Entry]) -> Option<[String; 2]> {
     let named = |name: &str| entries.iter().find(|entry| entry.name == name);
@@ -148,7 +148,7 @@ fn verdict(entries: &[Entry]) -> Option<[String; 2]> {
     Some([
         format!("Use \"table\": never off by more than {} of a pixel, in {:.0} ns", pixels(table), table.nanoseconds),
         format!(
-            "{:.0} MB of memory; eight points at once (\"table-batch\") it takes {:.0} ns a point. The best table of Yamashita 2012 takes {:.0} ns and\n\
+            "{:.0} MB of memory; eight points at once (\"table-batch\") it takes {:.0} ns a point. The best table of Yamashita 2012 takes {:.0} ns and \
              {:.0} MB, is off by up to {} pixels and leaves {:.0} % of the points unanswered.\n",
             table.bytes / 1e6,
             batch.nanoseconds,
@@ -185,14 +185,14 @@ pub fn race(sheet: &Sheet, graphics: Option<&Sheet>) -> Figure {
         Panel::Scatter(panel(true, "Error against memory, of the methods that keep a table")),
     ];
     panels.extend(graphics.map(on_adapter));
-    let [title, why] =
-        verdict(&entries).unwrap_or_else(|| ["Where a vertex is seen near a black hole: error against cost".into(), String::new()]);
+    let [verdict, why] = verdict(&entries).unwrap_or_default();
     Figure {
-        title,
+        verdict,
+        title: "Where a vertex is seen near a black hole: error against cost".into(),
         subtitle: why
-            + "Each mark is the worst error of a method that finds where a point near a black hole is seen, on points chosen to be hard. The black\n\
-               line joins what nothing beats. Red crosses fail: off by more than half a pixel, or without an answer for some points (so many\n\
-               per cent: camera inside, higher orders). Crosses without a name: smaller tables of Yamashita 2012.",
+            + "Each mark is the worst error of a method that finds where a point near a black hole is seen, on points chosen to be hard. The \
+               black line joins what nothing beats. Red crosses fail: off by more than half a pixel, or without an answer for some points \
+               (so many per cent: camera inside, higher orders). Crosses without a name: smaller tables of Yamashita 2012.",
         size: [1000, 230 + 540 * panels.len() as u32],
         columns: 1,
         panels,
@@ -210,5 +210,13 @@ pub fn everything(sheet: &Sheet) -> Figure {
         panels.push(Panel::Scatter(scatter(&entries, |e| e.most, "99.9 % of errors below, degrees", memory, guide, "")));
         panels.push(Panel::Scatter(scatter(&entries, |e| e.rms, "rms error, degrees", memory, (0.0005, "asked for"), "")));
     }
-    Figure { title: "Projection: all errors".into(), panels, columns: 3, size: [2100, 1300], footer: footer(sheet), ..Figure::default() }
+    Figure {
+        verdict: verdict(&entries).unwrap_or_default()[0].clone(),
+        title: "Projection: all errors".into(),
+        panels,
+        columns: 3,
+        size: [2100, 1300],
+        footer: footer(sheet),
+        ..Figure::default()
+    }
 }

@@ -133,6 +133,7 @@ pub fn draw(sheet: &Sheet) -> Figure {
     }
     let rows = panels.len().div_ceil(planes.len()).max(1) as u32;
     Figure {
+        verdict: verdict(sheet),
         title: "Where each method fails: the error of the primary image (order 1) over r and φ".into(),
         subtitle: "Blue is below half a pixel at 3840 over 60°, green and yellow can be seen. Red: no answer, or one where no light goes. White: no light.\n\
                    Dashed: r = L, the camera's own radius. First column: camera and point both inside the horizon, the worse of E > 0 and E < 0."
@@ -142,4 +143,19 @@ pub fn draw(sheet: &Sheet) -> Figure {
         size: [1700, 130 + 185 * rows],
         footer: Provenance::footer(&sheet.notes),
     }
+}
+
+/// The share of all places with light at which each method is off by more than half a pixel or has no answer.
+fn verdict(sheet: &Sheet) -> String {
+    let share = |method: &str| {
+        let rows = sheet.rows.iter().filter(|row| sheet.text(row, "method") == method);
+        let lit: Vec<f64> = rows.flat_map(|row| row.iter().skip(4)).map(|cell| cell.parse().unwrap_or(f64::NAN)).collect();
+        let lit: Vec<f64> = lit.into_iter().filter(|error| *error != f64::NEG_INFINITY).collect();
+        let failed = lit.iter().filter(|error| error.is_nan() || **error > HALF_PIXEL).count();
+        100.0 * failed as f64 / lit.len().max(1) as f64
+    };
+    let mut methods: Vec<&str> = sheet.rows.iter().map(|row| sheet.text(row, "method")).collect();
+    methods.dedup();
+    let told: Vec<String> = methods.into_iter().map(|method| format!("{method} in {:.0} %", share(method))).collect();
+    format!("Places where a method is off by more than half a pixel: {}", told.join(", "))
 }

@@ -2,6 +2,7 @@
 //! Gourgoulhon and Perrin, *Class. Quantum Grav.* 28 (2011) 225011): redshift and bolometric flux pixel by pixel, error against rays per
 //! second and core.
 
+mod draw;
 mod gyoto;
 pub mod ray;
 
@@ -11,7 +12,7 @@ use std::time::Instant;
 use glam::DVec3;
 
 use super::chart::{Output, Provenance, Sheet, SheetError};
-use super::plot::{Axis, Figure, Guide, Panel, PlotError, Point, Scatter};
+use super::plot::PlotError;
 use crate::thin_disk::ray::{Impact, Ring, Screen, image, orbit_shift};
 use lensrunner::judge::picture::{Crossing, World};
 use lensrunner::scene::disk::radial::page_thorne_flux;
@@ -154,7 +155,7 @@ const COLUMNS: [&str; 9] =
 /// Measures, or takes the CSV that is there, and draws.
 pub fn run(request: &ThinDiskRequest) -> Result<Vec<PathBuf>, ThinDiskError> {
     let sheet = request.output.sheet::<ThinDiskError>(NAME, || Ok(measure(request.pixels)))?;
-    let [svg, png] = figure(&sheet).save(&request.output.folder, NAME)?;
+    let [svg, png] = draw::figure(&sheet).save(&request.output.folder, NAME)?;
     Ok(vec![request.output.csv(NAME), svg, png])
 }
 
@@ -209,45 +210,6 @@ fn timed(rays: usize, seconds: f64, mut draw: impl FnMut() -> Vec<Impact>) -> (V
         if began.elapsed().as_secs_f64() > seconds {
             return (picture, rays as f64 / best);
         }
-    }
-}
-
-fn figure(sheet: &Sheet) -> Figure {
-    let methods = ["shape of the ray", "judge", "Gyoto"];
-    let points = |error: &str| -> Vec<Point> {
-        sheet
-            .rows
-            .iter()
-            .filter_map(|row| {
-                let family = methods.iter().position(|method| *method == sheet.text(row, "method"))?;
-                let (x, y) = (sheet.number(row, "rays_per_second"), sheet.number(row, error));
-                let label = sheet.text(row, "tolerance").to_owned();
-                (x > 0.0 && y.is_finite()).then(|| Point { x, y: y.max(1e-17), label, family, failed: false, chosen: false })
-            })
-            .collect()
-    };
-    let gyoto = sheet.rows.iter().find(|row| sheet.text(row, "method") == "Gyoto" && sheet.number(row, "tolerance") == 1e-6);
-    let rate = gyoto.map(|row| sheet.number(row, "rays_per_second"));
-    let panel = |title: &str, error: &str| {
-        Panel::Scatter(Scatter {
-            title: title.into(),
-            x: Axis::log("rays per second and core"),
-            y: Axis::log("median difference from the judge at 1e-16"),
-            points: points(error),
-            families: methods.map(String::from).to_vec(),
-            guides_x: rate.map(|rate| Guide { at: 1000.0 * rate, label: "1,000 × Gyoto".into() }).into_iter().collect(),
-            ..Scatter::default()
-        })
-    };
-    let mut footer = Provenance::footer(&sheet.notes);
-    footer.extend(sheet.note("Gyoto").map(|note| format!("Gyoto: {note}")));
-    Figure {
-        title: "A thin disk of Page and Thorne: error against speed".into(),
-        subtitle: "Seen from 100 M at 70°, cut off at 50 M. Each point is a tolerance. Right and down is better.".into(),
-        panels: vec![panel("Redshift", "shift_median"), panel("Bolometric flux, of the brightest", "flux_median")],
-        columns: 2,
-        size: [1400, 700],
-        footer,
     }
 }
 

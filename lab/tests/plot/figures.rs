@@ -66,6 +66,7 @@ fn everything() -> Figure {
         guides: vec![Guide { at: 0.008, label: "½ px".into() }],
     };
     Figure {
+        verdict: "Everything is drawn".into(),
         title: "All there is".into(),
         subtitle: "One line.\nAnother.".into(),
         panels: vec![Panel::Scatter(scatter), Panel::Lines(lines), Panel::Bars(bars), Panel::Map(map)],
@@ -80,8 +81,17 @@ fn one_figure_becomes_svg_and_png() {
     let folder = crate::support::Folder::new();
     let [svg, png] = everything().save(folder.path(), "all").unwrap();
     let text = std::fs::read_to_string(svg).unwrap();
-    for word in ["All there is", "Another.", "exact φ ψ ≤ × °", "broken", "half a pixel", "dashed", "theirs", "lensrunner-lab chart"]
-    {
+    for word in [
+        "Everything is drawn",
+        "All there is",
+        "Another.",
+        "exact φ ψ ≤ × °",
+        "broken",
+        "half a pixel",
+        "dashed",
+        "theirs",
+        "lensrunner-lab chart",
+    ] {
         assert!(text.contains(word), "the SVG lacks {word}");
     }
     let picture = image::open(png).unwrap().to_rgb8();
@@ -128,4 +138,24 @@ fn the_pareto_line_holds_what_nothing_beats() {
 fn ticks_are_short() {
     let texts = [0.0, 0.001, 20.0, 1e-6, 2.5e7, 100_000.0, 0.25].map(tick_text);
     assert_eq!(texts, ["0", "0.001", "20", "1e-6", "2.5e7", "100000", "0.25"]);
+}
+
+#[test]
+fn what_is_hard_to_read_is_told() {
+    assert_eq!(everything().faults(), Vec::<String>::new());
+    let silent = Figure { verdict: String::new(), ..everything() };
+    assert_eq!(silent.faults(), ["there is no verdict"]);
+    let mut crowded = everything();
+    if let Panel::Lines(lines) = &mut crowded.panels[1] {
+        lines.lines = (0..7).map(|k| Line { name: format!("line {k}"), ..Line::default() }).collect();
+    }
+    assert!(crowded.faults().iter().any(|fault| fault.contains("7 series")), "{:?}", crowded.faults());
+    // Names of groups that are longer than their bars are wide.
+    let mut covered = everything();
+    if let Panel::Bars(bars) = &mut covered.panels[2] {
+        bars.groups = vec!["a name that is far too long for the place under a bar".to_owned(); 2];
+    }
+    assert!(covered.faults().iter().any(|fault| fault.contains("lies on")), "{:?}", covered.faults());
+    let long = Figure { footer: vec!["word ".repeat(80)], ..everything() };
+    assert!(long.faults().iter().any(|fault| fault.contains("leaves the page")), "{:?}", long.faults());
 }

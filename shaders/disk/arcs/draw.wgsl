@@ -5,10 +5,16 @@
 }
 #import lensrunner::disk::light::gas_light
 #import lensrunner::disk::motion::disk_slant
-#import lensrunner::disk::types::{coverage, disk, DiskVertex}
+#import lensrunner::disk::types::{coverage, disk}
 #import lensrunner::geometry::clip::clip_position
 
-@group(1) @binding(0) var<storage, read> disk_vertices: array<DiskVertex>;
+/// `DiskVertex` from the vertex buffer.
+struct SeenDisk {
+    @location(0) apparent: vec4<f32>,
+    @location(1) gas: vec4<f32>,
+    @location(2) more: vec4<f32>,
+    @location(3) bend: vec4<f32>,
+}
 
 /// What a vertex of an arc hands on: Gas, with the height in the pattern in place of the radius, and AcrossRing. It is repeated here
 /// because what one stage hands to the next may hold no structures, and polygons do not need the rest.
@@ -33,8 +39,7 @@ struct AcrossRing {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32) -> ArcGas {
-    let seen = disk_vertices[index];
+fn vertex(seen: SeenDisk) -> ArcGas {
     let light = gas_light(seen.gas.z - seen.more.x, seen.more.x);
     let gas = gas_at(clip_position(seen.apparent.xyz), seen.gas.x, seen.gas.y, seen.apparent.w, seen.gas.w, light, seen.more.zw,
         seen.more.y);

@@ -53,10 +53,15 @@ impl Plugin for HudPlugin {
     fn build(&self, app: &mut App) {
         app.init_resource::<Panel>()
             .init_resource::<Notice>()
+            .init_resource::<Dials>()
             .add_systems(Update, panel::read_panel.in_set(GameSet::Instruments).run_if(resource_exists::<Staged>))
             .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Hud));
     }
 }
+
+/// Where the dials were painted last, in points; none before the first flight.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Dials(pub Vec<Rect>);
 
 /// What is flown: a mission and how far it has come, a replay.
 type Flown<'w> = (Option<Res<'w, ActiveMission>>, Option<Res<'w, Progress>>, Option<Res<'w, Playback>>);
@@ -72,7 +77,7 @@ fn draw(
     (panel, (bindings, device)): (Res<Panel>, Buttons),
     (notice, real, staged): (Res<Notice>, Res<Time<Real>>, Option<Res<Staged>>),
     (mission, progress, playback): Flown,
-    (slowing, mut slow): (Res<Slowing>, Local<goals::Slow>),
+    (slowing, mut slow, mut painted): (Res<Slowing>, Local<goals::Slow>, ResMut<Dials>),
 ) -> Result {
     let context = contexts.ctx_mut()?;
     let painter = context.layer_painter(egui::LayerId::background());
@@ -143,7 +148,8 @@ fn draw(
         let at = pos2(rect.right() - MARGIN, target_top(&text_boxes, rect) - BETWEEN);
         text_boxes.push(TextBox::lay(&painter, at, Align2::RIGHT_BOTTOM, f32::INFINITY, &[(&words, 12.0, TEXT)]));
     }
-    taken.panels.extend(text_boxes.iter().map(|text_box| text_box.frame));
+    painted.0 = text_boxes.iter().map(|text_box| text_box.frame).collect();
+    taken.panels.extend(&painted.0);
     if player.view == CameraView::ThirdPerson {
         taken.other.push(markers::own_ship(rect, panel.field_of_view));
     }

@@ -16,6 +16,7 @@ pub fn written(language: Language, setting: &Setting<GameConfig>, value: &Value)
         (Value::Word(word), Allowed::Choice(_)) => language.say(&format!("choice-{}-{word}", setting.key.replace('_', "-"))),
         (Value::Word(word), _) => word.clone(),
         (Value::Integer(0), _) if setting.key == "frame_limit" => language.say("menu-no-limit"),
+        (Value::Integer(0), _) if setting.key == "held_rate" => language.say("menu-displays-rate"),
         (Value::Integer(number), _) => number.to_string(),
         (Value::Number(number), _) if is_share(setting) => format!("{:.0} %", 100.0 * number),
         (Value::Number(number), _) if setting.unit == "degrees" => format!("{number:.0}°"),
@@ -40,7 +41,7 @@ fn ends(setting: &Setting<GameConfig>) -> Option<(f64, f64, f64)> {
     Some(match setting.key {
         "fov" => (40.0, 110.0, 5.0),
         "text_size" => (0.8, 2.0, 0.1),
-        "frame_limit" => (0.0, 240.0, 30.0),
+        "frame_limit" | "held_rate" => (0.0, 240.0, 30.0),
         "mouse_sensitivity" => (0.0005, 0.008, 0.0005),
         "left_stick_dead_zone" | "right_stick_dead_zone" => (0.0, 0.5, 0.02),
         "left_stick_curve" | "right_stick_curve" => (1.0, 4.0, 0.2),

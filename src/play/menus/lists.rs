@@ -124,6 +124,7 @@ pub fn settings_of(page: Page) -> &'static [&'static str] {
             "video.vsync",
             "video.frame_limit",
             "video.quality",
+            "video.held_rate",
             "video.fov",
             "accessibility.text_size",
             "interface.hud",

@@ -49,8 +49,11 @@ fn reload(
     }
     *next = real.elapsed() + PERIOD;
     let Some(changed) = std::fs::metadata(&file).and_then(|data| data.modified()).ok() else { return };
-    // What plays at the first look is what the file said.
-    let said = last.get_or_insert_with(|| session.config.clone());
+    let said = last.get_or_insert_with(|| {
+        let mut said = base.as_ref().map_or_else(|| session.config.clone(), |base| base.0.clone());
+        choices.iter().for_each(|choices| choices.over(&mut said));
+        said
+    });
     if seen.replace(changed).is_none_or(|before| before == changed) {
         return;
     }
@@ -74,22 +77,23 @@ fn reload(
     *notice = Notice { text, until: real.elapsed_secs_f64() + seconds, share: None };
 }
 
-/// What to play with after the file, which said `before`, says `now`: all of it, but what the player's keys and menus change (the pace,
-/// reduced motion) stays as it is in `playing` unless the file changed just that.
+/// What to play with after the file, which said `before`, says `now`: what it says otherwise than before; all else stays as it is in
+/// `playing`, whoever changed it: keys, menus, the overlay, the command line.
 fn taken_up(playing: &GameConfig, before: &GameConfig, now: &GameConfig) -> GameConfig {
-    let mut config = now.clone();
-    if now.clock.pace == before.clock.pace {
-        config.clock.pace = playing.clock.pace;
+    let mut config = playing.clone();
+    for setting in config::settings() {
+        let value = setting.get(now);
+        if value != setting.get(before) {
+            // It was checked as it was read.
+            _ = setting.set(&mut config, value);
+        }
     }
-    if now.video.reduced_motion == before.video.reduced_motion {
-        config.video.reduced_motion = playing.video.reduced_motion;
-    }
-    config
+    // Two that do not go together: the file's is the last word.
+    if config::check(now).is_ok() && config::check(&config).is_err() { now.clone() } else { config }
 }
 
 /// Whether the models and the disk of the scene are to be made again.
 fn changes_models(before: &GameConfig, now: &GameConfig) -> bool {
-    let (before, now) = (&before.drawn(), &now.drawn());
     if before.disk != now.disk || before.hole != now.hole || before.render.min_width != now.render.min_width {
         return true;
     }

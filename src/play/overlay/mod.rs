@@ -1,204 +1,178 @@
-//! The dev overlay: every number of `game.toml` live, and what a frame costs.
+//! The dev overlay: every number of `game.toml` live, what a frame costs, switches of light, the flow of time, moments.
+//!
+//! Two windows lie beside the picture, between the HUD's dials. What is painted only asks ([`state::Ask`]); `answer` does it.
 
+mod answer;
+mod clipboard;
+pub mod frames;
+mod groups;
+pub mod history;
 pub mod live;
+pub mod moments;
+pub mod place;
+mod plots;
+pub mod quality;
+mod rows;
+pub mod saving;
+pub mod state;
+mod time;
 
-use std::collections::VecDeque;
+use std::time::Instant;
 
+use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
-use bevy_egui::egui::{self, ComboBox, DragValue, RichText, Slider, TextEdit, Ui};
-use bevy_egui::{EguiContexts, EguiPrimaryContextPass};
+use bevy_egui::egui::{self, Rect, RichText};
+use bevy_egui::{EguiContexts, EguiPostUpdateSet, EguiPrimaryContextPass};
 
+use crate::play::choices::Choices;
+use crate::play::hud::Dials;
+use crate::play::menus::navigate::FileConfig;
+use crate::play::missions::Watched;
+use crate::play::pace::{Freeze, run_time};
+use crate::play::picture::quality::Quality;
+use crate::play::player_state::PlayerState;
+use crate::play::schedule::{GameSet, PaintSet};
+use crate::play::session::Session;
 use crate::render::plugin::RenderStatistics;
 use crate::scene::GameConfig;
-use crate::scene::config::{self, Allowed, Setting, Value};
+use crate::sim::Clock;
+use crate::sim::replay::Playback;
+use frames::Frames;
+use history::{Mark, marks};
+use moments::Journey;
+use quality::QualityReport;
+use state::{Overlay, Passing, Seen, Tab};
 
-use crate::play::player_state::PlayerState;
-use crate::play::schedule::PaintSet;
-use crate::play::session::Session;
-
-/// Frames over which mean and worst are taken.
-const WINDOW: usize = 240;
 /// Wall time between two looks at the counters, in seconds: faster, nobody could read them.
 const COUNTER_PERIOD: f64 = 0.5;
-
-/// Durations of the last frames, in milliseconds.
-#[derive(Clone, Debug, Default)]
-pub struct FrameTimes(VecDeque<f64>);
-
-impl FrameTimes {
-    /// Adds a frame.
-    pub fn push(&mut self, milliseconds: f64) {
-        if self.0.len() == WINDOW {
-            self.0.pop_front();
-        }
-        self.0.push_back(milliseconds);
-    }
-
-    /// Mean and worst; None before the first frame.
-    pub fn mean_and_worst(&self) -> Option<(f64, f64)> {
-        let count = self.0.len();
-        (count > 0).then(|| (self.0.iter().sum::<f64>() / count as f64, self.0.iter().copied().fold(0.0, f64::max)))
-    }
-}
+/// Settings of the page of light.
+const LIGHT: [&str; 8] = [
+    "render.lensing",
+    "render.doppler",
+    "render.beaming",
+    "render.light_delay",
+    "render.orders",
+    "render.method",
+    "disk.representation",
+    "aurora.walk",
+];
 
 /// The dev overlay, and changes of the configuration. Needs [`HudPlugin`](crate::play::hud::HudPlugin).
 pub struct OverlayPlugin;
 
 impl Plugin for OverlayPlugin {
     fn build(&self, app: &mut App) {
-        app.add_plugins(live::LivePlugin).add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay));
+        app.add_plugins(live::LivePlugin)
+            .init_resource::<Overlay>()
+            .init_resource::<Frames>()
+            .init_resource::<Marks>()
+            .init_resource::<QualityReport>()
+            .init_resource::<FileConfig>()
+            .init_resource::<Choices>()
+            .insert_non_send(clipboard::Clipboard::default())
+            .add_systems(Update, (answer::answer, moments::fly).chain().in_set(GameSet::Answer).before(run_time))
+            .add_systems(Update, (quality::tell.run_if(resource_exists::<Quality>), note).in_set(GameSet::Instruments))
+            .add_systems(EguiPrimaryContextPass, draw.in_set(PaintSet::Overlay))
+            .add_systems(PostUpdate, clipboard::hand_on.after(EguiPostUpdateSet::ProcessOutput))
+            .add_systems(Last, moments::keep);
+    }
+}
+
+/// How each setting stands.
+#[derive(Resource, Clone, Debug, Default)]
+struct Marks(Vec<Mark>);
+
+/// Keeps what the frame took, and has counters brought back while they are shown.
+fn note(player: Res<PlayerState>, real: Res<Time<Real>>, mut statistics: ResMut<RenderStatistics>, mut frames: ResMut<Frames>) {
+    frames.push(real.delta_secs_f64() * 1e3, &statistics.passes);
+    statistics.counting = player.overlay;
+}
+
+/// The flow of time.
+#[derive(SystemParam)]
+struct Flow<'w> {
+    clock: Res<'w, Clock>,
+    freeze: Res<'w, Freeze>,
+    journey: Option<Res<'w, Journey>>,
+    watched: Option<Res<'w, Watched>>,
+    playback: Option<Res<'w, Playback>>,
+}
+
+impl Flow<'_> {
+    fn passing(&self) -> Passing {
+        let step = self.clock.step;
+        let replay = self.watched.as_ref().filter(|_| self.playback.is_some());
+        Passing {
+            now: self.clock.time,
+            step,
+            frozen: self.freeze.on,
+            end: replay.map(|watched| watched.0.ticks as f64 * step),
+            travels: self.journey.as_ref().map(|journey| journey.0 as f64 * step),
+        }
     }
 }
 
 /// Draws the overlay where it is on.
 fn draw(
     mut contexts: EguiContexts,
-    player: Res<PlayerState>,
-    mut session: ResMut<Session>,
-    mut statistics: ResMut<RenderStatistics>,
-    real: Res<Time<Real>>,
-    mut times: Local<FrameTimes>,
+    (player, session, dials, quality): (Res<PlayerState>, Res<Session>, Res<Dials>, Res<QualityReport>),
+    (file, choices, statistics): (Res<FileConfig>, Res<Choices>, Res<RenderStatistics>),
+    (flow, real): (Flow, Res<Time<Real>>),
+    (mut overlay, mut frames, mut known): (ResMut<Overlay>, ResMut<Frames>, ResMut<Marks>),
     mut shown: Local<(f64, RenderStatistics)>,
 ) -> Result {
-    times.push(real.delta_secs_f64() * 1e3);
-    statistics.counting = player.overlay;
     if !player.overlay {
         return Ok(());
     }
+    let began = Instant::now();
     let context = contexts.ctx_mut()?;
+    if let Some(text) = overlay.copies.take() {
+        context.copy_text(text);
+    }
     if real.elapsed_secs_f64() >= shown.0 {
         *shown = (real.elapsed_secs_f64() + COUNTER_PERIOD, statistics.clone());
     }
-    let RenderStatistics { counters, disk, .. } = shown.1;
-    let disk = disk.filter(|counters| counters.arcs > 0);
-    let mut config = session.config.clone();
-    egui::Window::new("Lensrunner").default_pos([16.0, 180.0]).default_width(430.0).default_height(480.0).vscroll(true).show(
-        context,
-        |ui| {
-            costs(ui, &times, &statistics.passes);
-            counts(ui, counters.map(|c| (c.complaint(), c.to_string())));
-            if let Some(disk) = disk {
-                counts(ui, Some((disk.complaint(), disk.to_string())));
-            }
-            ui.separator();
-            for section in config::section_names() {
-                egui::CollapsingHeader::new(section).default_open(section == "render").show(ui, |ui| {
-                    for setting in config::settings().iter().filter(|setting| setting.section == section) {
-                        row(ui, setting, &mut config);
-                    }
-                });
-            }
-        },
-    );
-    if config != session.config {
-        session.config = config;
+    if known.0.is_empty() || session.is_changed() || file.is_changed() || choices.is_changed() || overlay.is_changed() {
+        let mut begun: GameConfig = file.0.clone();
+        choices.over(&mut begun);
+        known.0 = marks(&session.config, &begun, &overlay.history);
     }
+    let seen = Seen {
+        config: &session.config,
+        marks: &known.0,
+        frames: &frames,
+        counters: shown.1.counters,
+        disk: shown.1.disk,
+        quality: &quality,
+        passing: flow.passing(),
+    };
+    // What is only looked at changes nothing.
+    let overlay = overlay.bypass_change_detection();
+    show(context, place::places(context.content_rect(), &dials.0), &seen, overlay);
+    frames.overlay.push(began.elapsed().as_secs_f64() * 1e3);
     Ok(())
 }
 
-fn costs(ui: &mut Ui, times: &FrameTimes, passes: &[(&'static str, f32)]) {
-    if let Some((mean, worst)) = times.mean_and_worst() {
-        let line = format!("frame {mean:.1} ms mean, {worst:.1} ms worst of {WINDOW}   ({:.0} a second)", 1e3 / mean.max(1e-6));
-        ui.label(RichText::new(line).strong());
-    }
-    let total: f32 = passes.iter().map(|pass| pass.1).sum();
-    egui::Grid::new("passes").num_columns(2).striped(true).show(ui, |ui| {
-        for (name, milliseconds) in passes {
-            ui.label(*name);
-            ui.label(format!("{milliseconds:.2} ms"));
-            ui.end_row();
-        }
-        if !passes.is_empty() {
-            ui.label("all passes");
-            ui.label(format!("{total:.2} ms"));
-            ui.end_row();
+/// Lays both windows out.
+pub fn show(context: &egui::Context, [left, right]: [Rect; 2], seen: &Seen, overlay: &mut Overlay) {
+    window("Dev overlay", left).show(context, |ui| {
+        ui.horizontal(|ui| {
+            for (tab, name) in Tab::ALL {
+                ui.selectable_value(&mut overlay.tab, tab, name);
+            }
+        });
+        ui.separator();
+        match overlay.tab {
+            Tab::Frame => plots::show(ui, seen),
+            Tab::Light => rows::list(ui, &LIGHT, seen, overlay),
+            Tab::Time => time::show(ui, seen, overlay),
+            Tab::Quality => quality::show(ui, seen.quality),
         }
     });
+    window("game.toml", right).show(context, |ui| groups::show(ui, seen, overlay));
 }
 
-/// What is amiss in some counters, and the counts.
-fn counts(ui: &mut Ui, counters: Option<(Option<String>, String)>) {
-    match counters {
-        Some((complaint, counts)) => {
-            if let Some(complaint) = complaint {
-                ui.colored_label(egui::Color32::ORANGE, complaint);
-            }
-            ui.label(counts);
-        }
-        None => _ = ui.label("no counters"),
-    }
-}
-
-/// One setting: its name, its value to change, its unit.
-fn row(ui: &mut Ui, setting: &Setting<GameConfig>, config: &mut GameConfig) {
-    let before = setting.get(config);
-    let mut value = before.clone();
-    ui.horizontal(|ui| {
-        edit(ui, setting, &mut value);
-        ui.label(setting.key).on_hover_text(format!("{} ({})", setting.help, setting.allowed_text()));
-    });
-    if value != before {
-        // What the widget gives may still be refused, as a half-typed key name; then the old value stays.
-        let _ = setting.set(config, value);
-    }
-}
-
-fn edit(ui: &mut Ui, setting: &Setting<GameConfig>, value: &mut Value) {
-    let suffix = if setting.unit.is_empty() { String::new() } else { format!(" {}", setting.unit) };
-    match (value, setting.allowed) {
-        (Value::Number(number), Allowed::Number { min, max }) => {
-            let wide = min >= 0.0 && max > 100.0 * min.max(1e-3);
-            ui.add(Slider::new(number, min..=max).logarithmic(wide).suffix(suffix));
-        }
-        (Value::Integer(number), Allowed::Integer { min, max }) if max - min <= 64 => {
-            ui.add(Slider::new(number, min..=max).suffix(suffix));
-        }
-        (Value::Integer(number), Allowed::Integer { min, max }) => {
-            let speed = f64::from(*number).max(10.0) * 0.01;
-            ui.add(DragValue::new(number).range(min..=max).speed(speed).suffix(suffix));
-        }
-        (Value::Switch(on), _) => {
-            ui.checkbox(on, "");
-        }
-        (Value::Word(word), Allowed::Choice(words)) => {
-            ComboBox::from_id_salt(setting.path()).selected_text(word.as_str()).show_ui(ui, |ui| {
-                for choice in words {
-                    ui.selectable_value(word, (*choice).to_owned(), *choice);
-                }
-            });
-        }
-        (Value::Word(word), _) => {
-            // Committed when it is a key's name.
-            let id = ui.id().with(setting.path());
-            let mut draft = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| word.clone());
-            let typed = ui.add(TextEdit::singleline(&mut draft).desired_width(110.0));
-            if typed.has_focus() {
-                ui.data_mut(|data| data.insert_temp(id, draft.clone()));
-            } else {
-                ui.data_mut(|data| data.remove::<String>(id));
-            }
-            if typed.lost_focus() || setting.check(Value::Word(draft.clone())).is_ok() {
-                *word = draft;
-            }
-        }
-        _ => (),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn mean_and_worst_of_the_last_frames() {
-        let mut times = FrameTimes::default();
-        assert_eq!(times.mean_and_worst(), None);
-        times.push(1000.0);
-        for _ in 0..WINDOW - 1 {
-            times.push(10.0);
-        }
-        assert_eq!(times.mean_and_worst().map(|(_, worst)| worst), Some(1000.0));
-        times.push(20.0);
-        assert_eq!(times.mean_and_worst().map(|(_, worst)| worst), Some(20.0));
-    }
+/// A window that fills its place.
+fn window(name: &'static str, place: Rect) -> egui::Window<'static> {
+    egui::Window::new(RichText::new(name).size(13.0)).id(egui::Id::new(name)).fixed_rect(place.shrink(1.0)).constrain_to(place)
 }

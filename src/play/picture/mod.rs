@@ -1,6 +1,7 @@
 //! The picture of the chase: the scene on the renderer, the camera of each frame, and the frame itself.
 
 pub mod now;
+pub mod quality;
 pub mod sight;
 pub mod snapshot;
 pub mod staging;
@@ -19,6 +20,7 @@ use crate::render::stage::settings;
 use crate::scene::mission::GoalTask;
 use crate::sim::replay::Playback;
 use now::Now;
+use quality::Quality;
 use sight::{FrameCamera, ScreenContent, is_cut};
 use staging::{Staged, StagingPlugin};
 
@@ -28,9 +30,10 @@ pub struct PicturePlugin;
 
 impl Plugin for PicturePlugin {
     fn build(&self, app: &mut App) {
-        app.init_resource::<CurrentShot>()
-            .add_plugins(StagingPlugin)
-            .add_systems(Update, (point_camera, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<Staged>));
+        app.init_resource::<CurrentShot>().init_resource::<Quality>().add_plugins(StagingPlugin).add_systems(
+            Update,
+            (point_camera, quality::choose, make_frame).chain().in_set(GameSet::Picture).run_if(resource_exists::<Staged>),
+        );
     }
 }
 
@@ -90,7 +93,7 @@ fn point_camera(
 /// Makes the frame to draw.
 fn make_frame(
     now: Now,
-    (staged, shot, statistics): (Res<Staged>, Res<CurrentShot>, Res<RenderStatistics>),
+    (staged, shot, statistics, quality): (Res<Staged>, Res<CurrentShot>, Res<RenderStatistics>, Res<Quality>),
     real: Res<Time<Real>>,
     screen: Res<State<Screen>>,
     (windows, photo): (Query<&Window, With<PrimaryWindow>>, Option<Res<Photo>>),
@@ -106,11 +109,11 @@ fn make_frame(
         }
         return;
     };
-    let config = &now.session.config.drawn();
+    let config = &now.session.config;
     let config = &photo.map_or_else(|| config.clone(), |photo| photo.config(config));
     // Times of an earlier frame will do.
     staged.0.ration_aurora(&statistics.passes);
-    let mut settings = Settings { rise, ..settings(config) };
+    let mut settings = Settings { rise, ..quality.turned(&settings(config)) };
     if is_cut(&mut last, sight(&now, *screen.get()), now.clock()) {
         // Another picture than that before: the exposure is at once what suits it. What was exposed before says nothing of how light a ship
         // should be.

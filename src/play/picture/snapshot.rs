@@ -24,7 +24,7 @@ pub fn snapshot(world: &mut World) -> Result<Snapshot, &'static str> {
     let flight = flight(world).ok_or("a setting that the flight depends on was changed in flight")?;
     let time = world.get_resource::<Time<Fixed>>().map_or(clock.time, |fixed| now::time(clock, fixed));
     let view = View { time, ticks: clock.tick, camera: shot.camera, size, hidden: shot.hidden, lit: shot.lit };
-    let config = session.config.drawn();
+    let config = session.config.clone();
     let config = world.get_resource::<Photo>().map_or_else(|| config.clone(), |photo| photo.config(&config));
     Ok(Snapshot::new(flight, &session.scene, &config, world, &view))
 }

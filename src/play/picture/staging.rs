@@ -46,7 +46,7 @@ impl Plugin for StagingPlugin {
 /// Has the models and the disk of the session's scene made anew; until they are there the picture stays as it is.
 pub fn restage(world: &mut World) {
     let (Some(table), Some(session)) = (world.get_resource::<LensingTable>(), world.get_resource::<Session>()) else { return };
-    let (table, scene, config) = (table.0.clone(), session.scene.clone(), session.effective().drawn());
+    let (table, scene, config) = (table.0.clone(), session.scene.clone(), session.effective());
     let make = move || {
         let (stage, upload) = Stage::prepare(&table, &scene, scene.assemble(&config), &config, None);
         (stage.watched(), upload)
@@ -115,7 +115,7 @@ const INSIDE: f64 = 0.8;
 /// Frames that need whatever this scene may need: as seen from the player's ship and from far, with every image thin, inside the horizon.
 fn rehearsal(stage: In<Stage>, now: Now) -> Vec<FrameInput> {
     let Some((history, ..)) = now.own() else { return Vec::new() };
-    let (me, time, config) = (now.session.player(), now.time(), now.session.config.drawn());
+    let (me, time, config) = (now.session.player(), now.time(), now.session.config.clone());
     let state = state_of(&history.at(time));
     let field_of_view = config.video.fov.to_radians();
     let settings = settings(&config);

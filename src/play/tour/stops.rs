@@ -5,8 +5,10 @@ use bevy::prelude::*;
 use crate::play::game::begin;
 use crate::play::menus::entries::{Menu, Page};
 use crate::play::menus::screens::{MenuAction, Screen};
+use crate::play::overlay::state::Overlay;
 use crate::play::player_state::PlayerState;
 use crate::play::session::Session;
+use crate::scene::config::Value;
 use crate::sim::{Chase, Clock, Outcome};
 
 /// A picture of the tour, and the way there from the one before.
@@ -82,6 +84,9 @@ pub const STOPS: &[Stop] = &[
         app.world_mut().resource_mut::<Menu>().close_all();
         ask(app, MenuAction::Pause);
         app.world_mut().resource_mut::<PlayerState>().overlay = true;
+        let mut overlay = app.world_mut().resource_mut::<Overlay>();
+        overlay.open.insert("render");
+        overlay.change("render.bloom", Value::Number(0.35));
     }),
 ];
 

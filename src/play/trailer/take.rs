@@ -48,7 +48,15 @@ impl Take {
     /// Plays a part up to its last T.
     pub fn play(part: &Part) -> Result<Take, TakeError> {
         let config = GameConfig::default();
-        let session = |scene, config, seed, difficulty| Session { scene, config, config_file: None, seed, seed_stays: true, difficulty };
+        let session = |scene, config, seed, difficulty| Session {
+            scene,
+            config,
+            config_file: None,
+            seed,
+            seed_stays: true,
+            difficulty,
+            set: Vec::new(),
+        };
         let (session, mut app) = match part.place {
             Place::Scene(name) => {
                 let scene = scene::load(name)?;

@@ -25,6 +25,7 @@ use crate::play::menus::screens::Screen;
 use crate::play::missions::{Catalogue, MissionsPlugin, Watched};
 use crate::play::overlay::OverlayPlugin;
 use crate::play::picture::PicturePlugin;
+use crate::play::picture::quality::Quality;
 use crate::play::player_state::PlayerState;
 use crate::play::schedule::GameSet;
 use crate::play::session::{SCENE, Session};
@@ -53,6 +54,8 @@ pub struct Options {
     pub at_once: bool,
     /// Where the best flights are kept; None: in the user's data folder.
     pub data: Option<std::path::PathBuf>,
+    /// Says in the terminal how much is drawn, and why.
+    pub verbose: bool,
     /// Writes the time of each frame here, counted from then.
     pub timings: Option<(std::path::PathBuf, Instant)>,
 }
@@ -93,16 +96,20 @@ pub fn run_unseen(session: Session, options: &Options, size: [u32; 2]) -> AppExi
 pub fn app(mut session: Session, options: &Options, surface: Surface, choices: Choices) -> App {
     let file_config = session.config.clone();
     choices.over(&mut session.config);
+    session.put_set();
     let (catalogue, choice) = catalogue(&session, options.at_once);
     // What a program films is nobody's first start.
     let warns = !session.config.interface.warned && options.frames.is_none();
     let mut app = App::new();
     let log = LogPlugin {
         // What libraries warn of means nothing to a player; RUST_LOG shows it. A device or a window that is lost is said by `lost`.
-        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=info".into(),
+        filter: "error,bevy_render::error_handler=off,bevy_render::view::window=off,lensrunner=".to_owned()
+            + if options.verbose { "debug" } else { "info" },
         level: bevy::log::Level::WARN,
         ..default()
     };
+    // Pictures that nobody waits for are drawn at their finest.
+    let governed = matches!(surface, Surface::Window) || options.timings.is_some();
     let window = WindowPlugin { primary_window: Some(window(&session, options, &surface)), ..default() };
     match surface {
         Surface::Window => app.add_plugins(DefaultPlugins.set(window).set(log)),
@@ -123,6 +130,7 @@ pub fn app(mut session: Session, options: &Options, surface: Surface, choices: C
             lost::LostDevicePlugin,
         ))
         .add_plugins(record::RecordPlugin { folder: options.record.clone(), frames: options.frames })
+        .insert_resource(Quality::new(governed))
         .insert_resource(PlayerState { always_autopilot: options.autopilot, choice, ..default() })
         .insert_resource(catalogue)
         .insert_resource(choices)

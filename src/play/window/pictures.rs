@@ -41,11 +41,11 @@ fn civil(days: u64) -> [u64; 3] {
     [400 * era + year + u64::from(month <= 2), month, date]
 }
 
-/// Writes a PNG into the first of `folders` that takes it, under a name that nothing has yet; gives its path.
-pub fn save_new(folders: &[PathBuf], stem: &str, png: &[u8]) -> std::io::Result<PathBuf> {
+/// Writes a file into the first of `folders` that takes it, under a name that nothing has yet; gives its path.
+pub fn save_new(folders: &[PathBuf], stem: &str, extension: &str, bytes: &[u8]) -> std::io::Result<PathBuf> {
     let mut fault = Error::new(ErrorKind::NotFound, "there is no folder for pictures");
     for folder in folders {
-        match save_in(folder, stem, png) {
+        match save_in(folder, stem, extension, bytes) {
             Ok(path) => return Ok(path),
             Err(error) => fault = Error::new(error.kind(), format!("{}: {error}", folder.display())),
         }
@@ -53,20 +53,20 @@ pub fn save_new(folders: &[PathBuf], stem: &str, png: &[u8]) -> std::io::Result<
     Err(fault)
 }
 
-fn save_in(folder: &Path, stem: &str, png: &[u8]) -> std::io::Result<PathBuf> {
+fn save_in(folder: &Path, stem: &str, extension: &str, bytes: &[u8]) -> std::io::Result<PathBuf> {
     create_dir_all(folder)?;
     // The player may not know in which folder the game was started.
     let folder = std::path::absolute(folder)?;
     for count in 1..10_000 {
         let name = if count == 1 { stem.to_owned() } else { format!("{stem}-{count}") };
-        let path = folder.join(&name).with_extension("png");
+        let path = folder.join(format!("{name}.{extension}"));
         // Takes the name, whoever else writes pictures in this second.
         match File::create_new(&path) {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
             taken => _ = taken?,
         }
-        let beside = folder.join(name).with_extension("png.new");
-        return match write(&beside, png).and_then(|()| rename(&beside, &path)) {
+        let beside = folder.join(format!("{name}.{extension}.new"));
+        return match write(&beside, bytes).and_then(|()| rename(&beside, &path)) {
             Ok(()) => Ok(path),
             Err(error) => {
                 _ = remove_file(&beside);
@@ -108,11 +108,11 @@ mod tests {
         let file = folder.join("file");
         std::fs::write(&file, "x").expect("a file");
         let folders = [file.join("in"), folder.join("pictures")];
-        let paths = [b"1", b"2", b"3"].map(|png| save_new(&folders, "a", png).expect("a picture"));
+        let paths = [b"1", b"2", b"3"].map(|png| save_new(&folders, "a", "png", png).expect("a picture"));
         assert_eq!(paths.each_ref().map(|path| path.file_name().and_then(|name| name.to_str())), ["a.png", "a-2.png", "a-3.png"].map(Some));
         assert_eq!(paths.map(|path| std::fs::read(path).expect("it is there")), [b"1", b"2", b"3"]);
         assert_eq!(std::fs::read_dir(folder.join("pictures")).expect("a folder").count(), 3, "nothing is left beside");
-        let said = save_new(&folders[..1], "a", b"4").expect_err("no folder").to_string();
+        let said = save_new(&folders[..1], "a", "png", b"4").expect_err("no folder").to_string();
         assert!(said.contains("file"), "{said}");
         _ = std::fs::remove_dir_all(&folder);
     }

@@ -120,7 +120,7 @@ fn take_wanted(world: &mut World) {
     let stem = stem(std::time::SystemTime::now());
     take(world, move |image, moment| {
         let without = moment.as_ref().err().copied();
-        let saved = encoded(image, moment.ok()).and_then(|png| save_new(&folders(), &stem, &png).map_err(|error| error.to_string()));
+        let saved = encoded(image, moment.ok()).and_then(|png| save_new(&folders(), &stem, "png", &png).map_err(|error| error.to_string()));
         // After the game's end nobody listens.
         _ = sender.send(saved.map(|path| (path, without)));
     });

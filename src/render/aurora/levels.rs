@@ -154,6 +154,7 @@ impl Ranges {
     /// Finds the ranges, after everything with depth has been drawn. `frame` is the bind group of the frame.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder, timing: &mut Timing, frame: &wgpu::BindGroup) {
         for (step, (view, group)) in self.steps.iter().enumerate() {
+            let timestamp_writes = timing.render(encoder, "aurora ranges");
             let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
                 label: Some("aurora ranges"),
                 color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -162,7 +163,7 @@ impl Ranges {
                     resolve_target: None,
                     ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
                 })],
-                timestamp_writes: timing.render("aurora ranges"),
+                timestamp_writes,
                 ..Default::default()
             });
             pass.set_pipeline(if step == 0 { &self.first } else { &self.next });

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use wgpu::{BufferUsages, ShaderStages};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
+use crate::render::gpu::layout::{Growing, HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster_of};
 use crate::render::gpu::shaders::Pass;
 
 use crate::render::disk::types::{self, DiskCounters, DiskVertex};
@@ -42,12 +42,21 @@ pub struct ArcPass {
     counters: wgpu::Buffer,
     arguments: wgpu::Buffer,
     arguments_group: wgpu::BindGroup,
-    draw_layout: wgpu::BindGroupLayout,
-    groups: Option<(wgpu::BindGroup, wgpu::BindGroup)>,
+    group: Option<wgpu::BindGroup>,
     /// Threads of the stages over grid, segments, arcs.
     threads: [u32; 3],
     /// Orders up to this one have a close look.
     close: u32,
+}
+
+/// [`DiskVertex`] as a vertex buffer, `SeenDisk` of WGSL.
+fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 4] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x4, 2 => Float32x4, 3 => Float32x4];
+    wgpu::VertexBufferLayout {
+        array_stride: size_of::<DiskVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &ATTRIBUTES,
+    }
 }
 
 impl ArcPass {
@@ -57,7 +66,6 @@ impl ArcPass {
         let device = &gpu.device;
         let group_layout =
             layout(device, "disk", ShaderStages::COMPUTE, &[Slot::Uniform, Read, Read, Read, Read, Write, Write, Write, Write, Write]);
-        let draw_layout = layout(device, "disk draw", ShaderStages::VERTEX, &[Read]);
         let arguments_layout = layout(device, "disk arguments", ShaderStages::COMPUTE, &[Write]);
         let stage = |label, pass| compute(device, label, pass, "main", &[Some(frame_layout), Some(&group_layout)]);
         let argument = |entry| {
@@ -68,7 +76,7 @@ impl ArcPass {
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let draw = |label, vertex, fragment| {
             let stage = Raster { vertex, fragment, targets: &[(HDR_FORMAT, Some(over))], depth: Some(false) };
-            raster(device, label, &shader, stage, &[Some(frame_layout), Some(&draw_layout), Some(gas_layout)])
+            raster_of(device, label, &shader, stage, &[Some(frame_layout), None, Some(gas_layout)], &[vertex_layout()])
         };
         let storage = BufferUsages::STORAGE;
         let arguments = buffer(device, "disk arguments", types::ARGUMENTS_BYTES, storage | BufferUsages::INDIRECT);
@@ -87,15 +95,14 @@ impl ArcPass {
             cuts: Growing::new(device, "disk cuts", storage),
             rings: Growing::new(device, "disk rings", storage),
             bends: Growing::new(device, "disk bends", storage),
-            seen: Growing::new(device, "disk vertices", storage),
+            seen: Growing::new(device, "disk vertices", storage | BufferUsages::VERTEX),
             segment_buffer: Growing::new(device, "disk segments", storage),
             jobs: buffer(device, "disk jobs", 16 * u64::from(EXTRA), storage),
             indices: buffer(device, "disk indices", 4 * u64::from(total), storage | BufferUsages::INDEX),
             counters: buffer(device, "disk counters", size_of::<DiskCounters>() as u64, storage),
             arguments_group: bind(device, "disk arguments", &arguments_layout, &[arguments.as_entire_binding()]),
             arguments,
-            draw_layout,
-            groups: None,
+            group: None,
             threads: [0; 3],
             close: 0,
             group_layout,
@@ -119,12 +126,12 @@ impl ArcPass {
         replaced |= self.seen.reserve(device, u64::from(view.frame.room[0]) * size_of::<DiskVertex>() as u64);
         replaced |= self.segment_buffer.reserve(device, 16 * u64::from(arcs * rows));
         gpu.queue.write_buffer(&self.counters, 0, bytemuck::bytes_of(&DiskCounters::default()));
-        if replaced || self.groups.is_none() {
-            self.groups = Some(self.bind(device, frame));
+        if replaced || self.group.is_none() {
+            self.group = Some(self.bind(device, frame));
         }
     }
 
-    fn bind(&self, device: &wgpu::Device, frame: &wgpu::Buffer) -> (wgpu::BindGroup, wgpu::BindGroup) {
+    fn bind(&self, device: &wgpu::Device, frame: &wgpu::Buffer) -> wgpu::BindGroup {
         let buffers = [
             frame,
             &self.circles.buffer,
@@ -138,13 +145,12 @@ impl ArcPass {
             &self.counters,
         ];
         let resources = buffers.map(|buffer| buffer.as_entire_binding());
-        let draw = bind(device, "disk draw", &self.draw_layout, &[self.seen.buffer.as_entire_binding()]);
-        (bind(device, "disk", &self.group_layout, &resources), draw)
+        bind(device, "disk", &self.group_layout, &resources)
     }
 
     /// The stages.
     pub fn compute(&self, pass: &mut wgpu::ComputePass) {
-        let Some((group, _)) = &self.groups else { return };
+        let Some(group) = &self.group else { return };
         pass.set_bind_group(1, group, &[]);
         pass.set_bind_group(2, &self.arguments_group, &[]);
         let [grid, segments, _] = self.threads.map(|threads| threads.div_ceil(64));
@@ -158,7 +164,7 @@ impl ArcPass {
 
     /// The stages whose number of threads the first ones decide.
     pub fn compute_rest(&self, pass: &mut wgpu::ComputePass) {
-        let Some((group, _)) = &self.groups else { return };
+        let Some(group) = &self.group else { return };
         pass.set_bind_group(1, group, &[]);
         pass.set_pipeline(&self.vertices);
         pass.dispatch_workgroups_indirect(&self.arguments, 0);
@@ -171,8 +177,10 @@ impl ArcPass {
 
     /// Draws these orders, from 1 on: the farthest first.
     pub fn draw(&self, pass: &mut wgpu::RenderPass, orders: RangeInclusive<u32>) {
-        let Some((_, group)) = &self.groups else { return };
-        pass.set_bind_group(1, group, &[]);
+        if self.group.is_none() {
+            return;
+        }
+        pass.set_vertex_buffer(0, self.seen.buffer.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
         for order in orders.rev().map(|order| u64::from(order) - 1) {
             pass.set_pipeline(match order {

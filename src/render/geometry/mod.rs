@@ -5,6 +5,7 @@
 
 mod ground;
 mod stages;
+pub mod thin;
 
 use crate::render::gpu::targets::LAYERS_FORMAT;
 use wgpu::{BufferUsages, ShaderStages};
@@ -87,7 +88,7 @@ impl Draws {
         let sum = wgpu::BlendState { color: one(wgpu::BlendOperation::Add), alpha: one(wgpu::BlendOperation::Add) };
         let draw_to = |label, vertex, fragment, targets: &[_], write| {
             let stage = Raster { vertex, fragment, targets, depth: Some(write) };
-            let buffers: &[_] = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[] };
+            let buffers = if vertex == "opaque_vertex" { &[seen_layout()] } else { &[thin_layout()] };
             raster_of(device, label, &shader, stage, &draw_groups, buffers)
         };
         let draw = |label, vertex, fragment, format, blend, write| draw_to(label, vertex, fragment, &[(format, blend)], write);
@@ -127,6 +128,12 @@ fn seen_layout() -> wgpu::VertexBufferLayout<'static> {
     }
 }
 
+/// `ThinVertex` as a vertex buffer, `ThinInput` of WGSL.
+fn thin_layout() -> wgpu::VertexBufferLayout<'static> {
+    const ATTRIBUTES: [wgpu::VertexAttribute; 2] = wgpu::vertex_attr_array![0 => Float32x4, 1 => Uint32x4];
+    wgpu::VertexBufferLayout { array_stride: types::THIN_BYTES, step_mode: wgpu::VertexStepMode::Vertex, attributes: &ATTRIBUTES }
+}
+
 impl Geometry {
     /// Compiles the stages, for models whose points have such worldlines.
     pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, worldlines: Worldlines) -> Self {
@@ -135,14 +142,14 @@ impl Geometry {
             device,
             "geometry",
             ShaderStages::COMPUTE,
-            &[Slot::Words, Read, Read, Read, Read, Write, Write, Write, Write, Write, Write, Write, Write],
+            &[Slot::Words, Slot::Words, Slot::Words, Slot::Words, Read, Write, Write, Write, Write, Write, Write, Write, Write],
         );
         let arguments_layout = layout(device, "arguments", ShaderStages::COMPUTE, &[Write]);
         let draw_layout = layout(
             device,
             "draw",
             ShaderStages::VERTEX_FRAGMENT,
-            &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Read, Slot::Uniform, Slot::Texture],
+            &[Slot::Words, Read, Read, Slot::TextureArray, Slot::Sampler, Slot::Uniform, Slot::Texture],
         );
         let inputs = PipelineInputs {
             device: device.clone(),
@@ -169,7 +176,7 @@ impl Geometry {
             pieces: Growing::new(device, "pieces", storage),
             work: Growing::new(device, "work", storage),
             indices: Growing::new(device, "indices", storage | BufferUsages::INDEX),
-            thin: Growing::new(device, "thin", storage),
+            thin: Growing::new(device, "thin", storage | BufferUsages::VERTEX),
             counters: buffer(device, "counters", size_of::<Counters>() as u64, storage),
             arguments,
             arguments_group,
@@ -280,9 +287,6 @@ impl Geometry {
         let device = &gpu.device;
         let compute = std::array::from_fn(|kind| {
             let buffers = [
-                &models.vertex_buffer.buffer,
-                &models.edge_buffer.buffer,
-                &models.triangle_buffer.buffer,
                 &self.chunks[kind].buffer,
                 &self.seen.buffer,
                 &self.emitted.buffer,
@@ -293,8 +297,8 @@ impl Geometry {
                 &self.thin.buffer,
                 &self.counters,
             ];
-            let resources: Vec<_> =
-                std::iter::once(self.instances.binding()).chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
+            let tables = [self.instances.binding(), models.vertices.binding(), models.edges.binding(), models.triangles.binding()];
+            let resources: Vec<_> = tables.into_iter().chain(buffers.map(|buffer| buffer.as_entire_binding())).collect();
             bind(device, "geometry", &self.group_layout, &resources)
         });
         let textures = models
@@ -310,7 +314,6 @@ impl Geometry {
                 models.material_buffer.buffer.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&textures),
                 wgpu::BindingResource::Sampler(&self.sampler),
-                self.thin.buffer.as_entire_binding(),
                 self.ground.light.as_entire_binding(),
                 wgpu::BindingResource::TextureView(&self.ground.view),
             ],
@@ -374,38 +377,48 @@ impl Geometry {
         self.single(pass, &self.stages.now().finish_thin);
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline, thin: bool) {
-        let Some((_, group)) = &self.groups else { return };
-        if self.is_empty() {
-            // The arguments are from another frame.
-            return;
-        }
+    /// Takes a pipeline and the vertices that it draws; false if there is nothing, and the arguments are from another frame.
+    fn begin(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline, vertices: &wgpu::Buffer) -> bool {
+        let Some((_, group)) = self.groups.as_ref().filter(|_| !self.is_empty()) else { return false };
         pass.set_pipeline(pipeline);
         pass.set_bind_group(2, group, &[]);
-        if thin {
-            pass.draw_indirect(&self.arguments, types::ARGUMENTS_THIN);
-        } else {
-            pass.set_vertex_buffer(0, self.seen.buffer.slice(..));
+        pass.set_vertex_buffer(0, vertices.slice(..));
+        true
+    }
+
+    fn draw_surfaces(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline) {
+        if self.begin(pass, pipeline, &self.seen.buffer) {
             pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed_indirect(&self.arguments, types::ARGUMENTS_OPAQUE);
         }
     }
 
-    /// Opaque triangles, with depth.
-    pub fn draw_opaque(&self, pass: &mut wgpu::RenderPass) {
-        self.draw(pass, &self.draws.opaque, false);
+    fn draw_all_thin(&self, pass: &mut wgpu::RenderPass, pipeline: &wgpu::RenderPipeline) {
+        if self.begin(pass, pipeline, &self.thin.buffer) {
+            pass.draw_indirect(&self.arguments, types::ARGUMENTS_THIN);
+        }
     }
 
-    /// Thin triangles, summed: all, or those whose light crosses the disk's plane so often.
-    pub fn draw_thin(&self, pass: &mut wgpu::RenderPass, crossings: Option<u32>) {
-        let across = crossings.and_then(|crossings| self.draws.thin_across.get(crossings as usize));
-        self.draw(pass, across.unwrap_or(&self.draws.thin), true);
+    /// Opaque triangles, with depth.
+    pub fn draw_opaque(&self, pass: &mut wgpu::RenderPass) {
+        self.draw_surfaces(pass, &self.draws.opaque);
+    }
+
+    /// Thin triangles, summed.
+    pub fn draw_thin(&self, pass: &mut wgpu::RenderPass) {
+        self.draw_all_thin(pass, &self.draws.thin);
+    }
+
+    /// Takes the pipeline and the vertices of those of them whose light crosses the disk's plane so often, up to three times; false if there
+    /// are none. Which they are, [`ThinLists`](thin::ThinLists) knows.
+    pub fn begin_thin_across(&self, pass: &mut wgpu::RenderPass, crossings: u32) -> bool {
+        self.draws.thin_across.get(crossings as usize).is_some_and(|pipeline| self.begin(pass, pipeline, &self.thin.buffer))
     }
 
     /// The layers of both.
     pub fn draw_layers(&self, pass: &mut wgpu::RenderPass) {
-        self.draw(pass, &self.draws.layers, false);
-        self.draw(pass, &self.draws.layers_thin, true);
+        self.draw_surfaces(pass, &self.draws.layers);
+        self.draw_all_thin(pass, &self.draws.layers_thin);
     }
 
     /// The counters, for reading back.
@@ -421,6 +434,11 @@ impl Geometry {
     /// Indirect arguments, laid out as `types::ARGUMENTS_*` say.
     pub fn arguments(&self) -> &wgpu::Buffer {
         &self.arguments
+    }
+
+    /// Thin triangles, `ThinVertex` of WGSL.
+    pub fn thin(&self) -> &wgpu::Buffer {
+        &self.thin.buffer
     }
 
     /// Indices of opaque triangles.

@@ -31,8 +31,8 @@ pub enum DeviceError {
     },
 }
 
-/// Storage buffers that one stage of geometry binds: 12 of its own and the arguments.
-pub const STORAGE_BUFFERS: u32 = 13;
+/// Storage buffers that one stage of geometry binds: 9 of its own and the arguments.
+pub const STORAGE_BUFFERS: u32 = 10;
 
 /// Features that are used where the adapter has them: times and fragments of passes, tables sampled and the aurora added up in 32-bit
 /// floats.

@@ -135,6 +135,7 @@ fn modules(worldlines: Worldlines, method: Method) -> Vec<(&'static str, File)> 
         own(file!("models/hiding.wgsl")),
         own(file!("geometry/emit.wgsl")),
         own(file!("post_process/coverage.wgsl")),
+        own(file!("post_process/tiles.wgsl")),
         own(file!("post_process/tone_curve.wgsl")),
         own(file!("shading/bindings.wgsl")),
         own(file!("shading/aurora_light.wgsl")),

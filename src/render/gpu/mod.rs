@@ -6,6 +6,7 @@ pub mod layout;
 pub mod library;
 pub mod readback;
 pub mod shaders;
+pub mod steps;
 pub mod targets;
 pub mod timing;
 pub mod types;

@@ -155,7 +155,7 @@ impl DeferredCopy {
 }
 
 /// A picture on the processor.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Picture {
     /// Width and height in pixels.
     pub size: [u32; 2],

@@ -27,6 +27,8 @@ pub enum Pass {
     Arguments,
     /// The mesh stage.
     Mesh,
+    /// Lists thin triangles and their tiles.
+    ThinLists,
     /// Rasterises.
     Draw,
     /// Works the sky out at the corners of cells.
@@ -63,8 +65,12 @@ pub enum Pass {
     Flashes,
     /// Exposes, blooms, encodes.
     ToneMap,
-    /// Smooths outlines of bodies.
+    /// Finds the tiles with outlines of bodies.
+    Outlines,
+    /// Smooths them.
     Smooth,
+    /// Enlarges a picture that was drawn smaller than the output.
+    Upscale,
     /// Projects the places of the disk's arcs, and those that halving asks for.
     DiskVertices,
     /// Decides how often arcs are halved.
@@ -85,13 +91,14 @@ pub enum Pass {
 
 impl Pass {
     /// All passes.
-    pub const ALL: [Pass; 33] = [
+    pub const ALL: [Pass; 36] = [
         Pass::Vertices,
         Pass::Edges,
         Pass::Triangles,
         Pass::Refine,
         Pass::Arguments,
         Pass::Mesh,
+        Pass::ThinLists,
         Pass::Draw,
         Pass::SkyCells,
         Pass::Background,
@@ -110,7 +117,9 @@ impl Pass {
         Pass::Exposure,
         Pass::Flashes,
         Pass::ToneMap,
+        Pass::Outlines,
         Pass::Smooth,
+        Pass::Upscale,
         Pass::DiskVertices,
         Pass::DiskSegments,
         Pass::DiskStrips,
@@ -173,6 +182,7 @@ impl Pass {
             Pass::Refine => file!("geometry/refine.wgsl"),
             Pass::Arguments => file!("geometry/arguments.wgsl"),
             Pass::Mesh => file!("geometry/mesh.wgsl"),
+            Pass::ThinLists => file!("geometry/thin_lists.wgsl"),
             Pass::Draw => file!("shading/draw.wgsl"),
             Pass::SkyCells => file!("sky/cells.wgsl"),
             Pass::Background => file!("sky/background.wgsl"),
@@ -191,7 +201,9 @@ impl Pass {
             Pass::Exposure => file!("post_process/exposure.wgsl"),
             Pass::Flashes => file!("post_process/flashes.wgsl"),
             Pass::ToneMap => file!("post_process/tone_map.wgsl"),
+            Pass::Outlines => file!("post_process/outlines.wgsl"),
             Pass::Smooth => file!("post_process/smooth.wgsl"),
+            Pass::Upscale => file!("post_process/upscale.wgsl"),
             Pass::DiskVertices => file!("disk/arcs/vertices.wgsl"),
             Pass::DiskSegments => file!("disk/arcs/segments.wgsl"),
             Pass::DiskStrips => file!("disk/arcs/strips.wgsl"),

@@ -13,6 +13,14 @@ const METERED_WIDTH: u32 = 80;
 /// the others, for a glow of two pixels.
 const BLOOM_LEVELS: usize = 5;
 
+/// Pixels along the side of a tile of the picture; as in shaders/post_process/tiles.wgsl.
+pub const TILE: u32 = 16;
+
+/// Number of tiles in a picture of `size` pixels.
+pub fn tiles(size: [u32; 2]) -> u32 {
+    size.map(|side| side.div_ceil(TILE)).iter().product()
+}
+
 /// The targets of the layers of a picture.
 #[derive(Debug)]
 pub struct LayerTargets {

@@ -1,6 +1,10 @@
-//! How long each pass took on the GPU, where it has timestamps, and how many fragments passes shaded, where it counts them.
+//! How long each pass took on the GPU, where it has timestamps, and how many fragments passes shaded, where it counts them; and what the
+//! processor did before.
+
+use std::time::Instant;
 
 use crate::render::Gpu;
+use crate::render::gpu::steps::Steps;
 
 /// Passes that can be timed in one frame: two images of an aurora have nine each, the disk four, bloom eleven, and some twenty more.
 const PASSES: u32 = 96;
@@ -13,6 +17,10 @@ const COUNTS: u64 = ((2 * PASSES as u64) * 8).next_multiple_of(wgpu::QUERY_RESOL
 #[derive(Debug)]
 pub struct Timing {
     inner: Option<Inner>,
+    /// Passes are done one by one and waited for, instead of timed by timestamps.
+    steps: Option<Steps>,
+    /// What the processor did for this frame, in ms.
+    work: Vec<(&'static str, f32)>,
 }
 
 #[derive(Debug)]
@@ -45,7 +53,7 @@ impl Timing {
     /// Timestamps if the device has them.
     pub fn new(gpu: &Gpu) -> Self {
         if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-            return Timing { inner: None };
+            return Timing { inner: None, steps: None, work: Vec::new() };
         }
         let size = (COUNTS + u64::from(COUNTED)) * 8;
         let counts = gpu.device.features().contains(wgpu::Features::PIPELINE_STATISTICS_QUERY);
@@ -75,12 +83,55 @@ impl Timing {
                 latest_fragments: Vec::new(),
                 counting: false,
             }),
+            steps: None,
+            work: Vec::new(),
         }
+    }
+
+    /// Submits each pass of the frames to come on its own and waits for it, or no longer. On a software driver, whose timestamps say little
+    /// about passes of compute, that tells what each takes; such a frame as a whole takes longer.
+    pub fn set_steps(&mut self, gpu: &Gpu, wanted: bool) {
+        self.steps = wanted.then(|| Steps::new(gpu));
+    }
+
+    /// In a frame that is done in steps: what was recorded after [`end`](Timing::end) is a step of this name.
+    pub fn step(&mut self, encoder: &mut wgpu::CommandEncoder, label: &'static str) {
+        if let Some(steps) = &mut self.steps {
+            steps.last(encoder, label);
+        }
+    }
+
+    /// Durations in milliseconds of the passes of the last frame that was done in steps, those of one label added, and what was copied
+    /// before them.
+    pub fn stepped(&self) -> Vec<(&'static str, f32)> {
+        let mut sums = Vec::new();
+        for &(label, time) in self.steps.iter().flat_map(Steps::taken) {
+            add(&mut sums, label, time);
+        }
+        sums
+    }
+
+    /// The processor begins another frame.
+    pub fn begin_work(&mut self) {
+        self.work.clear();
+    }
+
+    /// The processor has worked on this part of the frame since `begin`; gives the time now.
+    pub fn worked(&mut self, label: &'static str, begin: Instant) -> Instant {
+        let now = Instant::now();
+        self.work.push((label, (now - begin).as_secs_f32() * 1e3));
+        now
+    }
+
+    /// What the processor did to prepare and record the last frame, in milliseconds.
+    pub fn work(&self) -> &[(&'static str, f32)] {
+        &self.work
     }
 
     /// A new frame. The one before has been submitted by now, so that its copy may be mapped: a buffer that a command still writes must not
     /// be.
     pub fn begin(&mut self) {
+        self.steps.iter_mut().for_each(Steps::begin);
         let Some(inner) = &mut self.inner else { return };
         inner.labels = Labels::default();
         if let Some(labels) = inner.copied.take() {
@@ -93,7 +144,11 @@ impl Timing {
         }
     }
 
-    fn slot(&mut self, label: &'static str) -> Option<(&wgpu::QuerySet, u32)> {
+    fn slot(&mut self, encoder: &mut wgpu::CommandEncoder, label: &'static str) -> Option<(&wgpu::QuerySet, u32)> {
+        if let Some(steps) = &mut self.steps {
+            steps.step(encoder, label);
+            return None;
+        }
         let inner = self.inner.as_mut()?;
         let index = inner.labels.timed.len() as u32;
         if index >= PASSES {
@@ -103,18 +158,26 @@ impl Timing {
         Some((&inner.queries, 2 * index))
     }
 
-    /// Where a compute pass writes its times.
-    pub fn compute(&mut self, label: &'static str) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
-        self.slot(label).map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
+    /// Where a compute pass writes its times; `encoder` is what it will be recorded with.
+    pub fn compute<'a>(
+        &'a mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        label: &'static str,
+    ) -> Option<wgpu::ComputePassTimestampWrites<'a>> {
+        self.slot(encoder, label).map(|(query_set, first)| wgpu::ComputePassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: Some(first),
             end_of_pass_write_index: Some(first + 1),
         })
     }
 
-    /// Where a render pass writes its times.
-    pub fn render(&mut self, label: &'static str) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        self.slot(label).map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
+    /// Where a render pass writes its times; `encoder` is what it will be recorded with.
+    pub fn render<'a>(
+        &'a mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        label: &'static str,
+    ) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+        self.slot(encoder, label).map(|(query_set, first)| wgpu::RenderPassTimestampWrites {
             query_set,
             beginning_of_pass_write_index: Some(first),
             end_of_pass_write_index: Some(first + 1),
@@ -145,6 +208,10 @@ impl Timing {
 
     /// Copies the results out, unless an earlier copy is still on its way.
     pub fn end(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if let Some(steps) = &mut self.steps {
+            steps.end(encoder);
+            return;
+        }
         let Some(inner) = &mut self.inner else { return };
         if inner.waiting.is_some() || inner.copied.is_some() || inner.labels.timed.is_empty() {
             return;

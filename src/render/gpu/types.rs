@@ -38,6 +38,8 @@ pub mod flags {
     pub const INSIDE: u32 = 16;
     /// The exposure stays as it is.
     pub const HOLD_EXPOSURE: u32 = 32;
+    /// The error of an edge is that of its midpoint alone.
+    pub const MIDPOINT: u32 = 64;
 }
 
 /// One object seen in one image order; `Instance` in WGSL.
@@ -219,7 +221,7 @@ pub const WORK_BYTES: u64 = 112;
 /// Bytes of `ThinVertex` in WGSL.
 pub const THIN_BYTES: u64 = 32;
 /// Bytes of `Arguments` in WGSL, and where each part of it lies.
-pub const ARGUMENTS_BYTES: u64 = 96;
+pub const ARGUMENTS_BYTES: u64 = 112;
 /// Offset of the dispatch of the refine stage.
 pub const ARGUMENTS_REFINE: u64 = 0;
 /// Offset of the dispatch over the work items of the mesh stage.
@@ -230,6 +232,8 @@ pub const ARGUMENTS_MESH_VERTICES: u64 = 80;
 pub const ARGUMENTS_OPAQUE: u64 = 32;
 /// Offset of the draw of thin triangles.
 pub const ARGUMENTS_THIN: u64 = 64;
+/// Offset of the dispatch over thin triangles.
+pub const ARGUMENTS_THIN_LISTS: u64 = 96;
 /// Bytes of `SkyCorner` in WGSL.
 pub const SKY_CORNER_BYTES: u64 = 48;
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::scene::model::{Image, Model};
 
 use crate::render::Gpu;
-use crate::render::gpu::layout::Growing;
+use crate::render::gpu::layout::{Growing, TableTexture};
 use crate::render::gpu::types::{Material, ModelTriangle, ModelVertex};
 use crate::render::models::hiding::seen_from;
 use crate::render::models::outside::{AGAINST, ALONG, OPEN, sides};
@@ -205,17 +205,17 @@ impl ModelSet {
     }
 }
 
-/// The buffers and the texture array of all models.
+/// The tables and the texture array of all models.
 #[derive(Debug)]
 pub struct Models {
     /// What they hold.
     set: ModelSet,
     /// All vertices.
-    pub vertex_buffer: Growing,
+    pub vertices: TableTexture,
     /// All edges.
-    pub edge_buffer: Growing,
+    pub edges: TableTexture,
     /// All triangles.
-    pub triangle_buffer: Growing,
+    pub triangles: TableTexture,
     /// All materials.
     pub material_buffer: Growing,
     /// All images.
@@ -238,9 +238,9 @@ impl Models {
         });
         Models {
             set: ModelSet::default(),
-            vertex_buffer: Growing::new(device, "model vertices", storage),
-            edge_buffer: Growing::new(device, "model edges", storage),
-            triangle_buffer: Growing::new(device, "model triangles", storage),
+            vertices: TableTexture::new(device, "model vertices", true),
+            edges: TableTexture::new(device, "model edges", true),
+            triangles: TableTexture::new(device, "model triangles", true),
             material_buffer: Growing::new(device, "materials", storage),
             texture,
         }
@@ -265,9 +265,9 @@ impl Models {
         for (layer, image) in (0u32..).zip(&self.set.images).skip(written) {
             self.write_image(gpu, image, layer);
         }
-        self.vertex_buffer.write(gpu, &self.set.vertices);
-        self.edge_buffer.write(gpu, &self.set.edges);
-        self.triangle_buffer.write(gpu, &self.set.triangles);
+        self.vertices.write(gpu, &self.set.vertices);
+        self.edges.write(gpu, &self.set.edges);
+        self.triangles.write(gpu, &self.set.triangles);
         self.material_buffer.write(gpu, &self.set.materials);
     }
 

@@ -55,7 +55,7 @@ impl Flashes {
     /// Writes the factor on the picture into `adapted`, once picture, glow and exposure are known.
     pub fn run(&self, recording: &mut Recording, adapted: &wgpu::Buffer) {
         {
-            let timestamp_writes = recording.timing.compute("flashes");
+            let timestamp_writes = recording.timing.compute(recording.encoder, "flashes");
             let mut pass = recording.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("flashes"), timestamp_writes });
             pass.set_bind_group(0, recording.frame, &[]);
             pass.set_bind_group(2, &self.group, &[]);

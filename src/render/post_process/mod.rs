@@ -2,19 +2,18 @@
 
 pub mod coverage;
 pub mod flashes;
+pub mod upscale;
 
 use wgpu::ShaderStages;
 
 use crate::render::Gpu;
+use crate::render::geometry::thin::{ThinLists, tiles_layout};
 use crate::render::gpu::layout::{HDR_FORMAT, Raster, Slot, bind, buffer, compute, layout, module, raster};
 use crate::render::gpu::shaders::Pass;
-use crate::render::gpu::targets::{Targets, target};
+use crate::render::gpu::targets::{Targets, tiles};
 use crate::render::passes::{Recording, colour};
 
 use flashes::Flashes;
-
-/// Pixels along the side of a tile in which outlines are smoothed; as in shaders/post_process/smooth.wgsl.
-pub const TILE: u32 = 16;
 
 /// The passes after the picture is drawn.
 #[derive(Debug)]
@@ -30,7 +29,8 @@ pub struct PostProcess {
     soften: wgpu::RenderPipeline,
     meter: wgpu::ComputePipeline,
     tone_map: wgpu::RenderPipeline,
-    tone_map_twice: wgpu::RenderPipeline,
+    outlines_layout: wgpu::BindGroupLayout,
+    find_outlines: wgpu::ComputePipeline,
     smooth: wgpu::RenderPipeline,
     output: wgpu::TextureFormat,
     sampler: wgpu::Sampler,
@@ -47,8 +47,10 @@ struct Groups {
     sampled: Vec<wgpu::BindGroup>,
     meter: wgpu::BindGroup,
     tone_map: wgpu::BindGroup,
-    /// The picture for the eye before outlines are smoothed, and the pass that does it.
-    display: wgpu::TextureView,
+    /// The picture for the eye before outlines are smoothed; tiles with outlines; the passes that find and smooth them.
+    display: wgpu::Texture,
+    outlines: wgpu::Buffer,
+    find_outlines: wgpu::BindGroup,
     smooth: wgpu::BindGroup,
 }
 
@@ -67,20 +69,23 @@ impl PostProcess {
         };
         let over = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
         let mixed = wgpu::BlendState::ALPHA_BLENDING;
-        let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &[Slot::Texture, Slot::Sampler, Slot::Depth]);
+        let slots = [Slot::Texture, Slot::Sampler, Slot::Depth, Slot::Read];
+        let smooth_layout = layout(device, "smooth", ShaderStages::VERTEX_FRAGMENT, &slots);
+        let outlines_layout = layout(device, "outlines", ShaderStages::COMPUTE, &[Slot::Depth, Slot::Write]);
         PostProcess {
-            compose: pass("compose", Pass::Compose, "fragment", &thin_layout, HDR_FORMAT, Some(over)),
+            compose: {
+                let shader = module(device, "compose", Pass::Compose);
+                let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(over))], depth: None };
+                let groups = [Some(frame_layout), Some(&tiles_layout(device)), Some(&thin_layout)];
+                raster(device, "compose", &shader, stage, &groups)
+            },
             down: pass("bloom down", Pass::Bloom, "down", &sampled_layout, HDR_FORMAT, None),
             up: pass("bloom up", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, Some(mixed)),
             // The same, and nothing to mix it with.
             soften: pass("bloom soften", Pass::Bloom, "up", &sampled_layout, HDR_FORMAT, None),
             meter: compute(device, "meter", Pass::Exposure, "main", &[Some(frame_layout), None, Some(&meter_layout)]),
             tone_map: pass("tone map", Pass::ToneMap, "fragment", &tone_map_layout, output, None),
-            tone_map_twice: {
-                let shader = module(device, "tone map", Pass::ToneMap);
-                let stage = Raster { vertex: "vertex", fragment: "twice", targets: &[(output, None), (output, None)], depth: None };
-                raster(device, "tone map", &shader, stage, &[Some(frame_layout), None, Some(&tone_map_layout)])
-            },
+            find_outlines: compute(device, "outlines", Pass::Outlines, "main", &[Some(frame_layout), None, Some(&outlines_layout)]),
             smooth: pass("smooth", Pass::Smooth, "fragment", &smooth_layout, output, None),
             output,
             sampler: device.create_sampler(&wgpu::SamplerDescriptor {
@@ -96,6 +101,7 @@ impl PostProcess {
             meter_layout,
             tone_map_layout,
             smooth_layout,
+            outlines_layout,
             groups: None,
         }
     }
@@ -105,7 +111,8 @@ impl PostProcess {
         use wgpu::BindingResource::{Sampler, TextureView};
         let device = &gpu.device;
         self.flashes.resize(device, targets, &self.sampler, &self.adapted);
-        let (_, display) = target(device, "display", targets.size, self.output);
+        let display = display(device, targets.size, self.output);
+        let outlines = outlines(gpu, targets.size);
         let views = std::iter::once(&targets.picture).chain(&targets.bloom).chain([&targets.glow]);
         self.groups = Some(Groups {
             thin: bind(device, "thin", &self.thin_layout, &[TextureView(&targets.thin), TextureView(&targets.thin_signed)]),
@@ -128,21 +135,28 @@ impl PostProcess {
                 device,
                 "smooth",
                 &self.smooth_layout,
-                &[TextureView(&display), Sampler(&self.sampler), TextureView(&targets.depth)],
+                &[
+                    TextureView(&display.create_view(&Default::default())),
+                    Sampler(&self.sampler),
+                    TextureView(&targets.depth),
+                    outlines.as_entire_binding(),
+                ],
             ),
+            find_outlines: bind(device, "outlines", &self.outlines_layout, &[TextureView(&targets.depth), outlines.as_entire_binding()]),
             display,
+            outlines,
         });
     }
 
-    /// Lays the thin triangles over the picture.
-    pub fn compose(&self, recording: &mut Recording) {
+    /// Lays the thin triangles over the picture, in the tiles that have some.
+    pub fn compose(&self, recording: &mut Recording, thin: &ThinLists) {
         let Some(groups) = &self.groups else { return };
         let over = [Some(colour(&recording.targets.picture, false))];
-        begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin).draw(0..3, 0..1);
+        thin.draw_tiles(&mut begin(recording, ["compose"; 2], &over, &self.compose, &groups.thin));
     }
 
     /// Bloom, exposure, and the picture into `output`, with smooth outlines of bodies if they are asked for. `adaptation` is what the
-    /// frame's exposure is kept in. `steady`: the rise of its mean brightness is bound.
+    /// frame's exposure is kept in. `steady`: the rise of its mean brightness is bound. `output` can be copied from.
     pub fn run(&self, recording: &mut Recording, adaptation: &wgpu::Buffer, smooth: bool, steady: bool, output: &wgpu::TextureView) {
         let Some(groups) = &self.groups else { return };
         let targets = recording.targets;
@@ -150,7 +164,7 @@ impl PostProcess {
             begin(recording, ["bloom", "bloom down"], &[Some(colour(view, true))], &self.down, level).draw(0..3, 0..1);
         }
         {
-            let timestamp_writes = recording.timing.compute("exposure");
+            let timestamp_writes = recording.timing.compute(recording.encoder, "exposure");
             let mut pass = recording.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("exposure"), timestamp_writes });
             pass.set_pipeline(&self.meter);
             pass.set_bind_group(0, recording.frame, &[]);
@@ -171,16 +185,52 @@ impl PostProcess {
         if steady {
             self.flashes.run(recording, &self.adapted);
         }
-        // The pass that smooths outlines reads the picture before that.
-        let both = [output, &groups.display].map(|view| Some(colour(view, true)));
-        let (to, tone_map) = if smooth { (&both[..], &self.tone_map_twice) } else { (&both[..1], &self.tone_map) };
-        begin(recording, ["tone map"; 2], to, tone_map, &groups.tone_map).draw(0..3, 0..1);
+        begin(recording, ["tone map"; 2], &[Some(colour(output, true))], &self.tone_map, &groups.tone_map).draw(0..3, 0..1);
         if smooth {
-            let tiles = targets.size.map(|side| side.div_ceil(TILE)).iter().product();
-            let onto = &[Some(colour(output, false))];
-            begin(recording, ["smooth"; 2], onto, &self.smooth, &groups.smooth).draw(0..6, 0..tiles);
+            self.smooth(recording, groups, output);
         }
     }
+
+    /// Smooths outlines of bodies in the finished picture, in the tiles that have some.
+    fn smooth(&self, recording: &mut Recording, groups: &Groups, output: &wgpu::TextureView) {
+        let size = recording.targets.size;
+        recording.encoder.clear_buffer(&groups.outlines, 4, Some(4));
+        {
+            let timestamp_writes = recording.timing.compute(recording.encoder, "smooth");
+            let mut pass = recording.encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("outlines"), timestamp_writes });
+            pass.set_pipeline(&self.find_outlines);
+            pass.set_bind_group(0, recording.frame, &[]);
+            pass.set_bind_group(2, &groups.find_outlines, &[]);
+            pass.dispatch_workgroups(tiles(size).div_ceil(64), 1, 1);
+        }
+        // A copy of the picture is read while it is drawn over.
+        let extent = wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 };
+        recording.encoder.copy_texture_to_texture(output.texture().as_image_copy(), groups.display.as_image_copy(), extent);
+        let onto = &[Some(colour(output, false))];
+        begin(recording, ["smooth"; 2], onto, &self.smooth, &groups.smooth).draw_indirect(&groups.outlines, 0);
+    }
+}
+
+/// `Outlines` of outlines.wgsl for a picture of `size` pixels: the arguments of a draw of no tiles, and room for all of them.
+fn outlines(gpu: &Gpu, size: [u32; 2]) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT;
+    let outlines = buffer(&gpu.device, "outlines", 16 + 4 * u64::from(tiles(size)), usage);
+    gpu.queue.write_buffer(&outlines, 0, bytemuck::cast_slice(&[6u32, 0, 0, 0]));
+    outlines
+}
+
+/// A texture that the finished picture is copied into.
+fn display(device: &wgpu::Device, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("display"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    })
 }
 
 /// Begins a pass that draws to `targets`, with everything set but its triangles: most passes have one, over the whole picture. It is timed
@@ -192,10 +242,11 @@ fn begin<'r>(
     pipeline: &wgpu::RenderPipeline,
     group: &wgpu::BindGroup,
 ) -> wgpu::RenderPass<'r> {
+    let timestamp_writes = recording.timing.render(recording.encoder, timed);
     let mut pass = recording.encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some(label),
         color_attachments: targets,
-        timestamp_writes: recording.timing.render(timed),
+        timestamp_writes,
         ..Default::default()
     });
     pass.set_pipeline(pipeline);

@@ -3,6 +3,7 @@
 use crate::spacetime::Observer;
 use std::cmp::Reverse;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -36,30 +37,54 @@ struct Cluster {
     spread: f64,
 }
 
+/// Neighbouring clusters: those of four cells.
+#[derive(Clone, Debug)]
+struct Region {
+    /// All of their stars.
+    all: Cluster,
+    /// Their numbers.
+    clusters: Range<usize>,
+}
+
+/// Stars in the order of their clusters, these in that of their regions.
+struct Arranged {
+    stars: Vec<Star>,
+    clusters: Vec<Cluster>,
+    regions: Vec<Region>,
+}
+
 /// The stars in clusters: only those that may be on the screen are projected.
-fn arranged(stars: &[Star]) -> (Vec<Star>, Vec<Cluster>) {
-    // Cells of a cube's faces, 16 × 16 each: about 75 stars a cell.
+fn arranged(stars: &[Star]) -> Arranged {
+    // Cells of a cube's faces, 16 × 16 each: about 75 stars a cell. The last two bits count the cells of a region.
     let cell = |star: &Star| {
         let d = star.direction;
         let axis = (0..3).max_by(|&a, &b| d[a].abs().total_cmp(&d[b].abs())).unwrap_or(0);
         let face = |k: usize| ((d[(axis + k) % 3] / d[axis].abs().max(1e-9) * 8.0 + 8.0) as u32).min(15);
-        (axis as u32 * 2 + u32::from(d[axis] < 0.0)) << 8 | face(1) << 4 | face(2)
+        let (x, y) = (face(1), face(2));
+        (axis as u32 * 2 + u32::from(d[axis] < 0.0)) << 8 | (x >> 1) << 5 | (y >> 1) << 2 | (x & 1) << 1 | (y & 1)
     };
     let mut sorted = stars.to_vec();
     // Fluxes are positive, and the bits of such numbers are in their order.
     sorted.sort_by_cached_key(|star| (cell(star), Reverse(star.direction[3].max(0.0).to_bits())));
     let mut clusters = Vec::new();
+    let mut regions = Vec::new();
     let mut first = 0;
-    for same_cell in sorted.chunk_by(|a, b| cell(a) == cell(b)) {
-        for part in same_cell.chunks(CLUSTER) {
-            let direction = |star: &Star| DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize_or(DVec3::Z);
-            let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
-            let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
-            clusters.push(Cluster { first, count: part.len() as u32, middle, spread });
+    let cluster = |first: u32, part: &[Star]| {
+        let direction = |star: &Star| DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize_or(DVec3::Z);
+        let middle = part.iter().map(direction).sum::<DVec3>().normalize_or(DVec3::Z);
+        let spread = part.iter().map(|star| middle.angle_between(direction(star))).fold(0.0, f64::max);
+        Cluster { first, count: part.len() as u32, middle, spread }
+    };
+    for region in sorted.chunk_by(|a, b| cell(a) >> 2 == cell(b) >> 2) {
+        let begin = clusters.len();
+        let all = cluster(first, region);
+        for part in region.chunk_by(|a, b| cell(a) == cell(b)).flat_map(|same_cell| same_cell.chunks(CLUSTER)) {
+            clusters.push(cluster(first, part));
             first += part.len() as u32;
         }
+        regions.push(Region { all, clusters: begin..clusters.len() });
     }
-    (sorted, clusters)
+    Arranged { stars: sorted, clusters, regions }
 }
 
 /// Whether the image of this order of a cluster may be on the screen, by a cone that holds the image. In doubt the answer is yes.
@@ -91,6 +116,8 @@ fn cluster_may_be_seen(cluster: &Cluster, order: u32, camera: &Observer, table: 
 #[derive(Debug)]
 pub struct Stars {
     clusters: Vec<Cluster>,
+    /// Few, so that most clusters need not be looked at one by one.
+    regions: Vec<Region>,
     /// Clusters that may be on the screen: first star, how many, order.
     listed: Growing,
     groups: u32,
@@ -108,7 +135,7 @@ impl Stars {
     /// Uploads the catalogue. `table` is [`blackbody_table`](crate::render::frame::blackbody_table).
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, stars: &[Star], table: &[[f32; 4]]) -> Self {
         let device = &gpu.device;
-        let (mut sorted, clusters) = arranged(stars);
+        let Arranged { stars: mut sorted, clusters, regions } = arranged(stars);
         for star in &mut sorted {
             let rgb = blackbody::lookup(table, BLACKBODY_COLDEST, BLACKBODY_HOTTEST, star.colour[0]);
             star.colour[1] = blackbody::luminance(rgb.map(f64::from)) as f32;
@@ -139,7 +166,7 @@ impl Stars {
         };
         let stage = Raster { vertex: "vertex", fragment: "fragment", targets: &[(HDR_FORMAT, Some(add))], depth: Some(false) };
         let draw = raster(device, "stars draw", &shader, stage, &[Some(frame_layout), Some(&draw_layout)]);
-        Stars { clusters, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
+        Stars { clusters, regions, listed, groups: 0, project_layout, catalogue, seen, project, project_group, draw, draw_group, arguments }
     }
 
     /// Lists what may be on the screen of this camera and empties the list of seen stars; before [`Stars::project`]. `table` is the sky's
@@ -149,7 +176,9 @@ impl Stars {
         let orders = if table.is_empty() { 0 } else { ORDERS };
         let mut listed: Vec<[u32; 4]> = (1..=orders)
             .into_par_iter()
-            .flat_map(|order| self.clusters.par_iter().map(move |cluster| (order, cluster)))
+            .flat_map(|order| self.regions.par_iter().map(move |region| (order, region)))
+            .filter(|(order, region)| cluster_may_be_seen(&region.all, *order, camera, table, edge, aspect))
+            .flat_map_iter(|(order, region)| self.clusters[region.clusters.clone()].iter().map(move |cluster| (order, cluster)))
             .filter(|(order, cluster)| cluster_may_be_seen(cluster, *order, camera, table, edge, aspect))
             .map(|(order, cluster)| [cluster.first, cluster.count, order, 0])
             .collect();
@@ -204,7 +233,7 @@ mod tests {
             let d = DVec3::new((1.0 - z * z).sqrt() * azimuth.cos(), (1.0 - z * z).sqrt() * azimuth.sin(), z);
             stars.push(Star { direction: [d.x as f32, d.y as f32, d.z as f32, 1.0], colour: [5000.0, 0.0, 0.0, 0.0] });
         }
-        let (sorted, clusters) = arranged(&stars);
+        let Arranged { stars: sorted, clusters, regions } = arranged(&stars);
         let mut on_screen = 0;
         let mut kept = 0;
         for (position, momentum, angle) in [
@@ -218,9 +247,12 @@ mod tests {
             let (l, size) = (camera.radius(), [640, 360]);
             let (table, edge) = (sky_table(l), light::shadow_angle(1.0 / l));
             let n = camera.axis_frame()[0];
+            let may_be_seen = |cluster: &Cluster, order| cluster_may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
             for order in 1..=ORDERS {
-                for cluster in &clusters {
-                    let keep = cluster_may_be_seen(cluster, order, &camera, &table, edge, 360.0 / 640.0);
+                let of_regions =
+                    regions.iter().flat_map(|region| clusters[region.clusters.clone()].iter().map(move |cluster| (region, cluster)));
+                for (region, cluster) in of_regions {
+                    let keep = may_be_seen(&region.all, order) && may_be_seen(cluster, order);
                     kept += u32::from(keep);
                     for star in &sorted[cluster.first as usize..(cluster.first + cluster.count) as usize] {
                         let d = DVec3::from_slice(&star.direction.map(f64::from)[..3]).normalize();

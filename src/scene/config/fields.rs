@@ -98,6 +98,12 @@ macro_rules! config {
     };
 }
 
+/// The setting with this dotted path, such as `render.orders`.
+pub fn setting(path: &str) -> Option<&'static Setting<GameConfig>> {
+    let (section, key) = path.split_once('.')?;
+    settings().iter().find(|setting| setting.section == section && setting.key == key)
+}
+
 use Allowed::{Buttons, Choice, Switch, Words};
 
 /// The actions that may be switched with a tap instead of held.
@@ -290,7 +296,8 @@ config! {
         pause_without_focus: bool = true, Switch, "", "the flight pauses when the window loses its focus";
         reduced_motion: bool = false, Switch, "", "the camera does not sway or glide";
         frame_limit: u32 = 0u32, integer(0, 1000), "frames per second", "no more frames than this; 0 is no limit";
-        quality: String = "high", Choice(&["low", "medium", "high"]), "", "how much is drawn: high is as the sections above say, the others less";
+        quality: String = "high", Choice(&["automatic", "low", "medium", "high"]), "", "how much is drawn; high: as the sections above say; automatic: what holds the rate";
+        held_rate: u32 = 0u32, integer(0, 1000), "frames per second", "rate that automatic quality holds; 0 is the display's";
     }
     /// Sound.
     sound: Sound {

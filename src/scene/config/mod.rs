@@ -1,8 +1,9 @@
 //! `game.toml`: every tunable value, with unit, default and allowed range, said once in `fields.rs`.
 
+pub mod assignment;
 pub mod buttons;
+pub mod edit;
 mod fields;
-mod quality;
 mod setting;
 
 use std::path::{Path, PathBuf};
@@ -13,9 +14,10 @@ use toml::de::{DeString, DeTable, DeValue};
 use super::document::error::{Complaints, ConfigError};
 use super::document::fault::Fault;
 use super::document::{complain_all, one, syntax};
+pub use assignment::Assignment;
 pub use fields::{
     Accessibility, Assist, AuroraConfig, Clock, Controls, Disk, Enemy, GameConfig, HELD, Hole, Interface, METHODS, Render, RulesConfig,
-    ShipConfig, Sky, Sound, Video, settings,
+    ShipConfig, Sky, Sound, Video, setting, settings,
 };
 pub(super) use setting::range_text;
 pub use setting::{Allowed, Setting, Value};
@@ -34,6 +36,19 @@ pub fn file(named: Option<&Path>) -> Option<PathBuf> {
 /// Reads the named file, or the one that [`file()`] finds; where there is none, every value is its default.
 pub fn find(named: Option<&Path>) -> Result<GameConfig, ConfigError> {
     Ok(file(named).as_deref().map(load).transpose()?.unwrap_or_default())
+}
+
+/// As [`find`], with what the command line sets over it.
+pub fn find_with(named: Option<&Path>, set: &[Assignment]) -> Result<GameConfig, ConfigError> {
+    let mut config = find(named)?;
+    assign(&mut config, set)?;
+    Ok(config)
+}
+
+/// Puts what the command line sets over a configuration.
+pub fn assign(config: &mut GameConfig, set: &[Assignment]) -> Result<(), ConfigError> {
+    set.iter().for_each(|one| one.apply(config));
+    if set.is_empty() { Ok(()) } else { check(config).map_err(ConfigError::Set) }
 }
 
 /// Reads `path`. Keys that are left out keep their default; unknown keys, wrong types and values out of range are errors.
@@ -147,7 +162,7 @@ pub fn choices_text<'a>(chosen: impl IntoIterator<Item = (&'a Setting<GameConfig
             section = setting.section;
             text.push_str(&format!("\n[{section}]\n"));
         }
-        text.push_str(&format!("{} = {}\n", setting.key, written(value)));
+        text.push_str(&format!("{} = {}\n", setting.key, value.written()));
     }
     text
 }
@@ -183,12 +198,6 @@ fn read(value: &DeValue<'_>) -> Option<Value> {
     }
 }
 
-/// The setting with this dotted path, such as `render.orders`.
-pub fn setting(path: &str) -> Option<&'static Setting<GameConfig>> {
-    let (section, key) = path.split_once('.')?;
-    settings().iter().find(|setting| setting.section == section && setting.key == key)
-}
-
 /// The sections in the order of the file.
 pub fn section_names() -> Vec<&'static str> {
     let mut names: Vec<&'static str> = settings().iter().map(|setting| setting.section).collect();
@@ -207,7 +216,7 @@ pub fn template(config: &GameConfig) -> String {
             section = setting.section;
             text.push_str(&format!("\n[{section}]\n"));
         }
-        let assignment = format!("{} = {}", setting.key, written(&setting.get(config)));
+        let assignment = format!("{} = {}", setting.key, setting.get(config).written());
         // The names of buttons and actions are long; an error tells them.
         let allowed = match setting.allowed {
             Allowed::Buttons => "up to four buttons, or None".into(),
@@ -217,13 +226,4 @@ pub fn template(config: &GameConfig) -> String {
         text.push_str(&format!("{assignment:<33} # {} ({allowed})\n", setting.help));
     }
     text
-}
-
-/// A value as TOML; a real number always has a point or an exponent, so that it stays one.
-fn written(value: &Value) -> String {
-    match value {
-        Value::Number(number) if number.abs() >= 1e7 => format!("{number:e}"),
-        Value::Number(number) => format!("{number:?}"),
-        other => other.to_string(),
-    }
 }

@@ -17,6 +17,17 @@ pub enum Value {
     Word(String),
 }
 
+impl Value {
+    /// As TOML; a real number always has a point or an exponent, so that it stays one.
+    pub fn written(&self) -> String {
+        match self {
+            Value::Number(number) if number.abs() >= 1e7 => format!("{number:e}"),
+            Value::Number(number) => format!("{number:?}"),
+            other => other.to_string(),
+        }
+    }
+}
+
 /// What values a setting may take.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Allowed {

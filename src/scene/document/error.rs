@@ -82,4 +82,7 @@ pub enum ConfigError {
     /// Entries are wrong.
     #[error("{0}")]
     Invalid(Complaints),
+    /// What the command line sets clashes.
+    #[error("--set: {0}")]
+    Set(String),
 }

@@ -15,6 +15,7 @@ use lensrunner::render::frame::{BLACKBODY_COLDEST, BLACKBODY_HOTTEST};
 use lensrunner::render::gpu::layout::TABLE_ROW;
 use lensrunner::render::gpu::library::{Library, Values, Worldlines};
 use lensrunner::render::gpu::shaders::Pass;
+use lensrunner::render::gpu::targets::TILE;
 use lensrunner::render::gpu::types::{
     self, CellDraws, Chunk, Counters, Frame, Instance, Material, ModelTriangle, ModelVertex, SeenVertex, Star,
 };
@@ -23,7 +24,7 @@ use lensrunner::render::method::Method;
 use lensrunner::render::models::ALONE;
 use lensrunner::render::models::hiding::DIRECTIONS;
 use lensrunner::render::models::outside;
-use lensrunner::render::post_process::{TILE, flashes};
+use lensrunner::render::post_process::flashes;
 use wgpu::naga::{Expression, Literal, Module};
 
 use crate::layout::{fields, fields_of, struct_of};
@@ -125,7 +126,6 @@ fn named_constant(module: &Module, name: &str, path: &str) -> f64 {
 #[test]
 fn constants_of_passes_have_one_value_in_both_languages() {
     let cases = [
-        (Pass::Smooth, "TILE", f64::from(TILE)),
         (Pass::Flashes, "GROUPS", f64::from(flashes::GROUPS)),
         (Pass::AuroraWalk, "DEPTH_TILES", f64::from(DEPTH_TILES)),
         (Pass::AuroraWalk, "LEAST_DEPTH_TILE", f64::from(LEAST_DEPTH_TILE)),
@@ -143,6 +143,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::FLAG_BEAMING", whole(flags::BEAMING)),
         ("gpu::types::FLAG_INSIDE", whole(flags::INSIDE)),
         ("gpu::types::FLAG_HOLD_EXPOSURE", whole(flags::HOLD_EXPOSURE)),
+        ("gpu::types::FLAG_MIDPOINT", whole(flags::MIDPOINT)),
         ("gpu::types::INSTANCE_TWO_SIDED", whole(placed::TWO_SIDED)),
         ("gpu::types::INSTANCE_HELD", whole(placed::HELD)),
         ("gpu::types::INSTANCE_THIN", whole(placed::THIN)),
@@ -156,6 +157,7 @@ fn constants_have_one_value_in_both_languages() {
         ("gpu::types::SIDE_AGAINST", whole(outside::AGAINST)),
         ("gpu::types::SIDE_LONE", whole(outside::LONE)),
         ("geometry::bindings::ALONE", whole(ALONE)),
+        ("post_process::tiles::TILE", whole(TILE)),
         ("gpu::colour::BLACKBODY_COLDEST", f64::from(BLACKBODY_COLDEST)),
         ("gpu::colour::BLACKBODY_HOTTEST", f64::from(BLACKBODY_HOTTEST)),
         ("disk::arcs::place::THIN_SAMPLES", THIN_SAMPLES as f64),

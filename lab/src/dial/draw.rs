@@ -1,0 +1,55 @@
+//! The chart: error against time along the ladder of each class, and predictions against measurements.
+
+use std::path::PathBuf;
+
+use lensrunner::play::picture::quality::{LOW, MEDIUM};
+use lensrunner::render::quality::ladder::ladder;
+use lensrunner::render::quality::prices::{Prices, SceneClass};
+
+use super::DialError;
+use super::check::verdict;
+use crate::chart::{Output, Provenance, Sheet};
+use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel, Point, Scatter};
+
+/// Draws `dial.svg` and `dial.png`; `checked` is the sheet of the check.
+pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBuf; 2], DialError> {
+    let front = SceneClass::ALL.map(|class| Line {
+        name: class.name().to_owned(),
+        points: ladder(prices, class).iter().skip(1).map(|rung| [100.0 * rung.time, rung.error]).collect(),
+        dots: true,
+        ..Line::default()
+    });
+    let guides = [(LOW, "low"), (MEDIUM, "medium")].map(|(at, label)| Guide { at, label: label.into() });
+    let points = checked.rows.iter().map(|row| {
+        let (predicted, error) = (checked.number(row, "predicted FLIP"), checked.number(row, "FLIP"));
+        let family = SceneClass::ALL.iter().position(|class| class.name() == checked.text(row, "class")).unwrap_or(0);
+        Point { x: predicted, y: error.max(1e-4), label: String::new(), family, failed: error > predicted, chosen: false }
+    });
+    let figure = Figure {
+        title: "One dial: error against time of a frame".into(),
+        verdict: verdict(checked),
+        panels: vec![
+            Panel::Lines(Lines {
+                title: "rungs of the ladder, from the finest down".into(),
+                x: Axis::linear("predicted share of the finest's time, %").between(0.0, 100.0),
+                y: Axis::log("predicted error, mean FLIP"),
+                lines: front.to_vec(),
+                guides: guides.to_vec(),
+                guides_x: Vec::new(),
+            }),
+            Panel::Scatter(Scatter {
+                title: "moments nobody chose (red: above the prediction)".into(),
+                x: Axis::log("predicted error, mean FLIP"),
+                y: Axis::log("measured error, mean FLIP"),
+                points: points.collect(),
+                families: SceneClass::ALL.map(|class| class.name().to_owned()).to_vec(),
+                ..Scatter::default()
+            }),
+        ],
+        columns: 2,
+        size: [1400, 640],
+        footer: Provenance::footer(&checked.notes),
+        ..Figure::default()
+    };
+    Ok(figure.save(&output.folder, "dial")?)
+}

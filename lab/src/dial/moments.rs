@@ -1,0 +1,177 @@
+//! Moments that nobody chose: a scene of a class, a time of its flight, a camera turned at random; and frames of them, timed and compared.
+
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use glam::DQuat;
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::quality::prices::SceneClass;
+use lensrunner::render::settings::Settings;
+use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::stage::{Stage, settings};
+use lensrunner::render::{Gpu, Renderer};
+use lensrunner::scene::planet::AuroraShape;
+use lensrunner::scene::{self, GameConfig, Scene};
+use lensrunner::spacetime::Observer;
+use rand::rngs::SmallRng;
+use rand::{Rng, RngExt};
+
+use super::DialError;
+use crate::flip::flip;
+use crate::frame_times::processor_time;
+use crate::frame_times::whole::draw;
+
+/// Latest time of a moment, in r_s/c.
+const LATEST: f64 = 40.0;
+/// The camera is turned by up to this, in rad: what lies before it is still in the picture, but not in its middle.
+const TURNED: f64 = 0.5;
+/// No nearer to the hole than this, in r_s: a camera that falls through the horizon is a class of its own.
+const NEAREST: f64 = 1.2;
+/// Frames of which the quickest is the time of one.
+const TIMED: usize = 4;
+/// Timings before those that count.
+const WARM: usize = 3;
+/// Scenes drawn before a class is given up.
+const TRIES: usize = 200;
+
+/// One moment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// The scene's name.
+    pub scene: String,
+    /// T, in r_s/c.
+    pub at: f64,
+    /// Seed of its pilots.
+    pub seed: u64,
+    /// How far the camera is turned to the left and up, in rad.
+    pub turn: [f64; 2],
+}
+
+/// The class of a scene, by what is in it.
+pub fn class_of(scene: &Scene) -> SceneClass {
+    let has_aurora = scene.planet.as_ref().is_some_and(|planet| planet.aurora != AuroraShape::None);
+    let has_bodies = !scene.ships.is_empty() || !scene.props.is_empty() || scene.planet.is_some();
+    SceneClass::of(has_bodies, scene.disk(&GameConfig::default()).is_some(), has_aurora)
+}
+
+/// All scenes and missions of a class.
+pub fn scenes(class: SceneClass) -> Result<Vec<Scene>, DialError> {
+    let mut found = Vec::new();
+    for name in scene::names().into_iter().chain(scene::mission_names()) {
+        let scene = scene::load(&name)?;
+        if class_of(&scene) == class {
+            found.push(scene);
+        }
+    }
+    Ok(found)
+}
+
+/// A moment of one of these scenes.
+pub fn case(scenes: &[Scene], rng: &mut SmallRng) -> Option<Case> {
+    (0..TRIES).find_map(|_| {
+        let scene = scenes.get(rng.random_range(0..scenes.len().max(1)))?;
+        let case = Case {
+            scene: scene.name.clone(),
+            at: (rng.random::<f64>() * LATEST * 32.0).round() / 32.0,
+            seed: rng.next_u64() >> 32,
+            turn: [0, 1].map(|_| TURNED * (2.0 * rng.random::<f64>() - 1.0)),
+        };
+        let moment = Moment::new(scene, &GameConfig::default(), case.at, case.seed);
+        let ships = moment.ships();
+        let sees = scene.camera.check(moment.time(), &ships).is_ok();
+        (sees && scene.camera.viewpoint(moment.time(), &ships).radius() > NEAREST).then_some(case)
+    })
+}
+
+/// The renderer for moments.
+pub struct Bench {
+    renderer: Renderer,
+    config: GameConfig,
+    size: [u32; 2],
+}
+
+/// A moment on the renderer.
+pub struct Shown {
+    stage: Stage,
+    moment: Moment,
+    camera: Observer,
+    /// The settings of the configuration.
+    pub finest: Settings,
+}
+
+/// A finished picture and the time of a frame.
+pub struct Taken {
+    /// sRGB-linear light as shown, 0 to 1.
+    pub light: Vec<[f32; 3]>,
+    /// Milliseconds a frame: the instances, the passes, until all is done. On a software driver of the processor, all threads together.
+    pub milliseconds: f64,
+}
+
+impl Bench {
+    /// Opens the device.
+    pub fn new(size: [u32; 2]) -> Result<Bench, DialError> {
+        let gpu = Gpu::headless()?;
+        let renderer = Renderer::new(&gpu, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, size);
+        Ok(Bench { renderer, config: GameConfig::default(), size })
+    }
+
+    /// The name of the device.
+    pub fn adapter(&self) -> &str {
+        &self.renderer.gpu().adapter.name
+    }
+
+    /// Uploads a moment.
+    pub fn show(&mut self, case: &Case) -> Result<Shown, DialError> {
+        let scene = scene::load(&case.scene)?;
+        let stage = Stage::new(&mut self.renderer, &scene, &self.config);
+        let moment = Moment::new(&scene, &self.config, case.at, case.seed);
+        let mut camera = stage.camera(moment.time(), &moment.ships());
+        camera.attitude *= DQuat::from_rotation_y(case.turn[0]) * DQuat::from_rotation_x(case.turn[1]);
+        debug_assert!(case.turn.iter().all(|turn| turn.abs() < PI));
+        Ok(Shown { stage, moment, camera, finest: settings(&self.config) })
+    }
+
+    /// Draws it with these settings.
+    pub fn take(&mut self, shown: &Shown, settings: &Settings) -> Result<Taken, DialError> {
+        let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
+        let picture = self.renderer.picture(&frame(), false)?;
+        let milliseconds = self.time(shown, settings)?;
+        let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
+        Ok(Taken { light, milliseconds })
+    }
+
+    /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].
+    pub fn time(&mut self, shown: &Shown, settings: &Settings) -> Result<f64, DialError> {
+        let frame = || shown.stage.frame(shown.camera, self.size, shown.moment.time(), &shown.moment.histories(), None, settings);
+        let gpu = self.renderer.gpu().clone();
+        let (_, view) = target(&gpu.device, "bench", self.size, wgpu::TextureFormat::Rgba8UnormSrgb);
+        // A software driver works on the processor: its time is not disturbed by other programs.
+        let is_software = gpu.adapter.device_type == wgpu::DeviceType::Cpu;
+        let start = Instant::now();
+        let clock = || processor_time().filter(|_| is_software).unwrap_or_else(|| 1e3 * start.elapsed().as_secs_f64());
+        let mut milliseconds = f64::INFINITY;
+        for _ in 0..TIMED {
+            let begin = clock();
+            draw(&gpu, &mut self.renderer, &frame(), &view)?;
+            milliseconds = milliseconds.min(clock() - begin);
+        }
+        Ok(milliseconds)
+    }
+
+    /// Draws it until memory and clocks have settled.
+    pub fn warm(&mut self, shown: &Shown) -> Result<(), DialError> {
+        (0..WARM).try_for_each(|_| self.time(shown, &shown.finest).map(|_| ()))
+    }
+
+    /// Mean FLIP of a picture from the finest.
+    pub fn error(&self, finest: &Taken, taken: &Taken) -> f64 {
+        let differences = flip(&finest.light, &taken.light, self.size);
+        differences.iter().map(|difference| f64::from(*difference)).sum::<f64>() / differences.len().max(1) as f64
+    }
+}
+
+/// Light of an sRGB byte (IEC 61966-2-1).
+fn linear(byte: u8) -> f32 {
+    let value = f32::from(byte) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}

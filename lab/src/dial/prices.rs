@@ -1,0 +1,80 @@
+//! The price list: each step of each knob, all others at their finest.
+
+use lensrunner::render::quality::knobs::{Knob, turned};
+use lensrunner::render::quality::prices::{HEADER, Prices, SceneClass};
+use rand::SeedableRng;
+use rand::rngs::SmallRng;
+
+use super::moments::{Bench, case, scenes};
+use super::{DialError, DialRequest, quantile};
+use crate::chart::{Provenance, Sheet};
+
+/// Columns of the sheet of all that was measured.
+pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "ms", "finest ms"];
+
+/// The error that is the price: the greatest but one in a hundred.
+const BOUND: f64 = 0.99;
+
+/// Measures every step at `moments` moments of each class; `said` hears how far it has come.
+pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sheet, DialError> {
+    let mut bench = Bench::new(request.size)?;
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(bench.adapter()).notes();
+    let mut rng = SmallRng::seed_from_u64(request.seed);
+    for class in SceneClass::ALL {
+        let scenes = scenes(class)?;
+        for number in 0..request.moments {
+            let case = case(&scenes, &mut rng).ok_or(DialError::Empty(class.name()))?;
+            said(format!("{} {}/{}: {} at T = {}", class.name(), number + 1, request.moments, case.scene, case.at));
+            let shown = bench.show(&case)?;
+            let finest = bench.take(&shown, &shown.finest)?;
+            bench.warm(&shown)?;
+            for (k, knob) in Knob::ALL.into_iter().enumerate() {
+                for step in 1..knob.steps() {
+                    let mut steps = [0; Knob::ALL.len()];
+                    steps[k] = step;
+                    let taken = bench.take(&shown, &turned(&shown.finest, &steps))?;
+                    // Beside it, so that what else the machine does tells on both alike.
+                    let beside = bench.time(&shown, &shown.finest)?;
+                    let error = bench.error(&finest, &taken);
+                    sheet.push([
+                        class.name().to_owned(),
+                        case.scene.clone(),
+                        case.at.to_string(),
+                        knob.name().to_owned(),
+                        step.to_string(),
+                        format!("{error:.5}"),
+                        format!("{:.2}", taken.milliseconds),
+                        format!("{beside:.2}"),
+                    ]);
+                }
+            }
+        }
+    }
+    Ok(sheet)
+}
+
+/// The table that the game reads, from what was measured: errors of each class, times over all classes, which few moments tell better. A
+/// step never costs less than the one before it, nor takes longer.
+pub fn table(sheet: &Sheet) -> Result<String, DialError> {
+    let mut text: String = sheet.notes.iter().map(|(name, note)| format!("# {name}: {note}\n")).collect();
+    text.push_str(HEADER);
+    text.push('\n');
+    for class in SceneClass::ALL {
+        for knob in Knob::ALL {
+            let (mut dearest, mut quickest) = (0f64, 1f64);
+            for step in 1..knob.steps() {
+                let is_it = |row: &&Vec<String>| sheet.text(row, "knob") == knob.name() && sheet.text(row, "step") == step.to_string();
+                let rows = || sheet.rows.iter().filter(is_it);
+                let own = rows().filter(|row| sheet.text(row, "class") == class.name());
+                let mut errors: Vec<f64> = own.map(|row| sheet.number(row, "FLIP")).collect();
+                let mut times: Vec<f64> = rows().map(|row| sheet.number(row, "ms") / sheet.number(row, "finest ms")).collect();
+                dearest = dearest.max(quantile(&mut errors, BOUND));
+                quickest = quickest.min(quantile(&mut times, 0.5));
+                text.push_str(&format!("{},{},{step},{},{dearest:.5},{quickest:.4}\n", class.name(), knob.name(), knob.says(step)));
+            }
+        }
+    }
+    Prices::read(&text)?;
+    Ok(text)
+}

@@ -1,0 +1,121 @@
+//! The parts of frames, added up: which takes how long, and what is in none of them.
+
+use std::fmt;
+
+/// Who does a part of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whose {
+    /// The processor, before it hands the frame over.
+    Processor,
+    /// A pass, which the processor waits for.
+    Pass,
+    /// The copy of the picture to where the processor can show it.
+    Presenting,
+}
+
+impl fmt::Display for Whose {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Whose::Processor => "processor",
+            Whose::Pass => "pass",
+            Whose::Presenting => "presenting",
+        })
+    }
+}
+
+/// A part of one frame: whose, its name, milliseconds.
+pub type Part = (Whose, &'static str, f64);
+
+/// Times of whole frames and of their parts, in milliseconds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parts {
+    whole: Vec<f64>,
+    parts: Vec<(Whose, &'static str, Vec<f64>)>,
+}
+
+/// Mean, median and worst of some times, in milliseconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Spread {
+    /// The mean.
+    pub mean: f64,
+    /// The middle one.
+    pub median: f64,
+    /// The longest.
+    pub worst: f64,
+}
+
+impl Spread {
+    /// Of these times; zero of none.
+    pub fn of(times: &[f64]) -> Spread {
+        let mut sorted = times.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        let count = sorted.len();
+        Spread {
+            mean: sorted.iter().sum::<f64>() / count.max(1) as f64,
+            median: sorted.get(count / 2).copied().unwrap_or(0.0),
+            worst: sorted.last().copied().unwrap_or(0.0),
+        }
+    }
+}
+
+impl Parts {
+    /// Adds a frame. A part that it lacks took no time, one that comes twice counts together.
+    pub fn add(&mut self, whole: f64, parts: &[Part]) {
+        let before = self.whole.len();
+        self.whole.push(whole);
+        for &(whose, name, time) in parts {
+            let place = self.parts.iter().position(|known| (known.0, known.1) == (whose, name)).unwrap_or(self.parts.len());
+            if place == self.parts.len() {
+                self.parts.push((whose, name, Vec::new()));
+            }
+            let times = &mut self.parts[place].2;
+            times.resize(before + 1, 0.0);
+            times[before] += time;
+        }
+        self.parts.iter_mut().for_each(|part| part.2.resize(before + 1, 0.0));
+    }
+
+    /// Of the whole frames.
+    pub fn whole(&self) -> Spread {
+        Spread::of(&self.whole)
+    }
+
+    /// The time of each whole frame, in their order.
+    pub fn frames(&self) -> &[f64] {
+        &self.whole
+    }
+
+    /// Each part, in the order in which they first came.
+    pub fn spreads(&self) -> impl Iterator<Item = (Whose, &'static str, Spread)> + '_ {
+        self.parts.iter().map(|(whose, name, times)| (*whose, *name, Spread::of(times)))
+    }
+
+    /// The mean time that is in no part: negative where the parts, measured one by one, take longer together than the whole.
+    pub fn in_no_part(&self) -> f64 {
+        self.whole().mean - self.spreads().map(|(.., spread)| spread.mean).sum::<f64>()
+    }
+
+    /// The mean of all parts whose name begins with one of these.
+    pub fn sum(&self, names: &[&str]) -> f64 {
+        let named = self.spreads().filter(|(_, name, _)| names.iter().any(|start| name.starts_with(start)));
+        named.map(|(.., spread)| spread.mean).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_and_what_is_in_none_make_the_whole() {
+        let mut parts = Parts::default();
+        parts.add(10.0, &[(Whose::Processor, "encoding", 1.0), (Whose::Pass, "bloom", 2.0), (Whose::Pass, "bloom", 3.0)]);
+        // A pass that comes later was not there before; one that is gone takes no time.
+        parts.add(20.0, &[(Whose::Processor, "encoding", 3.0), (Whose::Pass, "thin", 12.0)]);
+        let found: Vec<_> = parts.spreads().map(|(_, name, spread)| (name, spread.mean, spread.worst)).collect();
+        assert_eq!(found, [("encoding", 2.0, 3.0), ("bloom", 2.5, 5.0), ("thin", 6.0, 12.0)]);
+        assert_eq!(parts.whole(), Spread { mean: 15.0, median: 20.0, worst: 20.0 });
+        assert_eq!(parts.in_no_part(), 4.5);
+        assert_eq!(parts.sum(&["bl", "thin"]), 8.5);
+    }
+}

@@ -1,0 +1,129 @@
+//! What the dev overlay costs the processor in a frame: laid out and made into triangles, without a device. A frame without it is taken
+//! beside each.
+
+use std::io::{self, Write};
+use std::time::Instant;
+
+use bevy_egui::egui::{Context, Pos2, RawInput, Rect, vec2};
+use lensrunner::play::overlay::frames::Frames;
+use lensrunner::play::overlay::history::{History, marks};
+use lensrunner::play::overlay::place::places;
+use lensrunner::play::overlay::quality::QualityReport;
+use lensrunner::play::overlay::show;
+use lensrunner::play::overlay::state::{Overlay, Passing, Seen, Tab};
+use lensrunner::scene::GameConfig;
+use lensrunner::scene::config::section_names;
+
+/// Frames before the first that is timed: letters are drawn and cards find their size.
+const WARM: usize = 300;
+/// Passes of a frame.
+const PASSES: [&str; 24] = [
+    "vertices",
+    "edges",
+    "triangles",
+    "refine",
+    "mesh",
+    "sky",
+    "stars",
+    "project",
+    "ends",
+    "arcs",
+    "disk mesh",
+    "draw",
+    "ranges",
+    "walk",
+    "disk",
+    "thin",
+    "compose",
+    "strokes",
+    "resolve",
+    "bloom",
+    "exposure",
+    "develop",
+    "smooth",
+    "flashes",
+];
+
+/// What is open in the overlay.
+struct Case {
+    name: &'static str,
+    overlay: Option<Overlay>,
+}
+
+fn cases() -> Vec<Case> {
+    let opened = |tab, groups: &[&'static str], search: &str| {
+        let mut overlay = Overlay::default();
+        (overlay.tab, overlay.open, overlay.search) = (tab, groups.iter().copied().collect(), search.to_owned());
+        Some(overlay)
+    };
+    let mut cases = vec![Case { name: "closed", overlay: None }];
+    cases.extend(Tab::ALL.map(|(tab, name)| Case { name, overlay: opened(tab, &["render"], "") }));
+    cases.push(Case { name: "Frame, all groups open", overlay: opened(Tab::Frame, &section_names(), "") });
+    cases.push(Case { name: "Frame, a search", overlay: opened(Tab::Frame, &[], "budget") });
+    cases
+}
+
+/// Durations of the last frames that change from frame to frame.
+fn note(frames: &mut Frames, frame: usize) {
+    let wave = |k: usize| 1.0 + 0.5 * (0.1 * (frame * (k + 1)) as f64).sin();
+    let passes: Vec<(&'static str, f32)> = PASSES.iter().enumerate().map(|(k, name)| (*name, (wave(k) * k as f64) as f32 + 0.01)).collect();
+    frames.push(40.0 * wave(0), &passes);
+    frames.overlay.push(0.5 * wave(1));
+}
+
+/// One case in its own context.
+struct Run {
+    case: Case,
+    context: Context,
+    /// Laid out, and with triangles, in ms.
+    times: Vec<[f64; 2]>,
+}
+
+impl Run {
+    fn frame(&mut self, seen: &Seen, frame: usize) {
+        let screen = Rect::from_min_size(Pos2::ZERO, vec2(1280.0, 720.0));
+        let input = RawInput { screen_rect: Some(screen), time: Some(frame as f64 / 60.0), ..RawInput::default() };
+        let began = Instant::now();
+        self.context.begin_pass(input);
+        if let Some(overlay) = &mut self.case.overlay {
+            show(&self.context, places(screen, &[]), seen, overlay);
+        }
+        let output = self.context.end_pass();
+        let laid_out = began.elapsed();
+        let triangles = self.context.tessellate(output.shapes, output.pixels_per_point);
+        let whole = began.elapsed();
+        drop(triangles);
+        if frame >= WARM {
+            self.times.push([laid_out, whole].map(|time| 1e3 * time.as_secs_f64()));
+        }
+    }
+}
+
+/// Times `count` frames of each case, all cases in turn, and writes a table in ms.
+pub fn run(count: usize, out: &mut dyn Write) -> io::Result<()> {
+    let mut config = GameConfig::default();
+    (config.render.bloom, config.disk.arcs) = (0.5, 900);
+    let (begun, quality) = (GameConfig::default(), QualityReport::default());
+    let marks = marks(&config, &begun, &History::default());
+    let mut frames = Frames::default();
+    let mut runs: Vec<Run> = cases().into_iter().map(|case| Run { case, context: Context::default(), times: Vec::new() }).collect();
+    for frame in 0..WARM + count {
+        note(&mut frames, frame);
+        let passing = Passing { now: frame as f64, step: 1.0 / 32.0, end: Some(400.0), ..Passing::default() };
+        let seen = Seen { config: &config, marks: &marks, frames: &frames, counters: None, disk: None, quality: &quality, passing };
+        runs.iter_mut().for_each(|run| run.frame(&seen, frame));
+    }
+    writeln!(out, "| the overlay at 1280x720, {count} frames each | laid out, median | with triangles, median | 99 of 100 under |")?;
+    writeln!(out, "|---|---|---|---|")?;
+    for Run { case, times, .. } in runs {
+        let sorted = |which: usize| {
+            let mut all: Vec<f64> = times.iter().map(|pair| pair[which]).collect();
+            all.sort_by(f64::total_cmp);
+            all
+        };
+        let at = |all: &[f64], share: f64| all.get((all.len() as f64 * share) as usize).copied().unwrap_or(0.0);
+        let (laid_out, whole) = (sorted(0), sorted(1));
+        writeln!(out, "| {} | {:.3} | {:.3} | {:.3} |", case.name, at(&laid_out, 0.5), at(&whole, 0.5), at(&whole, 0.99))?;
+    }
+    Ok(())
+}

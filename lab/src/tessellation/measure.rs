@@ -1,0 +1,155 @@
+//! Displacements by the judge, vertices by the renderer's counters, times of its passes.
+
+use lensrunner::judge::case::Case;
+use lensrunner::judge::picture::{DEFAULT_PACKET, Picture, Quality};
+use lensrunner::render::gpu::targets::target;
+use lensrunner::render::gpu::types::Counters;
+use lensrunner::render::shot::{Moment, surroundings};
+use lensrunner::render::stage::Stage;
+use lensrunner::render::{Gpu, Renderer};
+use lensrunner::scene::{self, GameConfig};
+
+use super::ways::{NAMES, Way};
+use super::{TessellationError, TessellationRequest};
+use crate::chart::{Provenance, Sheet, Timing};
+use crate::compare::deadline::Deadline;
+use crate::compare::measure::displacement::Effort;
+use crate::compare::measure::metrics::{Verdict, compare_with};
+use crate::compare::measure::probe::probe;
+use crate::contestant::Contestant;
+use crate::frame_times::whole::draw;
+
+/// Error of each step of the judge's rays.
+const TOLERANCE: f64 = 1e-10;
+/// Pixels of an image at which displacements are measured.
+const PIXELS: usize = 1500;
+/// Of those, so many from several starts.
+const DOUBTFUL: usize = 12;
+/// Seconds for the displacements of one picture.
+const SECONDS: f64 = 20.0;
+/// The game's own bound, px, whose time the others are told against.
+pub const OWN: f64 = 0.5;
+/// Passes that depend on how triangles are divided.
+const PASSES: [&str; 7] = ["vertices", "edges", "triangles", "refine", "mesh", "draw", "thin"];
+
+const COLUMNS: [&str; 13] = [
+    "scene",
+    "way",
+    "bound_px",
+    "vertices",
+    "passes_ms",
+    "time_over_ours",
+    "mean_px",
+    "p99_px",
+    "max_px",
+    "measured",
+    "differ_percent",
+    "failed",
+    "note",
+];
+
+/// A row for each scene and way.
+pub fn measure(request: &TessellationRequest) -> Result<Sheet, TessellationError> {
+    let mut sheet = Sheet::new(&COLUMNS);
+    let gpu = Gpu::headless()?;
+    sheet.notes = Provenance::now(&gpu.adapter.name).notes();
+    let base = GameConfig::default();
+    let ways = Way::all(&request.bounds);
+    let mut contestant = Contestant::default();
+    for name in &request.scenes {
+        eprintln!("{name}");
+        let times = times(&gpu, name, &ways, &base, request)?;
+        let own = ways.iter().position(|way| *way == Way::Ours(OWN)).map_or(f64::NAN, |place| times[place].0.median);
+        let mut case = Case::new(scene::load(name)?, base.clone(), 0.0, request.size);
+        let judge = case.trace(&Quality { samples: 1, tolerance: TOLERANCE, packet: DEFAULT_PACKET }, false, &|_| ());
+        for (way, (time, counters)) in ways.iter().zip(&times) {
+            case.config = way.config(&base);
+            contestant.set_midpoint(way.is_midpoint());
+            let found = judged(&case, &judge, &contestant);
+            let mut cells = vec![name.clone(), NAMES[way.family()].into(), way.bound().to_string(), counters.vertices.to_string()];
+            cells.extend([format!("{:.3}", time.median), format!("{:.3}", time.median / own)]);
+            match found {
+                Ok(seen) => {
+                    cells.extend([seen.mean, seen.most, seen.max].map(|px| format!("{px:.4}")));
+                    cells.extend([seen.measured.to_string(), format!("{:.3}", seen.differ)]);
+                    let bound = if way.bound().is_nan() { OWN } else { way.bound() };
+                    cells.extend([u8::from(seen.most.is_nan() || seen.most > bound).to_string(), counters.complaint().unwrap_or_default()]);
+                }
+                Err(reason) => {
+                    cells.extend(["NaN", "NaN", "NaN", "0", "NaN", "1"].map(str::to_owned));
+                    cells.push(reason);
+                }
+            }
+            sheet.push(cells);
+        }
+    }
+    Ok(sheet)
+}
+
+/// What the judge finds, over all images.
+struct Seen {
+    mean: f64,
+    most: f64,
+    max: f64,
+    measured: usize,
+    /// Per cent of the pixels of images that show something else.
+    differ: f64,
+}
+
+/// Sets the renderer's picture of the case beside the judge's.
+fn judged(case: &Case, judge: &Picture, contestant: &Contestant) -> Result<Seen, String> {
+    let frame = contestant.draw(case)?;
+    let probe = probe(case, TOLERANCE);
+    let names: Vec<String> = case.assembly.objects.iter().map(|object| object.name.clone()).collect();
+    let effort = Effort { pixels: PIXELS, doubtful: DOUBTFUL, deadline: Deadline::after(SECONDS) };
+    let verdict = compare_with(judge, &frame, &probe, &names, &vec![0.0; judge.light.len()], &effort);
+    Ok(seen(&verdict))
+}
+
+fn seen(verdict: &Verdict) -> Seen {
+    let mut displaced: Vec<f64> = verdict.displaced.iter().filter(|px| px.is_finite()).map(|px| f64::from(*px)).collect();
+    displaced.sort_by(f64::total_cmp);
+    let at = |share: f64| displaced.get(((displaced.len().max(1) - 1) as f64 * share) as usize).copied().unwrap_or(f64::NAN);
+    let sum = |count: fn(&crate::compare::measure::metrics::Group) -> usize| verdict.groups.iter().map(count).sum::<usize>() as f64;
+    Seen {
+        mean: displaced.iter().sum::<f64>() / displaced.len().max(1) as f64,
+        most: at(0.99),
+        max: at(1.0),
+        measured: displaced.len(),
+        differ: 100.0 * sum(|group| group.mismatched) / sum(|group| group.pixels).max(1.0),
+    }
+}
+
+/// Milliseconds of the passes and what the renderer counted, of each way; all take turns.
+fn times(
+    gpu: &Gpu,
+    name: &str,
+    ways: &[Way],
+    base: &GameConfig,
+    request: &TessellationRequest,
+) -> Result<Vec<(Timing, Counters)>, TessellationError> {
+    let scene = scene::load(name)?;
+    let moment = Moment::new(&scene, base, 0.0, 0);
+    let format = wgpu::TextureFormat::Rgba8UnormSrgb;
+    let (_, view) = target(&gpu.device, "tessellation", request.size, format);
+    let mut renderer = Renderer::new(gpu, &surroundings(), format, request.size);
+    let stage = Stage::new(&mut renderer, &scene, base);
+    let camera = stage.camera(moment.time(), &moment.ships());
+    let mut found = vec![(Vec::new(), Counters::default()); ways.len()];
+    for round in 0..=request.rounds {
+        for (way, (times, counters)) in ways.iter().zip(&mut found) {
+            let frame = stage.frame(camera, request.size, moment.time(), &moment.histories(), None, &way.settings(base));
+            // The first frame after another method's compiles and fills its tables.
+            for _ in 0..2 {
+                draw(gpu, &mut renderer, &frame, &view)?;
+            }
+            let passes = renderer.timing().latest().iter().filter(|(label, _)| PASSES.contains(label));
+            let whole = passes.map(|(_, ms)| f64::from(*ms)).sum::<f64>();
+            if round > 0 {
+                times.push(whole);
+                *counters = renderer.counters()?;
+            }
+        }
+    }
+    Ok(found.into_iter().map(|(times, counters)| (Timing::of(times), counters)).collect())
+}

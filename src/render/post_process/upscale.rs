@@ -1,0 +1,84 @@
+//! A picture that was drawn smaller than the output, enlarged to it: `shaders/post_process/upscale.wgsl`.
+
+use wgpu::ShaderStages;
+
+use crate::render::gpu::layout::{Raster, Slot, bind, layout, module, raster};
+use crate::render::gpu::shaders::Pass;
+use crate::render::gpu::targets::target;
+use crate::render::passes::{Recording, colour};
+use crate::render::post_process::begin;
+
+/// The passes that enlarge, for an output of one format.
+#[derive(Debug)]
+pub struct Upscale {
+    layout: wgpu::BindGroupLayout,
+    rows: wgpu::RenderPipeline,
+    columns: wgpu::RenderPipeline,
+    format: wgpu::TextureFormat,
+    room: Option<Room>,
+}
+
+/// What they read and write, for one pair of sizes.
+#[derive(Debug)]
+struct Room {
+    sizes: [[u32; 2]; 2],
+    drawn: wgpu::TextureView,
+    wide: wgpu::TextureView,
+    groups: [wgpu::BindGroup; 2],
+}
+
+/// The size of the picture that is drawn for an output of this size, in pixels. `resolution`: its share of the width and height.
+pub fn drawn_size(output: [u32; 2], resolution: f32) -> [u32; 2] {
+    output.map(|side| ((side as f32 * resolution).round() as u32).clamp(1, side.max(1)))
+}
+
+impl Upscale {
+    /// Compiles the passes.
+    pub fn new(device: &wgpu::Device, frame_layout: &wgpu::BindGroupLayout, format: wgpu::TextureFormat) -> Self {
+        let layout = layout(device, "upscale", ShaderStages::FRAGMENT, &[Slot::Texture]);
+        let shader = module(device, "upscale", Pass::Upscale);
+        let pass = |label, fragment| {
+            let stage = Raster { vertex: "vertex", fragment, targets: &[(format, None)], depth: None };
+            raster(device, label, &shader, stage, &[Some(frame_layout), None, Some(&layout)])
+        };
+        Upscale { rows: pass("upscale rows", "rows"), columns: pass("upscale columns", "columns"), layout, format, room: None }
+    }
+
+    /// Takes up sizes: of what is drawn, and of the output.
+    pub fn resize(&mut self, device: &wgpu::Device, drawn: [u32; 2], output: [u32; 2]) {
+        if drawn == output {
+            self.room = None;
+        } else if self.room.as_ref().is_none_or(|room| room.sizes != [drawn, output]) {
+            let [small, wide] =
+                [("drawn", drawn), ("wide", [output[0], drawn[1]])].map(|(label, size)| target(device, label, size, self.format).1);
+            let group = |view| bind(device, "upscale", &self.layout, &[wgpu::BindingResource::TextureView(view)]);
+            self.room = Some(Room { sizes: [drawn, output], groups: [group(&small), group(&wide)], drawn: small, wide });
+        }
+    }
+
+    /// Where the picture is to be drawn; None where the output itself is as large.
+    pub fn drawn(&self) -> Option<&wgpu::TextureView> {
+        self.room.as_ref().map(|room| &room.drawn)
+    }
+
+    /// Enlarges what was drawn, into `output`; nothing where that is as large.
+    pub fn run(&self, recording: &mut Recording, output: &wgpu::TextureView) {
+        let Some(room) = &self.room else { return };
+        for (pipeline, group, to) in [(&self.rows, &room.groups[0], &room.wide), (&self.columns, &room.groups[1], output)] {
+            begin(recording, ["upscale"; 2], &[Some(colour(to, true))], pipeline, group).draw(0..3, 0..1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_share_of_a_size_is_a_size() {
+        assert_eq!(drawn_size([1280, 720], 0.5), [640, 360]);
+        assert_eq!(drawn_size([1280, 720], 1.0), [1280, 720]);
+        assert_eq!(drawn_size([1, 3], 0.25), [1, 1]);
+        assert_eq!(drawn_size([1280, 720], 2.0), [1280, 720]);
+    }
+}

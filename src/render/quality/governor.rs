@@ -1,0 +1,168 @@
+//! Holds a frame time: from how long frames take it chooses the rung.
+//!
+//! It goes down as far as the prediction says as soon as frames are too long, and up a rung at a time, once there has been room for a
+//! while. A rung that turned out too slow is tried again after twice the time.
+
+use super::ladder::Rung;
+
+/// Frames after a change that say nothing: what was on its way, targets made anew.
+const SETTLING: u32 = 3;
+/// Frames over which times are averaged before the first judgement.
+const JUDGED: u32 = 5;
+/// Weight of a new frame in the running mean.
+const WEIGHT: f64 = 0.15;
+/// Longer frames than this, of the time to hold, are too long.
+const TOO_LONG: f64 = 1.1;
+/// What is aimed at when going down.
+const AIM: f64 = 0.95;
+/// A finer rung must be predicted to take no more than this.
+const ROOM: f64 = 0.85;
+/// Frames with room before the next finer rung is tried, at first and at most.
+const PATIENCE: [u32; 2] = [30, 1920];
+/// A finer rung that is left within so many frames was a mistake.
+const MISTAKE: u32 = 90;
+
+/// What holds the frame time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Governor {
+    rung: usize,
+    /// Frames since the last change.
+    since: u32,
+    /// Running mean of frame times and of times of work, in ms.
+    mean: [f64; 2],
+    /// Frames with room so far.
+    roomy: u32,
+    patience: u32,
+    /// Whether the last change was to a finer rung.
+    climbed: bool,
+}
+
+impl Default for Governor {
+    fn default() -> Self {
+        Governor { rung: 0, since: 0, mean: [0.0; 2], roomy: 0, patience: PATIENCE[0], climbed: false }
+    }
+}
+
+impl Governor {
+    /// The rung in use.
+    pub fn rung(&self) -> usize {
+        self.rung
+    }
+
+    /// The running mean of frame times, in ms.
+    pub fn mean(&self) -> f64 {
+        self.mean[0]
+    }
+
+    /// Begins on a rung, as where a flight goes on in a scene of another class.
+    pub fn begin_at(&mut self, rung: usize) {
+        *self = Governor { rung, ..Governor::default() };
+    }
+
+    /// Takes the last frame's time (ms), of which `work` was not spent waiting for the screen (the same if that is not known), and returns
+    /// the rung for the next. `hold` is the time to hold.
+    pub fn follow(&mut self, ladder: &[Rung], hold: f64, frame: f64, work: f64) -> usize {
+        let last = ladder.len().saturating_sub(1);
+        self.rung = self.rung.min(last);
+        if !(frame.is_finite() && work.is_finite() && hold > 0.0 && frame > 0.0) || ladder.is_empty() {
+            return self.rung;
+        }
+        self.since = self.since.saturating_add(1);
+        if self.since <= SETTLING {
+            return self.rung;
+        }
+        let begun = self.since > SETTLING + 1;
+        for (mean, now) in self.mean.iter_mut().zip([frame, work.min(frame)]) {
+            *mean = if begun { *mean + WEIGHT * (now - *mean) } else { now };
+        }
+        if self.since < SETTLING + JUDGED {
+            return self.rung;
+        }
+        let predicted = |mean: f64, rung: usize| mean * ladder[rung].time / ladder[self.rung].time;
+        if self.mean[0] > TOO_LONG * hold && self.rung < last {
+            let next = (self.rung + 1..last).find(|rung| predicted(self.mean[0], *rung) <= AIM * hold).unwrap_or(last);
+            if self.climbed && self.since < MISTAKE {
+                self.patience = (2 * self.patience).min(PATIENCE[1]);
+            }
+            self.change(next, false);
+        } else if self.rung > 0 && predicted(self.mean[1], self.rung - 1) <= ROOM * hold {
+            self.roomy += 1;
+            if self.roomy >= self.patience {
+                self.change(self.rung - 1, true);
+            }
+        } else {
+            self.roomy = 0;
+        }
+        if self.since > PATIENCE[1] {
+            self.patience = PATIENCE[0];
+        }
+        self.rung
+    }
+
+    fn change(&mut self, rung: usize, climbed: bool) {
+        (self.rung, self.since, self.roomy, self.climbed) = (rung, 0, 0, climbed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::quality::knobs::Knob;
+
+    fn rungs() -> Vec<Rung> {
+        let times = [1.0, 0.8, 0.6, 0.45, 0.3];
+        times.iter().enumerate().map(|(k, time)| Rung { steps: [0; Knob::ALL.len()], error: 0.01 * k as f64, time: *time }).collect()
+    }
+
+    /// Runs `frames` frames on a machine that takes `finest` ms for the finest; how often the rung changed.
+    fn run(governor: &mut Governor, hold: f64, finest: f64, frames: u32) -> u32 {
+        let rungs = rungs();
+        let mut changes = 0;
+        for k in 0..frames {
+            let before = governor.rung();
+            // Times fluctuate by a twentieth.
+            let noise = 1.0 + 0.05 * f64::from(k * 7 % 11) / 5.0 - 0.05;
+            let time = finest * rungs[before].time * noise;
+            changes += u32::from(governor.follow(&rungs, hold, time, time) != before);
+        }
+        changes
+    }
+
+    #[test]
+    fn it_finds_the_finest_rung_that_holds() {
+        let mut governor = Governor::default();
+        let changes = run(&mut governor, 40.0, 80.0, 200);
+        assert_eq!((governor.rung(), changes), (3, 1));
+        // With room it climbs again, a rung at a time.
+        run(&mut governor, 40.0, 20.0, 400);
+        assert_eq!(governor.rung(), 0);
+    }
+
+    #[test]
+    fn it_does_not_swing() {
+        // Between two rungs: the finer is a little too slow.
+        let mut governor = Governor::default();
+        let changes = run(&mut governor, 40.0, 56.0, 4000);
+        assert!(changes < 8, "{changes} changes");
+    }
+
+    #[test]
+    fn too_slow_a_machine_gets_the_fastest_rung_and_nonsense_changes_nothing() {
+        let mut governor = Governor::default();
+        run(&mut governor, 10.0, 500.0, 50);
+        assert_eq!(governor.rung(), 4);
+        assert_eq!(governor.follow(&rungs(), 10.0, f64::NAN, 1.0), 4);
+        assert_eq!(governor.follow(&[], 10.0, 20.0, 1.0), 0);
+    }
+
+    #[test]
+    fn waiting_for_the_screen_is_no_work() {
+        let (mut governor, rungs) = (Governor::default(), rungs());
+        governor.begin_at(4);
+        // The screen shows a picture every 16.7 ms; drawing takes 2 ms of them.
+        for _ in 0..1000 {
+            governor.follow(&rungs, 16.7, 16.7, 2.0);
+        }
+        assert_eq!(governor.rung(), 0);
+    }
+}

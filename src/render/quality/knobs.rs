@@ -1,0 +1,121 @@
+//! What can be drawn with less, and how far.
+
+use crate::render::settings::Settings;
+
+/// Something that can be drawn with less. Step 0 is as configured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Knob {
+    /// Pixels that are drawn.
+    Resolution,
+    /// Allowed error of tessellated points.
+    PixelError,
+    /// Width from which images of order 2 and 3 are drawn.
+    SecondImages,
+    /// Stars, down to which light.
+    Stars,
+    /// Smooth outlines.
+    Outlines,
+}
+
+/// The step of each knob, in the order of [`Knob::ALL`].
+pub type Steps = [u8; Knob::ALL.len()];
+
+/// Share of the width and height that is drawn.
+const RESOLUTIONS: [f32; 7] = [1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.33];
+/// Factors on the allowed error of a point.
+const PIXEL_ERRORS: [f32; 4] = [1.0, 2.0, 4.0, 8.0];
+/// Width in drawn pixels from which images of order 2 and 3 are drawn, but no less than configured; the last draws none.
+const LEAST_WIDTHS: [f64; 4] = [0.0, 0.5, 2.0, f64::INFINITY];
+/// Faintest magnitudes, but none fainter than configured.
+const MAGNITUDES: [f32; 4] = [f32::INFINITY, 8.5, 7.5, 6.5];
+
+impl Knob {
+    /// All of them.
+    pub const ALL: [Knob; 5] = [Knob::Resolution, Knob::PixelError, Knob::SecondImages, Knob::Stars, Knob::Outlines];
+
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Knob::Resolution => "resolution",
+            Knob::PixelError => "pixel error",
+            Knob::SecondImages => "second images",
+            Knob::Stars => "stars",
+            Knob::Outlines => "outlines",
+        }
+    }
+
+    /// The number of its steps, with step 0.
+    pub fn steps(self) -> u8 {
+        match self {
+            Knob::Resolution => RESOLUTIONS.len() as u8,
+            Knob::PixelError => PIXEL_ERRORS.len() as u8,
+            Knob::SecondImages => LEAST_WIDTHS.len() as u8,
+            Knob::Stars => MAGNITUDES.len() as u8,
+            Knob::Outlines => 2,
+        }
+    }
+
+    /// What a step is, in words.
+    pub fn says(self, step: u8) -> String {
+        if step == 0 {
+            return "as configured".into();
+        }
+        let k = usize::from(step.min(self.steps() - 1));
+        match self {
+            Knob::Resolution => format!("{:.0} % of the width", 100.0 * RESOLUTIONS[k]),
+            Knob::PixelError => format!("{} times the error", PIXEL_ERRORS[k]),
+            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => format!("from {} px on", LEAST_WIDTHS[k]),
+            Knob::SecondImages => "none".into(),
+            Knob::Stars => format!("to magnitude {}", MAGNITUDES[k]),
+            Knob::Outlines => "not smoothed".into(),
+        }
+    }
+
+    /// Sets it. A step beyond the last is the last.
+    pub fn set(self, step: u8, settings: &mut Settings) {
+        let k = usize::from(step.min(self.steps() - 1));
+        match self {
+            Knob::Resolution => settings.resolution *= RESOLUTIONS[k],
+            Knob::PixelError => settings.pixel_error *= PIXEL_ERRORS[k],
+            Knob::SecondImages if LEAST_WIDTHS[k].is_finite() => settings.least_width = settings.least_width.max(LEAST_WIDTHS[k]),
+            Knob::SecondImages => settings.orders = 1,
+            Knob::Stars => settings.faintest_star = settings.faintest_star.max(10f32.powf(-0.4 * MAGNITUDES[k])),
+            Knob::Outlines => settings.smooth &= k == 0,
+        }
+    }
+}
+
+/// The settings with every knob at its step.
+pub fn turned(settings: &Settings, steps: &Steps) -> Settings {
+    let mut settings = *settings;
+    for (knob, step) in Knob::ALL.into_iter().zip(steps) {
+        knob.set(*step, &mut settings);
+    }
+    settings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn step_0_is_as_configured_and_every_other_is_not() {
+        let settings = Settings::finest();
+        assert_eq!(turned(&settings, &[0; Knob::ALL.len()]), settings);
+        for (k, knob) in Knob::ALL.into_iter().enumerate() {
+            for step in 1..knob.steps() {
+                let mut steps = [0; Knob::ALL.len()];
+                steps[k] = step;
+                assert_ne!(turned(&settings, &steps), settings, "{} {step}", knob.name());
+            }
+        }
+    }
+
+    /// A knob never draws more than is configured.
+    #[test]
+    fn what_is_configured_coarser_stays_so() {
+        let coarse = Settings { smooth: false, orders: 1, faintest_star: 1.0, ..Settings::finest() };
+        let turned = turned(&coarse, &[0, 0, 3, 3, 1]);
+        assert_eq!((turned.smooth, turned.orders, turned.faintest_star), (false, 1, 1.0));
+    }
+}

@@ -1,0 +1,87 @@
+//! The rungs from the finest picture to the fastest: each turns one knob further than the one before, that which adds the least error for
+//! the time it saves.
+//!
+//! Errors of several knobs add up, shares of time multiply: a bound and an estimate, checked by `lab/run chart dial --check`.
+
+use super::knobs::{Knob, Steps};
+use super::prices::{Prices, SceneClass};
+
+/// One rung.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rung {
+    /// The step of each knob.
+    pub steps: Steps,
+    /// Its predicted error, in mean FLIP.
+    pub error: f64,
+    /// Its predicted time, as a share of that of the finest.
+    pub time: f64,
+}
+
+/// Less than this share of the time is not worth an error: it is within what measurements differ by.
+const LEAST_SAVED: f64 = 0.01;
+
+impl Rung {
+    fn at(prices: &Prices, class: SceneClass, steps: Steps) -> Rung {
+        let all = Knob::ALL.into_iter().zip(steps).map(|(knob, step)| prices.of(class, knob, step));
+        let (error, time) = all.fold((0.0, 1.0), |(error, time), price| (error + price.error, time * price.time));
+        Rung { steps, error, time }
+    }
+
+    /// What is not at its finest, in words.
+    pub fn says(&self) -> String {
+        let turned = Knob::ALL.into_iter().zip(self.steps).filter(|(_, step)| *step > 0);
+        let words: Vec<String> = turned.map(|(knob, step)| format!("{} {}", knob.name(), knob.says(step))).collect();
+        if words.is_empty() { "everything at its finest".into() } else { words.join(", ") }
+    }
+}
+
+/// All rungs for a class of scenes, the finest first.
+pub fn ladder(prices: &Prices, class: SceneClass) -> Vec<Rung> {
+    let mut rungs = vec![Rung::at(prices, class, [0; Knob::ALL.len()])];
+    loop {
+        let now = rungs[rungs.len() - 1];
+        let further = Knob::ALL.into_iter().enumerate().flat_map(|(k, knob)| {
+            (now.steps[k] + 1..knob.steps()).map(move |step| {
+                let mut steps = now.steps;
+                steps[k] = step;
+                Rung::at(prices, class, steps)
+            })
+        });
+        let price = |rung: &Rung| (rung.error - now.error).max(0.0) / (now.time - rung.time);
+        let saving = further.filter(|rung| now.time - rung.time >= LEAST_SAVED * now.time);
+        match saving.min_by(|a, b| price(a).total_cmp(&price(b))) {
+            Some(next) => rungs.push(next),
+            None => return rungs,
+        }
+    }
+}
+
+/// The fastest rung with no more than this error.
+pub fn within(ladder: &[Rung], error: f64) -> usize {
+    ladder.iter().rposition(|rung| rung.error <= error).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_rung_is_faster_and_no_better() {
+        for class in SceneClass::ALL {
+            let rungs = ladder(Prices::shipped(), class);
+            assert!(rungs.len() > 4, "{}: {} rungs", class.name(), rungs.len());
+            assert_eq!((rungs[0].error, rungs[0].time), (0.0, 1.0));
+            for pair in rungs.windows(2) {
+                assert!(pair[1].time < pair[0].time && pair[1].error >= pair[0].error, "{pair:?}");
+            }
+            assert!(rungs[rungs.len() - 1].time < 0.6, "{}: the last takes {}", class.name(), rungs[rungs.len() - 1].time);
+        }
+    }
+
+    #[test]
+    fn a_budget_chooses_the_fastest_within_it() {
+        let rung = |error, time| Rung { steps: [0; Knob::ALL.len()], error, time };
+        let rungs = [rung(0.0, 1.0), rung(0.01, 0.7), rung(0.05, 0.4)];
+        assert_eq!([0.0, 0.02, 1.0].map(|error| within(&rungs, error)), [0, 1, 2]);
+    }
+}

@@ -1,0 +1,76 @@
+//! A picture drawn smaller than the output is enlarged to it by cubic convolution.
+
+use lensrunner::render::renderer::Renderer;
+use lensrunner::render::settings::Settings;
+use lensrunner::render::stage::Stage;
+use lensrunner::scene::{self, GameConfig};
+
+use crate::gpu::GPU;
+use crate::render::support::surroundings;
+
+/// Keys' kernel (1981, equation 4), as in upscale.wgsl of this sharpness.
+fn kernel(x: f64) -> f64 {
+    const A: f64 = -0.75;
+    match x.abs() {
+        x if x <= 1.0 => (A + 2.0) * x.powi(3) - (A + 3.0) * x.powi(2) + 1.0,
+        x if x < 2.0 => A * x.powi(3) - 5.0 * A * x.powi(2) + 8.0 * A * x - 4.0 * A,
+        _ => 0.0,
+    }
+}
+
+/// A row of `values` enlarged to `wide`, each held between its two neighbours.
+fn enlarged(values: &[f64], wide: usize) -> Vec<f64> {
+    let at = |i: i64| values[i.clamp(0, values.len() as i64 - 1) as usize];
+    let place = |k: usize| (k as f64 + 0.5) * values.len() as f64 / wide as f64 - 0.5;
+    (0..wide)
+        .map(|k| {
+            let (x, first) = (place(k), place(k).floor() as i64);
+            let sum: f64 = (first - 1..=first + 2).map(|i| kernel(x - i as f64) * at(i)).sum();
+            sum.clamp(at(first).min(at(first + 1)), at(first).max(at(first + 1)))
+        })
+        .collect()
+}
+
+fn linear(encoded: u8) -> f64 {
+    let value = f64::from(encoded) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+fn encoded(light: f64) -> f64 {
+    255.0 * if light <= 0.003_130_8 { 12.92 * light } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[test]
+fn a_small_picture_is_enlarged_as_in_rust() {
+    let (small, output) = ([96, 54], [160, 90]);
+    let scene = scene::load("ring").unwrap();
+    let mut renderer = Renderer::new(&GPU, &surroundings(), wgpu::TextureFormat::Rgba8UnormSrgb, output);
+    let stage = Stage::new(&mut renderer, &scene, &GameConfig::default());
+    let camera = stage.camera(0.0, &[]);
+    let mut draw = |size, resolution| {
+        renderer.resize(size);
+        let settings = Settings { resolution, ..Settings::finest() };
+        renderer.picture(&stage.frame(camera, size, 0.0, &[], None, &settings), false).unwrap()
+    };
+    let shown = draw(output, 0.6);
+    let drawn = draw(small, 1.0);
+    assert_eq!((shown.size, drawn.size), (output, small));
+    let [width, height] = small.map(|side| side as usize);
+    for k in 0..3 {
+        let row = |y: usize| -> Vec<f64> { (0..width).map(|x| linear(drawn.display[4 * (y * width + x) + k])).collect() };
+        // What is between the passes has eight bits.
+        let eight_bits = |light: f64| linear(encoded(light).round() as u8);
+        let rows: Vec<Vec<f64>> =
+            (0..height).map(|y| enlarged(&row(y), output[0] as usize).into_iter().map(eight_bits).collect()).collect();
+        let mut wide = 0;
+        for x in 0..output[0] as usize {
+            let column: Vec<f64> = rows.iter().map(|row| row[x]).collect();
+            for (y, light) in enlarged(&column, output[1] as usize).into_iter().enumerate() {
+                let got = f64::from(shown.display[4 * (y * output[0] as usize + x) + k]);
+                assert!((got - encoded(light)).abs() < 4.0, "({x}, {y}): {got} for {:.1}", encoded(light));
+                wide += usize::from((got - encoded(light)).abs() > 1.0);
+            }
+        }
+        assert!(wide < 160 * 90 / 50, "{wide} pixels are off by more than a step");
+    }
+}
