@@ -10,7 +10,7 @@ use lensrunner::scene;
 use lensrunner_lab::dial::{self, DialRequest};
 use lensrunner_lab::projection::ChartError;
 use lensrunner_lab::projection::race::Race;
-use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk};
+use lensrunner_lab::{aurora, aurora_race, bvh, chart, flight, frame_times, projection, tessellation, thin_disk, window_rates};
 
 use crate::fail;
 
@@ -29,6 +29,7 @@ pub enum ChartCommand {
     Quarry(ChartQuarryArgs),
     Steps(ChartStepsArgs),
     Overlay(ChartOverlayArgs),
+    Window(ChartWindowArgs),
 }
 
 /// Integrators of matter: error in energy, angular momentum and phase against cost on five flights, and the step at which each fails.
@@ -112,6 +113,9 @@ pub struct ChartDialArgs {
     /// Compares predictions with measurements, at moments and rungs at random.
     #[arg(long)]
     check: bool,
+    /// Measures the levels high, medium, low and the fastest beside everything at its finest, at moments of the chase and three scenes.
+    #[arg(long, conflicts_with = "check")]
+    levels: bool,
 }
 
 /// What the dev overlay costs the processor in a frame, page by page, beside a frame without it: a table.
@@ -120,6 +124,42 @@ pub struct ChartOverlayArgs {
     /// Frames of each page.
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u32).range(10..=1_000_000))]
     frames: u32,
+}
+
+/// Frame rates of the chase in a window, beside an empty window of the same engine; needs a display.
+#[derive(Args)]
+pub struct ChartWindowArgs {
+    /// The folder for the table and the pictures.
+    #[arg(short, value_name = "DIR", default_value = chart::DEFAULT_FOLDER)]
+    output: PathBuf,
+    /// Widths and heights in pixels.
+    #[arg(long, value_name = "WxH,…", value_delimiter = ',', default_value = "1280x720,1920x1080", value_parser = lensrunner::render::shot::size)]
+    size: Vec<[u32; 2]>,
+    /// Frames of each run.
+    #[arg(long, value_name = "N", default_value_t = 400, value_parser = clap::value_parser!(u32).range(50..=100_000))]
+    frames: u32,
+    /// How often all runs take turns.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=100))]
+    rounds: u32,
+}
+
+/// The empty window that `chart window` opens.
+#[derive(Args)]
+pub struct EmptyWindowArgs {
+    #[arg(long, value_parser = lensrunner::render::shot::size)]
+    size: [u32; 2],
+    #[arg(long)]
+    frames: u32,
+    #[arg(long)]
+    timings: PathBuf,
+}
+
+/// Opens it.
+pub fn show_empty_window(args: &EmptyWindowArgs) -> ExitCode {
+    match window_rates::empty::show(args.size, args.frames, &args.timings) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => fail(&error, 1),
+    }
 }
 
 /// What a step of the simulation costs, by the number of ships: a table.
@@ -282,6 +322,11 @@ pub fn run(chart: ChartCommand) -> ExitCode {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),
         },
+        ChartCommand::Window(args) => {
+            let output = chart::Output { folder: args.output, redraw: false };
+            let request = window_rates::WindowRequest { output, sizes: args.size, frames: args.frames, rounds: args.rounds };
+            finish_chart(window_rates::run(&request, &mut io::stdout().lock()))
+        }
         ChartCommand::Steps(args) => match lensrunner_lab::steps::run(args.steps, &mut io::stdout().lock()) {
             Ok(()) => ExitCode::SUCCESS,
             Err(error) => fail(&error, 1),
@@ -295,13 +340,18 @@ fn run_chart_dial(args: ChartDialArgs) -> ExitCode {
     let request = DialRequest { moments: args.moments as usize, seed, size: args.size };
     let output = chart::Output::from(args.chart);
     let said = |words: String| eprintln!("{words}");
-    let done = if args.check {
-        output.sheet("dial-check", || dial::check::measure(&request, said)).and_then(|sheet| {
+    let done = if args.levels {
+        output.growing_sheet("dial-levels", |keep| dial::levels::measure(&request, said, keep)).and_then(|sheet| {
+            println!("{}", dial::levels::verdict(&sheet));
+            dial::draw::draw_levels(&sheet, &output).map(|files| chart::announce(&files))
+        })
+    } else if args.check {
+        output.growing_sheet("dial-check", |keep| dial::check::measure(&request, said, keep)).and_then(|sheet| {
             println!("{}", dial::check::verdict(&sheet));
             dial::draw::draw(Prices::shipped(), &sheet, &output).map(|files| chart::announce(&files))
         })
     } else {
-        output.sheet("dial", || dial::prices::measure(&request, said)).and_then(|sheet| {
+        output.growing_sheet("dial", |keep| dial::prices::measure(&request, said, keep)).and_then(|sheet| {
             let file = output.csv("quality");
             std::fs::write(&file, dial::prices::table(&sheet)?).map_err(|error| chart::SheetError::Io(file.clone(), error))?;
             chart::announce(&[file]);

@@ -1,8 +1,8 @@
 //! The laboratory: it stands above the game and may see all of it; nothing in the game knows the laboratory.
 //!
 //! - [`compare`]: the verdict on the game's picture, by the judge; [`contestant`] draws that picture.
-//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time; [`aurora_race`] runs the shaders' part
-//!   of one of them; [`frame_times`] times whole frames.
+//! - [`projection`], [`disk`], [`aurora`], [`bvh`], [`thin_disk`], [`flight`], [`tessellation`]: each a chart of error against time;
+//!   [`aurora_race`] runs the shaders' part of one of them; [`frame_times`] times whole frames, [`window_rates`] frames in a window.
 //! - [`dial`]: what each knob of the quality costs and saves, and whether that predicts.
 //! - [`quarry`]: how long the game's quarry lasts beside blind ones.
 //! - [`steps`]: what a step of the simulation costs; [`overlay_cost`]: what the dev overlay costs the processor.
@@ -33,3 +33,4 @@ mod stopwatch;
 pub mod straight;
 pub mod tessellation;
 pub mod thin_disk;
+pub mod window_rates;

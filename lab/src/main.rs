@@ -23,6 +23,8 @@ enum Command {
     Chart(charts::ChartCommand),
     All(all::AllArgs),
     Status(all::StatusArgs),
+    #[command(hide = true)]
+    EmptyWindow(charts::EmptyWindowArgs),
 }
 
 fn main() -> ExitCode {
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
         Command::Chart(chart) => charts::run(chart),
         Command::All(args) => all::all(args),
         Command::Status(args) => all::status(&args),
+        Command::EmptyWindow(args) => charts::show_empty_window(&args),
     }
 }
 

@@ -7,7 +7,7 @@
 }
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::patch::{
-    angle_between, axis_core, axis_matters, BLOCK, chord_error, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT, offset_of,
+    angle_between, axis_core, axis_matters, BLOCK, edge_error, level_for, limb_strictness, most_segments, most_turn, MUST_SPLIT, offset_of,
     on_limb, query_fan, ring_strictness, ring_tangent, slack_of, slimness, strictness, turn_about_axis, uneven_sag,
 }
 #import lensrunner::geometry::project::{answer, query_body}
@@ -159,5 +159,5 @@ fn bend(instance: Instance, ends: Ends, radial: bool) -> f32 {
     }
     let slack = slack_of(instance, tangent, min(length(ends.a.xy), length(ends.b.xy)), ends.a.z);
     // For a camera inside, if a part of the edge is not seen, its image ends there; splitting finds no more of it.
-    return select(0.0, chord_error(points[0], points[1], points[2], points[3], points[4], slack), whole);
+    return select(0.0, edge_error(points[0], points[1], points[2], points[3], points[4], slack), whole);
 }

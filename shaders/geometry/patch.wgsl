@@ -251,8 +251,13 @@ fn chord_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarte
     let whole = max(slant(middle, a + b, slack), max(slant(quarter, a * 3.0 + b, slack), slant(three_quarters, a + b * 3.0, slack)));
     let part = max(slant(middle, quarter + three_quarters, slack),
         max(slant(quarter, a + middle, slack), slant(three_quarters, middle + b, slack)));
-    let midpoint = slant(middle, normalize(a) + normalize(b), exact());
-    return atan(select(max(sqrt(whole), 4.0 * sqrt(part)), sqrt(midpoint), by_midpoint()));
+    return atan(max(sqrt(whole), 4.0 * sqrt(part)));
+}
+
+/// The error that an edge is divided by: that of its chord, or the displacement of its midpoint alone, where that is asked for.
+fn edge_error(a: vec3<f32>, quarter: vec3<f32>, middle: vec3<f32>, three_quarters: vec3<f32>, b: vec3<f32>, slack: Slack) -> f32 {
+    let midpoint = atan(sqrt(slant(middle, normalize(a) + normalize(b), exact())));
+    return select(chord_error(a, quarter, middle, three_quarters, b, slack), midpoint, by_midpoint());
 }
 
 /// How far rounding may displace a point along its ring: a point beside the axis is seen at an azimuth that has the error of its place over

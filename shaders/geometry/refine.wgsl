@@ -6,7 +6,7 @@
 #import lensrunner::geometry::clip::pixel_fineness
 #import lensrunner::geometry::emit::{emit_piece, emit_work, hand_over, off_screen}
 #import lensrunner::geometry::patch::{
-    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, chord_error, CHORD_SHARE, comes_first, DEEPEST,
+    angle_between, ARC_SHARE, axis_matters, AXIS_SHARE, BLOCK, BLURRED_TURN, body_point, CHORD_SHARE, comes_first, DEEPEST, edge_error,
     edge_point, exact, halfway, is_blurred, is_lost, level_for, LIMB_SINE, limb_strictness, meets_axis, momentum_at, most_segments,
     most_turn, MUST_SPLIT, part_between, plane_normal, query_fan, ring_strictness, ring_tangent, Slack, slack_of, strictness, turn_along,
     turned_away, uneven_sag,
@@ -176,7 +176,7 @@ fn quarter_point(a: vec3<f32>, b: vec3<f32>, k: u32) -> vec3<f32> {
 /// Error of the edge opposite corner `side` of a measured triangle.
 fn side_error(side: u32, slack: Slack) -> f32 {
     let k = 3u + 3u * side;
-    return chord_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u], slack);
+    return edge_error(points[(side + 1u) % 3u], points[k], points[k + 1u], points[k + 2u], points[(side + 2u) % 3u], slack);
 }
 
 /// Hands a triangle with these numbers of segments to the mesh stage: as a grid, or as a strip if its image is narrow, which takes a third
@@ -398,10 +398,10 @@ fn refine_fan(piece: Piece, instance: Instance) {
         return;
     }
     let fineness = pixel_fineness(points[1], points[2]);
-    let side_1 = level_for(fineness * strict * chord_error(points[6], points[7], points[8], points[9], points[1], exact()), 1.0);
-    let side_2 = level_for(fineness * strict * chord_error(points[10], points[11], points[12], points[13], points[2], exact()), 1.0);
+    let side_1 = level_for(fineness * strict * edge_error(points[6], points[7], points[8], points[9], points[1], exact()), 1.0);
+    let side_2 = level_for(fineness * strict * edge_error(points[10], points[11], points[12], points[13], points[2], exact()), 1.0);
     let arc = level_for(fineness * CHORD_SHARE / ARC_SHARE
-        * chord_error(points[6], points[14], points[15], points[16], points[10], exact()), 1.0);
+        * edge_error(points[6], points[14], points[15], points[16], points[10], exact()), 1.0);
     let levels = vec4<u32>(min(arc, 64u), min(outer, BLOCK), min(side_1, 64u), min(side_2, 64u));
     emit_work(piece, levels, max(levels.z, levels.w), max(levels.x, levels.y));
 }

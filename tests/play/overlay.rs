@@ -68,8 +68,10 @@ fn find(app: &mut App, wanted: &str) -> Option<(NodeId, Node)> {
 /// What is there to change a setting with.
 fn knob(app: &mut App, path: &str) -> (NodeId, Node) {
     let all = nodes(app);
-    let label = all.iter().find(|(_, node)| name(node) == Some(path)).unwrap_or_else(|| panic!("no {path}")).0;
-    all.into_iter().find(|(_, node)| node.labelled_by().contains(&label)).unwrap_or_else(|| panic!("nothing is labelled by {path}"))
+    // The search box may hold the same words.
+    let labels: Vec<NodeId> = all.iter().filter(|(_, node)| name(node) == Some(path)).map(|(id, _)| *id).collect();
+    let is_labelled = |node: &Node| node.labelled_by().iter().any(|label| labels.contains(label));
+    all.into_iter().find(|(_, node)| is_labelled(node)).unwrap_or_else(|| panic!("nothing is labelled by {path}"))
 }
 
 fn send(app: &mut App, events: &[Event]) {

@@ -32,11 +32,20 @@ impl Output {
 
     /// The sheet called `name`: read from the folder if this is a redrawing, else measured now and written there.
     pub fn sheet<E: From<SheetError>>(&self, name: &str, measure: impl FnOnce() -> Result<Sheet, E>) -> Result<Sheet, E> {
+        self.growing_sheet(name, |_| measure())
+    }
+
+    /// The same where measuring takes long: `measure` gets what writes the rows that there are so far.
+    pub fn growing_sheet<E: From<SheetError>>(
+        &self,
+        name: &str,
+        measure: impl FnOnce(&dyn Fn(&Sheet) -> Result<(), SheetError>) -> Result<Sheet, E>,
+    ) -> Result<Sheet, E> {
         let path = self.csv(name);
         if self.redraw {
             return Ok(Sheet::load(&path)?);
         }
-        let sheet = measure()?;
+        let sheet = measure(&|so_far| so_far.save(&path))?;
         sheet.save(&path)?;
         Ok(sheet)
     }

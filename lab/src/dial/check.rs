@@ -8,7 +8,7 @@ use rand::{RngExt, SeedableRng};
 
 use super::moments::{Bench, case, scenes};
 use super::{DialError, DialRequest};
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{Provenance, Sheet, SheetError};
 
 /// Columns of the sheet.
 pub const COLUMNS: [&str; 9] =
@@ -18,8 +18,12 @@ pub const COLUMNS: [&str; 9] =
 const FACTOR: f64 = 4.0;
 const TIME: f64 = 0.25;
 
-/// Measures `moments` moments, all classes in turn.
-pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sheet, DialError> {
+/// Measures `moments` moments, all classes in turn; `keep` gets the rows after each.
+pub fn measure(
+    request: &DialRequest,
+    mut said: impl FnMut(String),
+    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
+) -> Result<Sheet, DialError> {
     let mut bench = Bench::new(request.size)?;
     let mut sheet = Sheet::new(&COLUMNS);
     sheet.notes = Provenance::now(bench.adapter()).notes();
@@ -48,6 +52,7 @@ pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sh
             format!("{:.4}", rung.time),
             format!("{:.4}", taken.milliseconds / bench.time(&shown, &shown.finest)?),
         ]);
+        keep(&sheet)?;
     }
     Ok(sheet)
 }

@@ -8,6 +8,7 @@ use lensrunner::render::quality::prices::{Prices, SceneClass};
 
 use super::DialError;
 use super::check::verdict;
+use super::levels;
 use crate::chart::{Output, Provenance, Sheet};
 use crate::plot::{Axis, Figure, Guide, Line, Lines, Panel, Point, Scatter};
 
@@ -52,4 +53,35 @@ pub fn draw(prices: &Prices, checked: &Sheet, output: &Output) -> Result<[PathBu
         ..Figure::default()
     };
     Ok(figure.save(&output.folder, "dial")?)
+}
+
+/// Draws `dial-levels.svg` and `dial-levels.png`: the front of each class, from everything at its finest down.
+pub fn draw_levels(measured: &Sheet, output: &Output) -> Result<[PathBuf; 2], DialError> {
+    let fronts = SceneClass::ALL.map(|class| Line {
+        name: class.name().to_owned(),
+        points: levels::LEVELS
+            .iter()
+            .filter_map(|level| levels::level_of(measured, class, level))
+            .map(|[error, time]| [100.0 * time, error.max(1e-4)])
+            .collect(),
+        dots: true,
+        ..Line::default()
+    });
+    let figure = Figure {
+        title: "The whole frame: error against time".into(),
+        verdict: levels::verdict(measured),
+        panels: vec![Panel::Lines(Lines {
+            title: format!("from right to left: {}", levels::LEVELS.join(", ")),
+            x: Axis::linear("share of the time of everything at its finest, %").between(0.0, 110.0),
+            y: Axis::log("error from everything at its finest, mean FLIP"),
+            lines: fronts.to_vec(),
+            guides: Vec::new(),
+            guides_x: Vec::new(),
+        })],
+        columns: 1,
+        size: [900, 640],
+        footer: Provenance::footer(&measured.notes),
+        ..Figure::default()
+    };
+    Ok(figure.save(&output.folder, "dial-levels")?)
 }

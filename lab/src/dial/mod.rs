@@ -3,12 +3,14 @@
 //! - [`moments`]: scenes, times and cameras at random, by class; frames of them.
 //! - [`prices`]: the price list that the game reads (`tables/quality.csv`).
 //! - [`check`]: rungs chosen at random, predicted and measured.
+//! - [`levels`]: the levels that players choose between, and everything at its finest.
 //! - [`draw`]: the ladder of each class, and the check, as a picture.
 //!
 //! The error is mean FLIP from the finest picture of the same size, which the judge holds to half a pixel ([`crate::compare`]).
 
 pub mod check;
 pub mod draw;
+pub mod levels;
 pub mod moments;
 pub mod prices;
 

@@ -103,6 +103,8 @@ pub struct Shown {
 pub struct Taken {
     /// sRGB-linear light as shown, 0 to 1.
     pub light: Vec<[f32; 3]>,
+    /// The same as it is stored: sRGB, four bytes a pixel.
+    pub bytes: Vec<u8>,
     /// Milliseconds a frame: the instances, the passes, until all is done. On a software driver of the processor, all threads together.
     pub milliseconds: f64,
 }
@@ -137,7 +139,7 @@ impl Bench {
         let picture = self.renderer.picture(&frame(), false)?;
         let milliseconds = self.time(shown, settings)?;
         let light = picture.display.chunks_exact(4).map(|pixel| [0, 1, 2].map(|k| linear(pixel[k]))).collect();
-        Ok(Taken { light, milliseconds })
+        Ok(Taken { light, bytes: picture.display, milliseconds })
     }
 
     /// Milliseconds a frame with these settings, as [`Taken::milliseconds`].

@@ -7,7 +7,7 @@ use rand::rngs::SmallRng;
 
 use super::moments::{Bench, case, scenes};
 use super::{DialError, DialRequest, quantile};
-use crate::chart::{Provenance, Sheet};
+use crate::chart::{Provenance, Sheet, SheetError};
 
 /// Columns of the sheet of all that was measured.
 pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "ms", "finest ms"];
@@ -15,8 +15,13 @@ pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "knob", "step", "FLIP", "
 /// The error that is the price: the greatest but one in a hundred.
 const BOUND: f64 = 0.99;
 
-/// Measures every step at `moments` moments of each class; `said` hears how far it has come.
-pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sheet, DialError> {
+/// Measures every step at `moments` moments of each class; `said` hears how far it has come, `keep` gets the
+/// rows after each moment.
+pub fn measure(
+    request: &DialRequest,
+    mut said: impl FnMut(String),
+    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
+) -> Result<Sheet, DialError> {
     let mut bench = Bench::new(request.size)?;
     let mut sheet = Sheet::new(&COLUMNS);
     sheet.notes = Provenance::now(bench.adapter()).notes();
@@ -49,6 +54,7 @@ pub fn measure(request: &DialRequest, mut said: impl FnMut(String)) -> Result<Sh
                     ]);
                 }
             }
+            keep(&sheet)?;
         }
     }
     Ok(sheet)

@@ -223,7 +223,17 @@ pub const PRODUCTS: &[Product] = &[
         seconds: [30.0, 3.0],
     },
     Product {
-        name: "frames",
+        name: "frame",
+        runs: &[lab("chart frame --scene ring,galaxy,parade,disk,chase,aurora-orbit --frames 8 --flight 24 -o {}")],
+        quick: &[lab("chart frame --scene disk --frames 2 --size 320x180 --flight 2 -o {}")],
+        folder: "lab",
+        files: &["frame.csv", "frame-flight.csv"],
+        grows: false,
+        sources: &[DRAWN, &["lab/src/frame_times"]],
+        seconds: [400.0, 20.0],
+    },
+    Product {
+        name: "frame-rationed",
         runs: &[
             table("chart frame --scene aurora-side,aurora-below,aurora-orbit,aurora-lensed,chase,disk --frames 12", "frames.txt"),
             table(
@@ -238,7 +248,7 @@ pub const PRODUCTS: &[Product] = &[
         folder: "tables",
         files: &["frames.txt", "frames-rationed.txt"],
         grows: false,
-        sources: &[DRAWN, &["lab/src/frame_times.rs"]],
+        sources: &[DRAWN, &["lab/src/frame_times"]],
         seconds: [180.0, 15.0],
     },
     picture!("title", "", "chase", "720x405"),

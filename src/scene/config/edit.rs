@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn whatever_else_is_written_stays() {
-        let text = "# Mine.\n[render] # of the renderer\n\n  orders=2# tight\n# Between.\nbloom   =  0.5\t# tab\n[sky]\nstar_size = 2.0";
+        let text = "# Mine.\n[render] # of the renderer\n\n  orders=2# tight\n# Between.\nbloom   =  0.5\t# tab\n[sky]\nstar_size = 2.0\n";
         let after = edit(text, &["render.orders=3", "render.bloom=0.25", "sky.star_size=1.5"]).expect("a text");
         let expected = text.replace("orders=2# tight", "orders=3# tight").replace("=  0.5\t", "=  0.25\t").replace("2.0", "1.5");
         assert_eq!(after, expected.replace("orders=3# tight", "orders=3 # tight"));

@@ -35,8 +35,10 @@ fn equal_segments_are_short_enough_where_a_curve_bends_most() {
         .collect();
     let body = "
     if id.x % 5u != 0u { return; }
-    twin_out[id.x] = vec4<f32>(chord_error(twin_rows[id.x].xyz, twin_rows[id.x + 1u].xyz, twin_rows[id.x + 2u].xyz, twin_rows[id.x + 3u].xyz,
-        twin_rows[id.x + 4u].xyz, lensrunner::geometry::patch::exact()), 0.0, 0.0, 0.0);";
+    twin_out[id.x].x = lensrunner::geometry::patch::chord_error(
+        twin_rows[id.x].xyz, twin_rows[id.x + 1u].xyz, twin_rows[id.x + 2u].xyz, twin_rows[id.x + 3u].xyz, twin_rows[id.x + 4u].xyz,
+        lensrunner::geometry::patch::exact(),
+    );";
     let out = run(Pass::Edges, body, [&[], &[]], &rows, 1);
     for (&(place, width), row) in cases.iter().zip(out.chunks_exact(5)) {
         // As `level_for` counts them.
@@ -75,8 +77,10 @@ fn what_rounding_may_displace_along_the_ring_is_no_error() {
     let body = "
     if id.x % 5u != 0u { return; }
     let slack = lensrunner::geometry::patch::Slack(vec3<f32>(1.0, 0.0, 0.0), 1e-3);
-    twin_out[id.x] = vec4<f32>(chord_error(twin_rows[id.x].xyz, twin_rows[id.x + 1u].xyz, twin_rows[id.x + 2u].xyz, twin_rows[id.x + 3u].xyz,
-        twin_rows[id.x + 4u].xyz, slack), 0.0, 0.0, 0.0);";
+    twin_out[id.x].x = lensrunner::geometry::patch::chord_error(
+        twin_rows[id.x].xyz, twin_rows[id.x + 1u].xyz, twin_rows[id.x + 2u].xyz, twin_rows[id.x + 3u].xyz, twin_rows[id.x + 4u].xyz,
+        slack,
+    );";
     let out = run(Pass::Edges, body, [&[], &[]], &rows, 1);
     for ((moved, expected), row) in cases.iter().zip(out.chunks_exact(5)) {
         let found = f64::from(row[0][0]);

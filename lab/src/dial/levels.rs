@@ -1,0 +1,120 @@
+//! The whole frame at the levels that players choose between: measured error against time, beside everything at its finest.
+
+use lensrunner::play::picture::quality::{LOW, MEDIUM};
+use lensrunner::render::quality::knobs::turned;
+use lensrunner::render::quality::ladder::{Rung, ladder, within};
+use lensrunner::render::quality::prices::{Prices, SceneClass};
+use lensrunner::render::settings::Settings;
+
+use super::moments::{Bench, Case};
+use super::{DialError, DialRequest};
+use crate::chart::{Provenance, Sheet, SheetError};
+
+/// Columns of the sheet.
+pub const COLUMNS: [&str; 8] = ["class", "scene", "T", "level", "rung", "FLIP", "ms", "everything, ms"];
+
+/// The levels, from the finest.
+pub const LEVELS: [&str; 4] = ["high", "medium", "low", "fastest"];
+
+/// A scene of each class.
+const SCENES: [(SceneClass, &str); 4] =
+    [(SceneClass::Bodies, "ring"), (SceneClass::Disk, "disk"), (SceneClass::Chase, "chase"), (SceneClass::Aurora, "aurora-orbit")];
+
+/// T between two moments, in r_s/c.
+const STEP: f64 = 6.0;
+
+/// Everything at its finest, whatever is configured.
+pub fn everything(configured: &Settings) -> Settings {
+    let Settings { resolution, pixel_error, orders, halvings, least_width, coarse_below, faintest_star, smooth, .. } = Settings::finest();
+    Settings { resolution, pixel_error, orders, halvings, least_width, coarse_below, faintest_star, smooth, ..*configured }
+}
+
+fn rung_of(level: &str, rungs: &[Rung]) -> usize {
+    match level {
+        "high" => 0,
+        "medium" => within(rungs, MEDIUM),
+        "low" => within(rungs, LOW),
+        _ => rungs.len() - 1,
+    }
+}
+
+/// Measures every level at `moments` moments of a scene of each class; `keep` gets the rows after each moment.
+pub fn measure(
+    request: &DialRequest,
+    mut said: impl FnMut(String),
+    keep: &dyn Fn(&Sheet) -> Result<(), SheetError>,
+) -> Result<Sheet, DialError> {
+    let mut bench = Bench::new(request.size)?;
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(bench.adapter()).notes();
+    for number in 0..request.moments {
+        for (class, scene) in SCENES {
+            let rungs = ladder(Prices::shipped(), class);
+            let case = Case { scene: scene.to_owned(), at: number as f64 * STEP, seed: request.seed, turn: [0.0; 2] };
+            said(format!("{}/{}: {scene} at T = {}", number + 1, request.moments, case.at));
+            let shown = bench.show(&case)?;
+            let whole = everything(&shown.finest);
+            let finest = bench.take(&shown, &whole)?;
+            bench.warm(&shown)?;
+            for level in LEVELS {
+                let rung = rung_of(level, &rungs);
+                let taken = bench.take(&shown, &turned(&shown.finest, &rungs[rung].steps))?;
+                let beside = bench.time(&shown, &whole)?;
+                sheet.push([
+                    class.name().to_owned(),
+                    scene.to_owned(),
+                    case.at.to_string(),
+                    level.to_owned(),
+                    (rung + 1).to_string(),
+                    format!("{:.5}", bench.error(&finest, &taken)),
+                    format!("{:.2}", taken.milliseconds),
+                    format!("{beside:.2}"),
+                ]);
+            }
+            keep(&sheet)?;
+        }
+    }
+    Ok(sheet)
+}
+
+/// Mean FLIP of a level and its share of the time of everything, over all moments of a class.
+pub fn level_of(sheet: &Sheet, class: SceneClass, level: &str) -> Option<[f64; 2]> {
+    let is_it = |row: &&Vec<String>| sheet.text(row, "class") == class.name() && sheet.text(row, "level") == level;
+    let rows: Vec<_> = sheet.rows.iter().filter(is_it).collect();
+    let sum = |column| rows.iter().map(|row| sheet.number(row, column)).sum::<f64>();
+    (!rows.is_empty()).then(|| [sum("FLIP") / rows.len() as f64, sum("ms") / sum("everything, ms")])
+}
+
+/// The verdict, in a sentence.
+pub fn verdict(sheet: &Sheet) -> String {
+    let words = LEVELS.iter().filter_map(|level| {
+        let [error, time] = level_of(sheet, SceneClass::Chase, level)?;
+        Some(format!("{level} takes {:.0} % at FLIP {error:.3}", 100.0 * time))
+    });
+    format!("Of the chase with everything at its finest {}.", words.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_are_told_by_sums_of_time() {
+        let mut sheet = Sheet::new(&COLUMNS);
+        for (flip, ms, all) in [(0.01, 10.0, 40.0), (0.03, 30.0, 60.0)] {
+            let numbers = [flip, ms, all].map(|number: f64| number.to_string());
+            sheet.push(["chase", "chase", "0", "low", "9"].map(str::to_owned).into_iter().chain(numbers));
+        }
+        assert_eq!(level_of(&sheet, SceneClass::Chase, "low"), Some([0.02, 0.4]));
+        assert_eq!(level_of(&sheet, SceneClass::Disk, "low"), None);
+        assert_eq!(verdict(&sheet), "Of the chase with everything at its finest low takes 40 % at FLIP 0.020.");
+    }
+
+    #[test]
+    fn everything_is_finer_than_the_game() {
+        let configured = lensrunner::render::stage::settings(&lensrunner::scene::GameConfig::default());
+        let all = everything(&configured);
+        assert!(all.orders > configured.orders && all.pixel_error < configured.pixel_error);
+        assert_eq!((all.bloom, all.exposure_key), (configured.bloom, configured.exposure_key));
+    }
+}

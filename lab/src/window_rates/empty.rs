@@ -1,0 +1,55 @@
+//! An empty window of the engine that the game is built on: what opening, clearing and showing pictures takes alone.
+
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
+
+use bevy::prelude::*;
+use bevy::render::{Render, RenderApp, RenderSystems};
+use bevy::window::PresentMode;
+
+/// The command that opens it.
+pub const COMMAND: &str = "empty-window";
+
+/// The command line of the laboratory that opens one.
+pub fn arguments([width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<String> {
+    let size = format!("{width}x{height}");
+    let frames = frames.to_string();
+    [COMMAND, "--size", &size, "--frames", &frames, "--timings"]
+        .map(str::to_owned)
+        .into_iter()
+        .chain([table.display().to_string()])
+        .collect()
+}
+
+/// When each frame was handed to the window, in s; both worlds have it.
+#[derive(Resource, Clone)]
+struct Times(Instant, Arc<Mutex<Vec<f64>>>);
+
+/// Opens the window, shows `frames` frames, and writes their times as the game does.
+pub fn show([width, height]: [u32; 2], frames: u32, table: &Path) -> std::io::Result<()> {
+    let times = Times(Instant::now(), Arc::default());
+    let file: PathBuf = table.into();
+    let mut app = App::new();
+    // As the game's window.
+    let window = Window { resolution: (width, height).into(), present_mode: PresentMode::AutoVsync, ..default() };
+    app.add_plugins(DefaultPlugins.set(WindowPlugin { primary_window: Some(window), ..default() }));
+    app.insert_resource(bevy::winit::WinitSettings::continuous());
+    app.add_systems(Startup, |mut commands: Commands| _ = commands.spawn(Camera2d));
+    app.add_systems(Update, move |mut drawn: Local<u32>, mut exit: MessageWriter<AppExit>| {
+        *drawn += 1;
+        if *drawn > frames {
+            exit.write(AppExit::Success);
+        }
+    });
+    if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
+        let note = |times: Res<Times>| times.1.lock().unwrap_or_else(PoisonError::into_inner).push(times.0.elapsed().as_secs_f64());
+        render_app.insert_resource(times.clone()).add_systems(Render, note.in_set(RenderSystems::Cleanup));
+    }
+    app.run();
+    let mut text = "seconds,shown,rung\n".to_owned();
+    for seconds in times.1.lock().unwrap_or_else(PoisonError::into_inner).iter() {
+        text += &format!("{seconds:.4},playing,0\n");
+    }
+    std::fs::write(file, text)
+}

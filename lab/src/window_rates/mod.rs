@@ -1,0 +1,159 @@
+//! Frame rates in a window: the chase as it is played, by the levels of its picture, beside an empty window of the same engine:
+//! `lensrunner-lab chart window`.
+//!
+//! - [`empty`]: the empty window, in a process of its own.
+//! - [`rates`]: frame rates from the times of frames.
+//! - [`sides`]: what the most used rung looks like beside the finest.
+
+pub mod empty;
+pub mod rates;
+pub mod sides;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+
+use thiserror::Error;
+
+use crate::chart::{Output, Provenance, Sheet, SheetError};
+use crate::dial::DialError;
+use lensrunner::render::{DeviceError, Gpu};
+use rates::{Rates, rates};
+
+/// The scene that is played.
+pub const SCENE: &str = "chase";
+/// Seed of its pilots.
+const SEED: u64 = 5;
+/// What is shown first is not judged, in s: memory and clocks settle.
+const SETTLED: f64 = 2.0;
+/// Columns of the sheet.
+pub const COLUMNS: [&str; 9] =
+    ["size", "what", "round", "frames", "frames/s", "least over half a second", "share of the empty window's", "least, share", "rung"];
+
+/// What to measure.
+#[derive(Clone, Debug)]
+pub struct WindowRequest {
+    /// Where the sheet goes.
+    pub output: Output,
+    /// Sizes of the window, in pixels.
+    pub sizes: Vec<[u32; 2]>,
+    /// Frames of each run.
+    pub frames: u32,
+    /// How often all runs take turns.
+    pub rounds: u32,
+}
+
+/// Why there are no rates.
+#[derive(Debug, Error)]
+pub enum WindowError {
+    /// There is no display.
+    #[error("there is no display to open a window on: start it under a display, for instance xvfb-run -s '-screen 0 1920x1080x24'")]
+    Display,
+    /// A program could not be started.
+    #[error("cannot run {0}: {1}")]
+    Run(PathBuf, io::Error),
+    /// A program failed.
+    #[error("{0} ended with {1}")]
+    Failed(PathBuf, ExitStatus),
+    /// A program wrote too little.
+    #[error("{0}: too few frames in play to tell a rate")]
+    Short(PathBuf),
+    /// There is nothing to draw with.
+    #[error(transparent)]
+    Device(#[from] DeviceError),
+    /// A table cannot be read or written.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
+    /// No pictures.
+    #[error(transparent)]
+    Dial(#[from] DialError),
+    /// A file cannot be written.
+    #[error("cannot write {0}: {1}")]
+    Write(PathBuf, String),
+}
+
+/// What is run in turn: its name, and the setting of the game; None: the empty window.
+const RUNS: [(&str, Option<&str>); 4] =
+    [("empty window", None), ("automatic", Some("automatic")), ("high", Some("high")), ("empty window", None)];
+
+/// Measures, writes `window.csv` and the pictures of the rung that is used most, and says what came out.
+pub fn run(request: &WindowRequest, out: &mut impl Write) -> Result<Vec<PathBuf>, WindowError> {
+    if std::env::var_os("DISPLAY").is_none_or(|display| display.is_empty()) {
+        return Err(WindowError::Display);
+    }
+    let here = std::env::current_exe().map_err(|error| WindowError::Run("this program".into(), error))?;
+    let game = here.with_file_name(format!("lensrunner{}", std::env::consts::EXE_SUFFIX));
+    let mut sheet = Sheet::new(&COLUMNS);
+    sheet.notes = Provenance::now(&Gpu::headless()?.adapter_name()).notes();
+    let mut paths = Vec::new();
+    for size in &request.sizes {
+        let mut used = Vec::new();
+        for round in 1..=request.rounds {
+            let mut taken = Vec::new();
+            for (what, quality) in RUNS {
+                let table = request.output.csv("window-times");
+                let rows = match quality {
+                    None => play(&here, &table, &empty::arguments(*size, request.frames, &table))?,
+                    Some(quality) => play(&game, &table, &arguments(quality, *size, request.frames, &table))?,
+                };
+                let rates = rates(&rows, SETTLED).ok_or(WindowError::Short(table.clone()))?;
+                if quality == Some("automatic") {
+                    used.push(rates.clone());
+                }
+                taken.push((what, rates));
+                _ = std::fs::remove_file(table);
+            }
+            let empty = 0.5 * (taken[0].1.mean + taken[RUNS.len() - 1].1.mean);
+            for (what, rates) in taken {
+                let words = write_row(&mut sheet, *size, what, round, &rates, empty);
+                _ = writeln!(out, "{words}");
+            }
+            sheet.save(&request.output.csv("window"))?;
+        }
+        if let Some(rates) = used.last() {
+            paths.push(sides::draw(rates.rung, *size, SEED, &request.output.folder, out)?);
+        }
+    }
+    paths.insert(0, request.output.csv("window"));
+    Ok(paths)
+}
+
+fn write_row(sheet: &mut Sheet, [width, height]: [u32; 2], what: &str, round: u32, rates: &Rates, empty: f64) -> String {
+    let Rates { frames, mean, least, rung } = rates;
+    sheet.push([
+        format!("{width}x{height}"),
+        what.to_owned(),
+        round.to_string(),
+        frames.to_string(),
+        format!("{mean:.2}"),
+        format!("{least:.2}"),
+        format!("{:.3}", mean / empty),
+        format!("{:.3}", least / empty),
+        rung.to_string(),
+    ]);
+    format!(
+        "{width}x{height}, {what}: {mean:.1} frames/s, {:.2} of the empty window; least over half a second {least:.1}, {:.2}; rung {rung}",
+        mean / empty,
+        least / empty
+    )
+}
+
+fn arguments(quality: &str, [width, height]: [u32; 2], frames: u32, table: &Path) -> Vec<String> {
+    let table = table.display();
+    let words = format!("play --scene {SCENE} --seed {SEED} --at-once --autopilot --size {width}x{height} --frames {frames}");
+    let set = format!("--set video.quality={quality} --timings");
+    words.split(' ').chain(set.split(' ')).map(str::to_owned).chain([table.to_string()]).collect()
+}
+
+/// Runs a program that writes its times to `table`.
+fn play(program: &Path, table: &Path, arguments: &[String]) -> Result<Vec<rates::Row>, WindowError> {
+    if let Some(folder) = table.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| WindowError::Write(folder.into(), error.to_string()))?;
+    }
+    let ran = Command::new(program).args(arguments).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    let status = ran.map_err(|error| WindowError::Run(program.into(), error))?;
+    if !status.success() {
+        return Err(WindowError::Failed(program.into(), status));
+    }
+    rates::read(&Sheet::load(table)?).ok_or_else(|| WindowError::Short(table.into()))
+}

@@ -1,0 +1,39 @@
+//! Moments of the chase on a rung beside everything as configured, one below the other.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use lensrunner::render::quality::knobs::turned;
+use lensrunner::render::quality::ladder::ladder;
+use lensrunner::render::quality::prices::{Prices, SceneClass};
+
+use super::{SCENE, WindowError};
+use crate::dial::moments::{Bench, Case};
+
+/// Moments, T in r_s/c.
+const MOMENTS: [f64; 3] = [2.0, 12.0, 24.0];
+
+/// Writes `window-WIDTHxHEIGHT.png`: left the finest, right the rung (a number from 1), and says their FLIP.
+pub fn draw(rung: usize, size: [u32; 2], seed: u64, folder: &Path, out: &mut impl Write) -> Result<PathBuf, WindowError> {
+    let rungs = ladder(Prices::shipped(), SceneClass::Chase);
+    let rung = &rungs[rung.clamp(1, rungs.len()) - 1];
+    let mut bench = Bench::new(size)?;
+    let [width, height] = size;
+    let mut picture = image::RgbImage::new(2 * width, MOMENTS.len() as u32 * height);
+    for (row, at) in MOMENTS.into_iter().enumerate() {
+        let shown = bench.show(&Case { scene: SCENE.into(), at, seed, turn: [0.0; 2] })?;
+        let finest = bench.take(&shown, &shown.finest)?;
+        let taken = bench.take(&shown, &turned(&shown.finest, &rung.steps))?;
+        let error = bench.error(&finest, &taken);
+        _ = writeln!(out, "T = {at}: {}; FLIP {error:.3}, predicted at most {:.3}", rung.says(), rung.error);
+        for (column, side) in [finest, taken].into_iter().enumerate() {
+            for (k, pixel) in side.bytes.chunks_exact(4).enumerate() {
+                let (x, y) = (k as u32 % width, k as u32 / width);
+                picture.put_pixel(x + column as u32 * width, y + row as u32 * height, image::Rgb([pixel[0], pixel[1], pixel[2]]));
+            }
+        }
+    }
+    let path = folder.join(format!("window-{width}x{height}.png"));
+    picture.save(&path).map_err(|error| WindowError::Write(path.clone(), error.to_string()))?;
+    Ok(path)
+}
